@@ -1,0 +1,6 @@
+//! The judge: an exact oracle, an exact shadow of the thesis' algorithms, and what compares them
+//! with an engine.
+
+pub mod answer;
+pub mod field;
+pub mod subject;

@@ -1,0 +1,55 @@
+//! Whoever answers queries: the judges themselves and the engines that are judged.
+
+use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
+use tunnelproof::query::Query;
+
+use crate::answer::ExactAnswer;
+
+/// Someone who answers queries.
+pub trait Subject: Sync {
+    /// The name used in tables and on the command line.
+    fn name(&self) -> &str;
+
+    /// The answer to a query.
+    ///
+    /// # Errors
+    ///
+    /// [`Unsupported`] for a query that the subject does not take.
+    fn answer(&self, query: &Query) -> Result<Answer, Unsupported>;
+
+    /// The distance in metres within which a hit without contact is what the subject declares of
+    /// itself; 0 for one that claims exactness.
+    fn declared_distance(&self) -> f64 {
+        0.0
+    }
+}
+
+/// What a subject says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Answer {
+    /// An exact subject: every number enclosed by its neighbours.
+    Exact(ExactAnswer),
+    /// An engine: every number in `f64`.
+    Engine(Report),
+}
+
+/// An engine as a subject.
+pub struct Engine<N>(pub N);
+
+impl<N: NarrowPhase> Subject for Engine<N> {
+    fn name(&self) -> &str {
+        self.0.name()
+    }
+
+    fn answer(&self, query: &Query) -> Result<Answer, Unsupported> {
+        match query {
+            Query::EdgeEdge(query) => self.0.edge_edge(query),
+            Query::VertexFace(query) => self.0.vertex_face(query),
+        }
+        .map(Answer::Engine)
+    }
+
+    fn declared_distance(&self) -> f64 {
+        self.0.declared_distance()
+    }
+}

@@ -1,0 +1,11 @@
+//! Continuous collision detection of moving line segments, for simulators whose thin things must
+//! not pass through each other unnoticed.
+//!
+//! This crate is the engine: pure Rust, `f64`, no C. What is asked is a [`query`]; what is answered
+//! is a [`contact`]; whoever answers is a [`narrow::NarrowPhase`]. The [`thesis`] path is the
+//! published method with its thresholds, Algorithms 1 to 20. Whether an answer is *true* is judged
+//! by the crate `tunnelproof-reference`, which the engine never uses.
+
+pub mod contact;
+pub mod narrow;
+pub mod query;

@@ -1,0 +1,72 @@
+//! The narrow phase: whoever answers queries.
+
+use std::fmt;
+
+use crate::contact::{Case, Flags, Verdict};
+use crate::query::{EdgeEdge, QueryKind, VertexFace};
+
+/// A continuous narrow phase: the thesis path, the certified path, or a user's own.
+///
+/// Only [`edge_edge`](Self::edge_edge) has to be written.
+pub trait NarrowPhase: Sync {
+    /// A short name for tables, such as `thesis`.
+    fn name(&self) -> &str;
+
+    /// Whether and when two moving edges touch.
+    ///
+    /// # Errors
+    ///
+    /// [`Unsupported`] where the method cannot take the query, for example a radius above 0.
+    fn edge_edge(&self, query: &EdgeEdge) -> Result<Report, Unsupported>;
+
+    /// Whether and when a moving vertex touches a moving face.
+    ///
+    /// # Errors
+    ///
+    /// [`Unsupported`] unless the method overrides this.
+    fn vertex_face(&self, _query: &VertexFace) -> Result<Report, Unsupported> {
+        Err(Unsupported::Kind(QueryKind::VertexFace))
+    }
+
+    /// The distance in metres below which a hit where there is no contact is within what the
+    /// method declares of itself (the thesis' distance threshold); 0 for one that claims exactness.
+    fn declared_distance(&self) -> f64 {
+        0.0
+    }
+}
+
+/// The answer to one query, with how it was reached.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Report {
+    /// Hit or miss.
+    pub verdict: Verdict,
+    /// The case that was taken; `None` for a method without cases.
+    pub case: Option<Case>,
+    /// The configuration at the time of impact.
+    pub flags: Flags,
+}
+
+/// A query that a method does not take.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Unsupported {
+    /// Queries of this kind.
+    Kind(QueryKind),
+    /// A radius other than 0.
+    Radius(f64),
+}
+
+impl fmt::Display for Unsupported {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Unsupported::Kind(kind) => write!(f, "{kind} queries are not supported yet"),
+            Unsupported::Radius(radius) => {
+                write!(
+                    f,
+                    "a radius above 0 is not supported yet (this one is {radius})"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for Unsupported {}

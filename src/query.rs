@@ -1,0 +1,264 @@
+//! What is asked: one time step of four points that move on straight lines.
+//!
+//! A query holds the points at both ends of the step; in between, `X(t) = (1 - t) X(0) + t X(1)`
+//! with `t` in `[0, 1]`. Positions are stored, not velocities: `X(1) - X(0)` rounds, so `X(0)`
+//! and a rounded velocity would be a different motion from the one the simulator made.
+
+use std::fmt;
+
+use nalgebra::Point3;
+
+/// A point in space, coordinates in metres.
+pub type Point = Point3<f64>;
+
+/// Two moving edges `AB` and `CD`: do they come within `radius` of each other during the step?
+///
+/// Points are in the order A, B, C, D. All coordinates are finite and the radius is finite and not
+/// negative; [`EdgeEdge::new`] sees to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EdgeEdge {
+    start: [Point; 4],
+    end: [Point; 4],
+    radius: f64,
+}
+
+/// A moving vertex `A` and a moving face `BCD`: do they come within `radius` of each other?
+///
+/// Points are in the order A (vertex), B, C, D (corners). Finite like [`EdgeEdge`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VertexFace {
+    start: [Point; 4],
+    end: [Point; 4],
+    radius: f64,
+}
+
+/// Either kind of query.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Query {
+    /// Edge against edge.
+    EdgeEdge(EdgeEdge),
+    /// Vertex against face.
+    VertexFace(VertexFace),
+}
+
+/// The kind of a query, without its points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum QueryKind {
+    /// Edge against edge; written `edge-edge`.
+    EdgeEdge,
+    /// Vertex against face; written `vertex-face`.
+    VertexFace,
+}
+
+/// Why eight points and a radius are not a query.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum QueryError {
+    /// A coordinate is NaN or infinite.
+    NotFinite {
+        /// Which of the four points, 0 to 3 for A to D.
+        point: usize,
+        /// Whether it is the position at the end of the step (`t = 1`) or at its start (`t = 0`).
+        at_end: bool,
+        /// Which coordinate, 0 to 2 for x to z.
+        axis: usize,
+        /// The value refused.
+        value: f64,
+    },
+    /// The radius is NaN, infinite or negative.
+    Radius(f64),
+}
+
+macro_rules! four_points {
+    ($kind:ident) => {
+        impl $kind {
+            /// The query of four points given at `t = 0` and `t = 1`, in metres.
+            ///
+            /// # Errors
+            ///
+            /// [`QueryError`] names the first coordinate that is NaN or infinite, or a radius that
+            /// is not a finite number of at least 0.
+            pub fn new(
+                start: [Point; 4],
+                end: [Point; 4],
+                radius: f64,
+            ) -> Result<Self, QueryError> {
+                check(&start, &end, radius)?;
+                Ok(Self { start, end, radius })
+            }
+
+            /// The four points at `t = 0`.
+            pub fn start(&self) -> &[Point; 4] {
+                &self.start
+            }
+
+            /// The four points at `t = 1`.
+            pub fn end(&self) -> &[Point; 4] {
+                &self.end
+            }
+
+            /// The distance at which the two count as touching, in metres; 0 asks for the
+            /// midlines themselves.
+            pub fn radius(&self) -> f64 {
+                self.radius
+            }
+        }
+    };
+}
+
+four_points!(EdgeEdge);
+four_points!(VertexFace);
+
+impl Query {
+    /// A query of the given kind; see [`EdgeEdge::new`].
+    ///
+    /// # Errors
+    ///
+    /// As [`EdgeEdge::new`].
+    pub fn new(
+        kind: QueryKind,
+        start: [Point; 4],
+        end: [Point; 4],
+        radius: f64,
+    ) -> Result<Self, QueryError> {
+        match kind {
+            QueryKind::EdgeEdge => EdgeEdge::new(start, end, radius).map(Query::EdgeEdge),
+            QueryKind::VertexFace => VertexFace::new(start, end, radius).map(Query::VertexFace),
+        }
+    }
+
+    /// Which kind it is.
+    pub fn kind(&self) -> QueryKind {
+        match self {
+            Query::EdgeEdge(_) => QueryKind::EdgeEdge,
+            Query::VertexFace(_) => QueryKind::VertexFace,
+        }
+    }
+
+    /// The four points at `t = 0`.
+    pub fn start(&self) -> &[Point; 4] {
+        match self {
+            Query::EdgeEdge(q) => q.start(),
+            Query::VertexFace(q) => q.start(),
+        }
+    }
+
+    /// The four points at `t = 1`.
+    pub fn end(&self) -> &[Point; 4] {
+        match self {
+            Query::EdgeEdge(q) => q.end(),
+            Query::VertexFace(q) => q.end(),
+        }
+    }
+
+    /// The distance at which the two count as touching, in metres.
+    pub fn radius(&self) -> f64 {
+        match self {
+            Query::EdgeEdge(q) => q.radius(),
+            Query::VertexFace(q) => q.radius(),
+        }
+    }
+}
+
+fn check(start: &[Point; 4], end: &[Point; 4], radius: f64) -> Result<(), QueryError> {
+    for (at_end, points) in [(false, start), (true, end)] {
+        for (point, position) in points.iter().enumerate() {
+            for (axis, &value) in position.coords.iter().enumerate() {
+                if !value.is_finite() {
+                    return Err(QueryError::NotFinite {
+                        point,
+                        at_end,
+                        axis,
+                        value,
+                    });
+                }
+            }
+        }
+    }
+    if !radius.is_finite() || radius < 0.0 {
+        return Err(QueryError::Radius(radius));
+    }
+    Ok(())
+}
+
+impl QueryKind {
+    /// The name used in files and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            QueryKind::EdgeEdge => "edge-edge",
+            QueryKind::VertexFace => "vertex-face",
+        }
+    }
+
+    /// The kind with this [`name`](Self::name), if any.
+    pub fn from_name(name: &str) -> Option<Self> {
+        [QueryKind::EdgeEdge, QueryKind::VertexFace]
+            .into_iter()
+            .find(|kind| kind.name() == name)
+    }
+}
+
+impl fmt::Display for QueryKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl fmt::Display for QueryError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            QueryError::NotFinite {
+                point,
+                at_end,
+                axis,
+                value,
+            } => {
+                let point = ['A', 'B', 'C', 'D'][point];
+                let axis = ['x', 'y', 'z'][axis];
+                let time = u8::from(at_end);
+                write!(
+                    f,
+                    "{axis} of point {point} at t = {time} is {value}, not a finite number"
+                )
+            }
+            QueryError::Radius(value) => {
+                write!(f, "radius is {value}, not a finite number of at least 0")
+            }
+        }
+    }
+}
+
+impl std::error::Error for QueryError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn query_new_names_the_coordinate_that_is_not_finite() {
+        let zero = [Point::origin(); 4];
+        let mut end = zero;
+        end[2].y = f64::NAN;
+        let error = EdgeEdge::new(zero, end, 0.0).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "y of point C at t = 1 is NaN, not a finite number"
+        );
+        let mut start = zero;
+        start[3].z = f64::NEG_INFINITY;
+        let error = VertexFace::new(start, zero, 0.0).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "z of point D at t = 0 is -inf, not a finite number"
+        );
+    }
+
+    #[test]
+    fn query_new_refuses_a_radius_below_zero_or_not_finite() {
+        let zero = [Point::origin(); 4];
+        for radius in [-1.0, -f64::MIN_POSITIVE, f64::NAN, f64::INFINITY] {
+            assert!(EdgeEdge::new(zero, zero, radius).is_err(), "{radius}");
+        }
+        assert!(EdgeEdge::new(zero, zero, 0.0).is_ok());
+        assert!(EdgeEdge::new(zero, zero, f64::MAX).is_ok());
+    }
+}
