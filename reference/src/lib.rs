@@ -1,6 +1,9 @@
 //! The judge: an exact oracle, an exact shadow of the thesis' algorithms, and what compares them
 //! with an engine.
 
+pub mod algebraic;
 pub mod answer;
 pub mod field;
+pub mod poly;
+pub mod scaled;
 pub mod subject;
