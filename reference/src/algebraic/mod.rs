@@ -69,6 +69,13 @@ impl<Z: Integer> Algebraic<Z> {
         &self.poly
     }
 
+    /// Whether it is 0.
+    pub fn is_zero(&self) -> bool {
+        // An interval that is not a point holds the number strictly inside `[0, 1]`.
+        let interval = self.interval.borrow();
+        interval.is_point() && interval.low.is_zero()
+    }
+
     /// Bounds `low / 2^exponent` and `high / 2^exponent` as they now stand: equal, or with the
     /// number strictly between.
     pub fn bounds(&self) -> (Z, Z, u64) {
@@ -206,6 +213,23 @@ impl<Z: Integer> Algebraic<Z> {
             other.refine(bits);
             if let Some(order) = self.compare_intervals(other) {
                 return order;
+            }
+            bits *= 2;
+        }
+    }
+
+    /// A dyadic rational strictly between this number and a larger one.
+    pub fn between(&self, larger: &Self) -> Self {
+        let mut bits = 1;
+        loop {
+            self.refine(bits);
+            larger.refine(bits);
+            let exponent = self.bounds().2.max(larger.bounds().2);
+            let ((_, high, e), (low, _, f)) = (self.bounds(), larger.bounds());
+            let sum = high.shl(exponent - e).add(&low.shl(exponent - f));
+            let middle = Algebraic::dyadic(sum, exponent + 1);
+            if self.compare(&middle).is_lt() && middle.compare(larger).is_lt() {
+                return middle;
             }
             bits *= 2;
         }

@@ -87,6 +87,9 @@ impl Integer for rug::Integer {
     }
 
     fn approximate(&self) -> (f64, i64) {
+        if self.is_zero() {
+            return (0.0, 0);
+        }
         let (fraction, exponent) = self.to_f64_exp();
         (fraction * 2f64.powi(64), i64::from(exponent) - 64)
     }
