@@ -26,6 +26,7 @@ use crate::scaled::Scaled;
 use crate::subject::{Answer, Subject};
 
 mod confined;
+mod gap;
 mod general;
 #[cfg(test)]
 mod literal;
@@ -34,6 +35,8 @@ mod motion;
 #[cfg(test)]
 mod tests;
 mod vector;
+
+pub use gap::{comes_within, least_distance};
 
 use locus::Locus;
 use motion::Motion;
