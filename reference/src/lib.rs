@@ -4,6 +4,7 @@
 pub mod algebraic;
 pub mod answer;
 pub mod field;
+pub mod generate;
 pub mod oracle;
 pub mod poly;
 pub mod scaled;
