@@ -3,6 +3,7 @@
 
 pub mod algebraic;
 pub mod answer;
+pub mod corpus;
 pub mod field;
 pub mod generate;
 pub mod oracle;
