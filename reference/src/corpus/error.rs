@@ -40,11 +40,8 @@ pub enum Problem {
     #[error("line is not UTF-8")]
     NotUtf8,
     /// Nothing says of which kind the query is.
-    #[error("{place} names neither edge-edge nor vertex-face; pass --kind")]
-    KindMissing {
-        /// What could have said it.
-        place: &'static str,
-    },
+    #[error("states no kind; pass --kind edge-edge or --kind vertex-face")]
+    KindMissing,
     /// The kind has another name than the two there are.
     #[error("kind is {}, neither edge-edge nor vertex-face", quoted(.0))]
     KindUnknown(String),
@@ -185,11 +182,7 @@ impl fmt::Display for CorpusError {
     }
 }
 
-impl std::error::Error for CorpusError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        Some(&self.problem)
-    }
-}
+impl std::error::Error for CorpusError {}
 
 /// `text` with its control characters escaped, so that it stays on one line.
 fn one_line(text: &str) -> String {

@@ -62,7 +62,7 @@ fn generated(identifier: &str, options: ReadOptions) -> Result<Entry, Problem> {
         error => Problem::Generated(error),
     })?;
     let query = id.query();
-    let kind = options.kind_of(Some(query.kind()), "the family")?;
+    let kind = options.kind_of(Some(query.kind()))?;
     let radius = options.radius.unwrap_or(query.radius());
     Ok(Entry {
         id: id.to_string(),

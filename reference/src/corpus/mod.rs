@@ -56,17 +56,13 @@ pub struct ReadOptions {
 }
 
 impl ReadOptions {
-    /// The kind of a query whose corpus states `stated`, at `place`.
-    fn kind_of(
-        &self,
-        stated: Option<QueryKind>,
-        place: &'static str,
-    ) -> Result<QueryKind, Problem> {
+    /// The kind of a query whose corpus states `stated`.
+    fn kind_of(&self, stated: Option<QueryKind>) -> Result<QueryKind, Problem> {
         match (stated, self.kind) {
             (Some(stated), Some(asked)) if stated != asked => {
                 Err(Problem::KindContradiction { stated, asked })
             }
-            (stated, asked) => stated.or(asked).ok_or(Problem::KindMissing { place }),
+            (stated, asked) => stated.or(asked).ok_or(Problem::KindMissing),
         }
     }
 }
