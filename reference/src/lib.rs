@@ -6,4 +6,5 @@ pub mod answer;
 pub mod field;
 pub mod poly;
 pub mod scaled;
+pub mod shadow;
 pub mod subject;
