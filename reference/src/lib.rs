@@ -3,4 +3,5 @@
 
 pub mod answer;
 pub mod field;
+pub mod generate;
 pub mod subject;
