@@ -2,6 +2,7 @@
 //! with an engine.
 
 pub mod answer;
+pub mod corpus;
 pub mod field;
 pub mod generate;
 pub mod subject;
