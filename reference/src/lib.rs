@@ -3,7 +3,10 @@
 
 pub mod algebraic;
 pub mod answer;
+pub mod certify;
+pub mod corpus;
 pub mod field;
+pub mod generate;
 pub mod oracle;
 pub mod poly;
 pub mod scaled;

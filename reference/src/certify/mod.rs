@@ -16,5 +16,3 @@ pub mod table;
 pub mod tally;
 pub mod verdict;
 
-#[cfg(test)]
-mod tests;

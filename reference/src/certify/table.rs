@@ -1,24 +1,179 @@
 //! The result of certification as text.
 
-use std::fmt::{self, Write as _};
-
 use super::run::{Block, Panel};
-use super::tally::{Fault, Tally, Witness};
+use super::tally::{Fault, Finding, Tally};
 
-/// Columns after the subject: two lines of heading, and what stands in the column.
-const COLUMNS: [([&str; 2], fn(&Tally, bool) -> String); 11] = [
-    (["", "hits"], |tally, _| grouped(tally.hits)),
-    (["", "tunnels"], |tally, _| count(tally, Fault::Tunnel)),
-    (["missed", "grazes"], |tally, _| count(tally, Fault::MissedGraze)),
-    (["false", "hits"], |tally, _| count(tally, Fault::FalseHit)),
-    (["near", "hits"], |tally, _| count(tally, Fault::NearHit)),
-    (["wrong", "cases"], |tally, _| count(tally, Fault::WrongCase)),
-    (["worst", "late"], |tally, _| time(tally, Fault::Late)),
-    (["worst", "early"], |tally, _| time(tally, Fault::Early)),
-    (["no", "answer"], |tally, _| count(tally, Fault::NoAnswer)),
-    (["", "differs"], |tally, is_exact| match is_exact {
-        true => count(tally, Fault::Differs),
-        false => "-".to_owned(),
+/// The width of the subjects' names.
+const NAME: usize = 18;
+
+type Cell = fn(&Tally) -> String;
+
+/// The columns after the subject: two lines of heading, the width, what stands in it.
+const COLUMNS: [([&str; 2], usize, Cell); 9] = [
+    (["", "hits"], 9, |tally| grouped(tally.hits)),
+    (["", "tunnels"], 9, |tally| count(tally, Fault::Tunnel)),
+    (["missed", "grazes"], 8, |tally| {
+        count(tally, Fault::MissedGraze)
     }),
-    (["", ""], |_, _| String::new()),
+    (["false", "hits"], 8, |tally| count(tally, Fault::FalseHit)),
+    (["near", "hits"], 8, |tally| count(tally, Fault::NearHit)),
+    (["wrong", "cases"], 8, |tally| count(tally, Fault::WrongCase)),
+    (["no", "answer"], 8, |tally| count(tally, Fault::NoAnswer)),
+    (["worst", "late"], 10, |tally| worst(tally, Fault::Late)),
+    (["worst", "early"], 10, |tally| worst(tally, Fault::Early)),
 ];
+
+/// What was found, a block of lines for each source.
+pub fn blocks(panel: &Panel, blocks: &[Block]) -> String {
+    let mut lines = headings();
+    for block in blocks {
+        lines.push(String::new());
+        lines.push(heading(block));
+        for (judged, tally) in panel.subjects.iter().zip(&block.tallies) {
+            let cells = COLUMNS.map(|(_, width, cell)| format!("{:>width$}", cell(tally)));
+            let name = judged.subject.name();
+            lines.push(format!("  {name:<NAME$}{}", cells.concat()));
+        }
+    }
+    lines.push(String::new());
+    lines.join("\n")
+}
+
+fn headings() -> Vec<String> {
+    let line = |which: usize, name: &str| {
+        let cells = COLUMNS.map(|(heading, width, _)| format!("{:>width$}", heading[which]));
+        format!("  {name:<NAME$}{}", cells.concat())
+    };
+    vec![line(0, ""), line(1, "subject")]
+}
+
+fn heading(block: &Block) -> String {
+    let labels = match block.labels {
+        0 => String::new(),
+        labels => format!(", {} labels", grouped(labels)),
+    };
+    format!(
+        "{}: {} queries, {} hits, {} crossings{labels}",
+        block.name,
+        grouped(block.queries),
+        grouped(block.hits),
+        grouped(block.crossings),
+    )
+}
+
+/// Whether the judges and the labels agree, and which errata explain the answers of subjects that
+/// have any.
+pub fn agreement(panel: &Panel, total: &Block) -> String {
+    let second = panel.second_judge.name();
+    let mut lines = vec![agree(
+        &format!("oracle and {second}"),
+        total.queries,
+        &total.disagreements,
+    )];
+    if total.labels > 0 {
+        lines.push(agree("oracle and labels", total.labels, &total.wrong_labels));
+    }
+    for (judged, tally) in panel.subjects.iter().zip(&total.tallies) {
+        if tally.errata.is_empty() {
+            continue;
+        }
+        let differs = tally.count(Fault::Differs);
+        lines.push(format!(
+            "{} differs from the exact answer on {} queries, by erratum:",
+            judged.subject.name(),
+            grouped(differs)
+        ));
+        for (errata, finding) in &tally.errata {
+            lines.push(format!(
+                "  {:>9}  {errata:<44} {}",
+                grouped(finding.count),
+                first(finding)
+            ));
+        }
+    }
+    lines.push(String::new());
+    lines.join("\n")
+}
+
+fn agree(who: &str, queries: u64, against: &Finding) -> String {
+    match against.count {
+        0 => format!("{who} agree on all {} queries", grouped(queries)),
+        count => format!(
+            "{who} DISAGREE on {} of {} queries, first on {}",
+            grouped(count),
+            grouped(queries),
+            first(against)
+        ),
+    }
+}
+
+fn first(finding: &Finding) -> &str {
+    finding.worst.as_ref().map_or("", |witness| &witness.id)
+}
+
+/// The worst witness of each fault of each subject, with the command that explains it.
+pub fn witnesses(panel: &Panel, total: &Block) -> String {
+    let mut lines = Vec::new();
+    for (judged, tally) in panel.subjects.iter().zip(&total.tallies) {
+        for (fault, finding) in &tally.faults {
+            let Some(witness) = &finding.worst else {
+                continue;
+            };
+            lines.push(format!(
+                "  {:<NAME$}{:<14}{:<17}{}",
+                judged.subject.name(),
+                fault.name(),
+                measure(*fault, witness.severity),
+                command(&witness.id)
+            ));
+        }
+    }
+    if lines.is_empty() {
+        return String::new();
+    }
+    format!("Worst witness of each kind:\n{}\n", lines.join("\n"))
+}
+
+/// How bad a witness is, in a few letters.
+fn measure(fault: Fault, severity: f64) -> String {
+    match fault {
+        Fault::Tunnel | Fault::MissedGraze => format!("margin {severity:.3}"),
+        Fault::FalseHit => format!("gap {severity:.2e} m"),
+        Fault::Late | Fault::Early => format!("by {severity:.2e}"),
+        Fault::NearHit | Fault::NoAnswer | Fault::WrongCase | Fault::Differs => String::new(),
+    }
+}
+
+/// The command that explains a query, ready to paste into a shell.
+pub fn command(id: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-./:@%+,=".contains(c);
+    let id = match id.chars().all(is_plain) {
+        true => id.to_owned(),
+        false => format!("'{}'", id.replace('\'', r"'\''")),
+    };
+    format!("cargo run --release -- explain {id}")
+}
+
+fn count(tally: &Tally, fault: Fault) -> String {
+    grouped(tally.count(fault))
+}
+
+fn worst(tally: &Tally, fault: Fault) -> String {
+    match tally.worst(fault) {
+        0.0 => "0".to_owned(),
+        time => format!("{time:.1e}"),
+    }
+}
+
+/// A number with a comma between groups of three digits.
+pub fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
