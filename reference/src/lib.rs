@@ -9,5 +9,7 @@ pub mod field;
 pub mod generate;
 pub mod oracle;
 pub mod poly;
+pub mod registry;
+pub mod report;
 pub mod scaled;
 pub mod subject;

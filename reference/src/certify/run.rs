@@ -211,7 +211,8 @@ impl Block {
         self.labels += later.labels;
         self.wrong_labels.merge(later.wrong_labels);
         self.disagreements.merge(later.disagreements);
-        self.tallies.resize_with(later.tallies.len(), Tally::default);
+        self.tallies
+            .resize_with(later.tallies.len(), Tally::default);
         for (tally, later) in self.tallies.iter_mut().zip(later.tallies) {
             tally.merge(later);
         }

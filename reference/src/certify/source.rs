@@ -48,8 +48,16 @@ impl Source {
     /// [`CorpusError`] if a corpus cannot be opened.
     pub fn entries(&self) -> Result<Entries, CorpusError> {
         match self {
-            &Source::Family { family, seed, count } => {
-                let ids = (0..count).map(move |index| GeneratedId { family, seed, index });
+            &Source::Family {
+                family,
+                seed,
+                count,
+            } => {
+                let ids = (0..count).map(move |index| GeneratedId {
+                    family,
+                    seed,
+                    index,
+                });
                 Ok(Box::new(ids.map(|id| {
                     Ok(Entry {
                         id: id.to_string(),

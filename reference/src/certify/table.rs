@@ -17,7 +17,9 @@ const COLUMNS: [([&str; 2], usize, Cell); 9] = [
     }),
     (["false", "hits"], 8, |tally| count(tally, Fault::FalseHit)),
     (["near", "hits"], 8, |tally| count(tally, Fault::NearHit)),
-    (["wrong", "cases"], 8, |tally| count(tally, Fault::WrongCase)),
+    (["wrong", "cases"], 8, |tally| {
+        count(tally, Fault::WrongCase)
+    }),
     (["no", "answer"], 8, |tally| count(tally, Fault::NoAnswer)),
     (["worst", "late"], 10, |tally| worst(tally, Fault::Late)),
     (["worst", "early"], 10, |tally| worst(tally, Fault::Early)),
@@ -71,7 +73,11 @@ pub fn agreement(panel: &Panel, total: &Block) -> String {
         &total.disagreements,
     )];
     if total.labels > 0 {
-        lines.push(agree("oracle and labels", total.labels, &total.wrong_labels));
+        lines.push(agree(
+            "oracle and labels",
+            total.labels,
+            &total.wrong_labels,
+        ));
     }
     for (judged, tally) in panel.subjects.iter().zip(&total.tallies) {
         if tally.errata.is_empty() {
