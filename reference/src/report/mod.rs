@@ -1,4 +1,9 @@
 //! What is written down about queries and answers: lines of JSON, text and pictures.
 
 pub mod answer;
+pub mod explanation;
+mod labels;
+mod number;
+pub mod picture;
 pub mod results;
+mod view;
