@@ -9,3 +9,5 @@
 pub mod contact;
 pub mod narrow;
 pub mod query;
+pub mod scenario;
+pub mod thesis;
