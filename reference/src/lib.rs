@@ -12,4 +12,5 @@ pub mod poly;
 pub mod registry;
 pub mod report;
 pub mod scaled;
+pub mod shadow;
 pub mod subject;
