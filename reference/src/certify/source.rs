@@ -1,11 +1,16 @@
 //! Where the queries that are judged come from.
 
+use tunnelproof::query::Query;
+use tunnelproof::scenario::figures::{FIGURES, Figure};
+
 use crate::corpus::{self, CorpusError, Entries, Entry, ReadOptions};
 use crate::generate::{Family, GeneratedId};
 
 /// A finite sequence of queries with a name.
 #[derive(Clone, Debug)]
 pub enum Source {
+    /// The cases of thesis section 4.1, labelled with whether they are hits.
+    Figures,
     /// The first queries of a family.
     Family {
         /// The family.
@@ -28,6 +33,7 @@ impl Source {
     /// The name used in tables.
     pub fn name(&self) -> String {
         match self {
+            Source::Figures => "figures".to_owned(),
             Source::Family { family, .. } => family.name().to_owned(),
             Source::File { path, .. } => path.clone(),
         }
@@ -36,6 +42,7 @@ impl Source {
     /// How many queries there are, if that is known beforehand.
     pub fn count(&self) -> Option<u64> {
         match self {
+            Source::Figures => Some(FIGURES.len() as u64),
             Source::Family { count, .. } => Some(*count),
             Source::File { .. } => None,
         }
@@ -48,6 +55,7 @@ impl Source {
     /// [`CorpusError`] if a corpus cannot be opened.
     pub fn entries(&self) -> Result<Entries, CorpusError> {
         match self {
+            Source::Figures => Ok(Box::new(FIGURES.iter().map(|case| Ok(figure(case))))),
             &Source::Family {
                 family,
                 seed,
@@ -87,5 +95,30 @@ impl Source {
             (Source::File { path, .. }, Some(line)) => format!("{path}:{line}"),
             _ => entry.id.clone(),
         }
+    }
+}
+
+/// The query that an identifier names: `figure:NAME`, or one that
+/// [`corpus::locate`](crate::corpus::locate) knows.
+///
+/// # Errors
+///
+/// [`CorpusError`] if there is none.
+pub fn locate(identifier: &str, options: ReadOptions) -> Result<Entry, CorpusError> {
+    let name = identifier.strip_prefix(FIGURE);
+    match name.and_then(Figure::from_name) {
+        Some(case) => Ok(figure(case)),
+        None => corpus::locate::locate(identifier, options),
+    }
+}
+
+const FIGURE: &str = "figure:";
+
+fn figure(case: &Figure) -> Entry {
+    Entry {
+        id: format!("{FIGURE}{}", case.name),
+        query: Query::EdgeEdge(case.query()),
+        label: Some(case.contact.is_some()),
+        line: None,
     }
 }

@@ -15,6 +15,7 @@ use tunnelproof_reference::field::{self, Integer};
 use tunnelproof_reference::generate::{self, FAMILIES, Family};
 use tunnelproof_reference::registry;
 use tunnelproof_reference::report::results::Results;
+use tunnelproof_reference::shadow::Shadow;
 use tunnelproof_reference::subject::Subject;
 
 use super::output::{OutputFile, print};
@@ -88,33 +89,28 @@ impl Certify {
     }
 
     fn panel(&self) -> Panel<'static> {
-        let subjects = match self.subject.as_slice() {
-            [] => registry::SUBJECTS,
-            subjects => subjects,
+        let subjects = match self.subject.is_empty() {
+            true => registry::subjects().to_vec(),
+            false => self.subject.clone(),
         };
         Panel {
-            second_judge: registry::SUBJECTS[0],
-            subjects: subjects
-                .iter()
-                .map(|&subject| Judged {
-                    subject,
-                    explain: None,
-                })
-                .collect(),
+            second_judge: &registry::SECOND_JUDGE,
+            subjects: subjects.into_iter().map(judged).collect(),
         }
     }
 
     fn sources(&self) -> Vec<Source> {
-        let everything: Vec<_> = FAMILIES.iter().collect();
-        let families = match (self.family.is_empty(), self.files.is_empty()) {
-            (true, true) => &everything,
-            _ => &self.family,
+        let is_everything = self.family.is_empty() && self.files.is_empty();
+        let families = match is_everything {
+            true => FAMILIES.iter().collect(),
+            false => self.family.clone(),
         };
+        let figures = is_everything.then_some(Source::Figures);
         let (seed, count) = (self.seed, self.count);
         let families = families
-            .iter()
+            .into_iter()
             .filter(|_| count > 0)
-            .map(|&family| Source::Family {
+            .map(|family| Source::Family {
                 family,
                 seed,
                 count,
@@ -123,7 +119,7 @@ impl Certify {
             path: path.clone(),
             options: self.reading.options(),
         });
-        families.chain(files).collect()
+        figures.into_iter().chain(families).chain(files).collect()
     }
 
     fn text(&self, panel: &Panel, blocks: &[Block], total: &Block) -> String {
@@ -140,6 +136,14 @@ impl Certify {
             table::witnesses(panel, total),
         ]
         .join("\n")
+    }
+}
+
+fn judged(subject: &'static dyn Subject) -> Judged<'static> {
+    let is_published = subject.name() == Shadow::PUBLISHED.name();
+    Judged {
+        subject,
+        explain: is_published.then_some(&registry::errata),
     }
 }
 

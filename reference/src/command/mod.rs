@@ -111,7 +111,7 @@ fn kind() -> impl TypedValueParser<Value = QueryKind> {
 }
 
 fn subject() -> impl TypedValueParser<Value = &'static dyn Subject> {
-    PossibleValuesParser::new(registry::names())
+    PossibleValuesParser::new(registry::subjects().map(Subject::name))
         .try_map(|name| registry::by_name(&name).ok_or("unknown subject"))
 }
 

@@ -20,12 +20,19 @@ impl Labels {
         obstacles: Vec<Vector2<f64>>,
         frame: [f64; 4],
     ) -> Self {
-        Labels { lines, obstacles, frame, placed: Vec::new() }
+        Labels {
+            lines,
+            obstacles,
+            frame,
+            placed: Vec::new(),
+        }
     }
 
     /// The middle of the baseline of a label for a point, if possible in the direction `outward`.
     pub(super) fn place(&mut self, point: Vector2<f64>, outward: Vector2<f64>) -> Vector2<f64> {
-        let outward = outward.try_normalize(1e-9).unwrap_or(Vector2::new(0.0, -1.0));
+        let outward = outward
+            .try_normalize(1e-9)
+            .unwrap_or(Vector2::new(0.0, -1.0));
         let candidates = [21.0, 32.0].into_iter().flat_map(|radius| {
             (0..16).map(move |i| {
                 let (sin, cos) = (f64::from(i) * std::f64::consts::TAU / 16.0).sin_cos();
@@ -36,7 +43,10 @@ impl Labels {
             .map(|offset| {
                 let turned_away = 1.0 - offset.normalize().dot(&outward);
                 let far = offset.norm() / 21.0;
-                (self.crowd(point + offset) + 1.5 * turned_away + far, point + offset)
+                (
+                    self.crowd(point + offset) + 1.5 * turned_away + far,
+                    point + offset,
+                )
             })
             .min_by(|a, b| a.0.total_cmp(&b.0));
         let centre = best.map_or(point, |(_, centre)| centre);

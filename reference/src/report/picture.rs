@@ -27,8 +27,16 @@ struct Paint {
 }
 
 const PAINTS: [Paint; 2] = [
-    Paint { solid: "#2f7fd0", faint: "#d5e6f7", dark: "#14508f" },
-    Paint { solid: "#3aa655", faint: "#d6f0dc", dark: "#17672d" },
+    Paint {
+        solid: "#2f7fd0",
+        faint: "#d5e6f7",
+        dark: "#14508f",
+    },
+    Paint {
+        solid: "#3aa655",
+        faint: "#d6f0dc",
+        dark: "#17672d",
+    },
 ];
 
 /// When an edge is drawn.
@@ -79,7 +87,11 @@ impl Scene {
         let toi = answer.hit.map(|hit| middle(hit.toi));
         let at = |t: f64| [0, 1, 2, 3].map(|i| start[i] * (1.0 - t) + end[i] * t);
         let impact = toi.map(at);
-        let contacts = answer.hit.iter().zip(&impact).flat_map(|(hit, points)| contacts(hit, points));
+        let contacts = answer
+            .hit
+            .iter()
+            .zip(&impact)
+            .flat_map(|(hit, points)| contacts(hit, points));
         let contacts: Vec<_> = contacts.collect();
         let all: Vec<_> = start.iter().chain(&end).chain(&contacts).copied().collect();
         let view = View::of(&all, &[[0, 1], [2, 3], [4, 5], [6, 7]]);
@@ -88,7 +100,11 @@ impl Scene {
             [0, 1, 2, 3].map(|i| sheet.place(&points[i], when, i / 2))
         };
         let mut strokes = Vec::new();
-        let times = [(Some(start), When::Start), (Some(end), When::End), (impact, When::Impact)];
+        let times = [
+            (Some(start), When::Start),
+            (Some(end), When::End),
+            (impact, When::Impact),
+        ];
         for (points, when) in times {
             let Some(points) = points else { continue };
             let placed = place(points, when);
@@ -118,7 +134,9 @@ impl Scene {
             } else {
                 String::new()
             };
-            let points = [from, middle, to].map(|p| format!("{:.1},{:.1}", p.x, p.y)).join(" ");
+            let points = [from, middle, to]
+                .map(|p| format!("{:.1},{:.1}", p.x, p.y))
+                .join(" ");
             let _ = writeln!(
                 svg,
                 r#"<polyline points="{points}" fill="none" stroke="{}" stroke-width="1.3" stroke-opacity="0.75"{marker}/>"#,
@@ -129,7 +147,10 @@ impl Scene {
 
     /// The far ones first; those at the time of impact on top.
     fn draw_edges(&self, svg: &mut String) {
-        let (thin, thick): (Vec<_>, Vec<_>) = self.strokes.iter().partition(|stroke| stroke.when == When::Impact);
+        let (thin, thick): (Vec<_>, Vec<_>) = self
+            .strokes
+            .iter()
+            .partition(|stroke| stroke.when == When::Impact);
         for stroke in thick {
             let paint = &PAINTS[stroke.edge];
             match stroke.when {
@@ -170,13 +191,25 @@ impl Scene {
     fn draw_labels(&self, svg: &mut String) {
         let lines = self.strokes.iter().map(|stroke| stroke.ends);
         let paths = (0..4).map(|i| [self.start[i], self.end[i]]);
-        let mut labels = Labels::new(lines.chain(paths).collect(), self.contacts.clone(), FRAME_OUTER);
+        let mut labels = Labels::new(
+            lines.chain(paths).collect(),
+            self.contacts.clone(),
+            FRAME_OUTER,
+        );
         for (points, index) in [(&self.start, '\u{2080}'), (&self.end, '\u{2081}')] {
             for i in 0..4 {
                 let other = points[i ^ 1];
                 let at = labels.place(points[i], points[i] - other);
                 let name = ['A', 'B', 'C', 'D'][i];
-                text(svg, at, "middle", 17, PAINTS[i / 2].dark, "600", &format!("{name}{index}"));
+                text(
+                    svg,
+                    at,
+                    "middle",
+                    17,
+                    PAINTS[i / 2].dark,
+                    "600",
+                    &format!("{name}{index}"),
+                );
             }
         }
     }
@@ -207,8 +240,12 @@ struct Sheet {
 impl Sheet {
     fn new(view: View, points: &[Vector3<f64>]) -> Self {
         let projected: Vec<_> = points.iter().map(|point| view.project(point)).collect();
-        let low = projected.iter().fold(Vector2::repeat(f64::MAX), |low, p| low.inf(p));
-        let high = projected.iter().fold(Vector2::repeat(f64::MIN), |high, p| high.sup(p));
+        let low = projected
+            .iter()
+            .fold(Vector2::repeat(f64::MAX), |low, p| low.inf(p));
+        let high = projected
+            .iter()
+            .fold(Vector2::repeat(f64::MIN), |high, p| high.sup(p));
         let size = high - low;
         let [left, top, right, bottom] = FRAME;
         let fit = |room: f64, size: f64| if size > 0.0 { room / size } else { f64::MAX };
@@ -228,7 +265,11 @@ impl Sheet {
             When::End => 120.0,
         };
         let shift = if edge == 0 { -9.0 } else { 9.0 };
-        let apart = if self.is_drawn_apart { lane + shift } else { 0.0 };
+        let apart = if self.is_drawn_apart {
+            lane + shift
+        } else {
+            0.0
+        };
         self.place_contact(point) + Vector2::new(0.0, apart)
     }
 
@@ -248,7 +289,10 @@ fn contacts(hit: &ExactHit, at: &[Vector3<f64>; 4]) -> Vec<Vector3<f64>> {
         let [a, b, c, d] = at;
         ((a * (1.0 - u) + b * u) + (c * (1.0 - v) + d * v)) * 0.5
     };
-    std::iter::once(hit.first).chain(hit.second).map(on_first).collect()
+    std::iter::once(hit.first)
+        .chain(hit.second)
+        .map(on_first)
+        .collect()
 }
 
 fn middle(number: Enclosure) -> f64 {
@@ -268,7 +312,15 @@ fn header(svg: &mut String, title: &str) {
         arrow(0),
         arrow(1),
     );
-    text_escaped(svg, Vector2::new(32.0, 38.0), "start", 18, INK, "600", &title);
+    text_escaped(
+        svg,
+        Vector2::new(32.0, 38.0),
+        "start",
+        18,
+        INK,
+        "600",
+        &title,
+    );
 }
 
 fn arrow(edge: usize) -> String {
@@ -286,11 +338,35 @@ fn caption(svg: &mut String, answer: &ExactAnswer, is_drawn_apart: bool) {
             details(answer, &hit),
         ),
     };
-    text(svg, Vector2::new(32.0, 582.0), "start", 17, INK, "600", &headline);
-    text(svg, Vector2::new(32.0, 604.0), "start", 13, "#52606d", "400", &detail);
+    text(
+        svg,
+        Vector2::new(32.0, 582.0),
+        "start",
+        17,
+        INK,
+        "600",
+        &headline,
+    );
+    text(
+        svg,
+        Vector2::new(32.0, 604.0),
+        "start",
+        13,
+        "#52606d",
+        "400",
+        &detail,
+    );
     if is_drawn_apart {
         let note = "All points are (nearly) on one line: start, impact and end are drawn apart.";
-        text(svg, Vector2::new(32.0, 624.0), "start", 12, "#7b8794", "400", note);
+        text(
+            svg,
+            Vector2::new(32.0, 624.0),
+            "start",
+            12,
+            "#7b8794",
+            "400",
+            note,
+        );
     }
 }
 
@@ -316,7 +392,9 @@ fn about(number: Enclosure) -> String {
     let short = rounded.trim_end_matches('0').trim_end_matches('.');
     match number.is_exact() && short.parse() == Ok(number.below) {
         true => format!("= {short}"),
-        false if number.below != 0.0 && number.below < 1e-4 => format!("\u{2248} {:.3e}", number.below),
+        false if number.below != 0.0 && number.below < 1e-4 => {
+            format!("\u{2248} {:.3e}", number.below)
+        }
         false => format!("\u{2248} {rounded}"),
     }
 }
@@ -327,7 +405,12 @@ fn legend(svg: &mut String, answer: &ExactAnswer) {
         for (edge, y) in [(0, 571.0), (1, 583.0)] {
             let (a, b) = (Vector2::new(x, y), Vector2::new(x + 26.0, y));
             let paint = &PAINTS[edge];
-            let stroke = Stroke { edge, when: kind, ends: [a, b], nearness: 0.0 };
+            let stroke = Stroke {
+                edge,
+                when: kind,
+                ends: [a, b],
+                nearness: 0.0,
+            };
             match kind {
                 When::Start => {
                     stroke.draw(svg, paint.solid, 8.0, "");
@@ -415,11 +498,16 @@ fn elided(text: &str, longest: usize) -> String {
         return text.to_owned();
     }
     let head: String = text.chars().take(longest / 3).collect();
-    let tail: String = text.chars().skip(count - (longest - longest / 3 - 1)).collect();
+    let tail: String = text
+        .chars()
+        .skip(count - (longest - longest / 3 - 1))
+        .collect();
     format!("{head}\u{2026}{tail}")
 }
 
 fn capitalised(word: &str) -> String {
     let mut chars = word.chars();
-    chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
+    chars.next().map_or_else(String::new, |first| {
+        first.to_uppercase().chain(chars).collect()
+    })
 }

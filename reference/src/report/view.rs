@@ -37,7 +37,14 @@ impl View {
             .map_or(Vector3::z(), |best| best.1);
         let centred = scaled.iter().map(|point| point - centre);
         let right = longest_extent(centred, &toward);
-        View { centre, unit, right, up: toward.cross(&right), toward }.upright()
+        View {
+            centre,
+            unit,
+            right,
+            up: toward.cross(&right),
+            toward,
+        }
+        .upright()
     }
 
     /// Turned in its plane by half a turn if that shows the z axis upwards (or else y to the right).
@@ -47,7 +54,11 @@ impl View {
             false => self.right.sum() > 0.0,
         };
         let sign = if is_upright { 1.0 } else { -1.0 };
-        View { right: self.right * sign, up: self.up * sign, ..self }
+        View {
+            right: self.right * sign,
+            up: self.up * sign,
+            ..self
+        }
     }
 
     /// Where a point is in the picture: to the right and upwards, in a unit of the view's own.
@@ -63,11 +74,7 @@ impl View {
 }
 
 /// How well a direction separates points: 1 for each of two parts if nothing is foreshortened.
-fn separation(
-    pairs: &[Vector3<f64>],
-    edges: &[Vector3<f64>],
-    toward: &Vector3<f64>,
-) -> f64 {
+fn separation(pairs: &[Vector3<f64>], edges: &[Vector3<f64>], toward: &Vector3<f64>) -> f64 {
     let seen = |difference: &Vector3<f64>| {
         let length = difference.norm();
         (length > 0.0).then(|| difference.cross(toward).norm() / length)
@@ -100,7 +107,11 @@ fn longest_extent(
     points: impl Iterator<Item = Vector3<f64>>,
     toward: &Vector3<f64>,
 ) -> Vector3<f64> {
-    let helper = if toward.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() };
+    let helper = if toward.x.abs() < 0.9 {
+        Vector3::x()
+    } else {
+        Vector3::y()
+    };
     let first = toward.cross(&helper).normalize();
     let second = toward.cross(&first);
     let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
