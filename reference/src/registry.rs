@@ -26,17 +26,14 @@ pub fn by_name(name: &str) -> Option<&'static dyn Subject> {
     subjects.find(|subject| subject.name() == name)
 }
 
-/// A smallest set of errata whose repair makes the published text give the exact answer, as their
-/// names joined by ` + `; of equals the first in the order of the algorithms.
-pub fn errata(query: &Query, truth: &ExactAnswer) -> String {
+/// The names of a smallest set of errata whose repair makes the published text give the exact answer;
+/// of equals the first in the order of the algorithms.
+pub fn errata(query: &Query, truth: &ExactAnswer) -> Vec<&'static str> {
     let exact = Ok(Answer::Exact(*truth));
     let enough = |repairs: &Repairs| Shadow::new(*repairs).answer(query) == exact;
     match repairs_by_size().find(enough) {
-        None => "unexplained".to_owned(),
-        Some(repairs) => {
-            let names: Vec<_> = repairs.iter().map(Erratum::name).collect();
-            names.join(" + ")
-        }
+        Some(repairs) => repairs.iter().map(Erratum::name).collect(),
+        None => vec!["unexplained"],
     }
 }
 

@@ -16,8 +16,8 @@ use super::source::Source;
 use super::tally::{Fault, Finding, Tally, Witness};
 use super::verdict::judge;
 
-/// The names of the errata that make an answer differ from the exact one.
-pub type Explain<'a> = &'a (dyn Fn(&Query, &ExactAnswer) -> String + Sync);
+/// The names of the errata that together make an answer differ from the exact one.
+pub type Explain<'a> = &'a (dyn Fn(&Query, &ExactAnswer) -> Vec<&'static str> + Sync);
 
 /// Someone to be judged.
 #[derive(Clone, Copy)]
@@ -145,15 +145,21 @@ struct Judgements {
 }
 
 /// What was found of one subject on one query.
-struct Found {
-    answer: Option<Answer>,
-    is_hit: bool,
-    faults: Vec<(Fault, f64)>,
-    errata: Option<String>,
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// What the subject says; `None` for no answer.
+    pub answer: Option<Answer>,
+    /// Whether it reports a hit.
+    pub is_hit: bool,
+    /// What is wrong, each with its severity.
+    pub faults: Vec<(Fault, f64)>,
+    /// The errata that together explain an answer that differs.
+    pub errata: Vec<&'static str>,
 }
 
 impl Judged<'_> {
-    fn judge(&self, query: &Query, truth: &ExactAnswer) -> Found {
+    /// Asks the subject and compares its answer with the exact one.
+    pub fn judge(&self, query: &Query, truth: &ExactAnswer) -> Found {
         let declared = self.subject.declared_distance();
         let answer = answer(self.subject, query);
         let judgement = judge(truth, answer.as_ref(), || {
@@ -165,7 +171,7 @@ impl Judged<'_> {
             answer,
             is_hit: judgement.is_hit,
             faults: judgement.faults(truth, gap),
-            errata: explain.map(|explain| explain(query, truth)),
+            errata: explain.map_or_else(Vec::new, |explain| explain(query, truth)),
         }
     }
 }
@@ -196,8 +202,12 @@ impl Block {
                 let finding = tally.faults.entry(fault).or_default();
                 finding.add(witness(found.answer, severity));
             }
-            if let Some(errata) = found.errata {
-                let finding = tally.errata.entry(errata).or_default();
+            for erratum in &found.errata {
+                let explained = tally.errata.entry(erratum).or_default();
+                let finding = match found.errata.len() {
+                    1 => &mut explained.alone,
+                    _ => &mut explained.with_others,
+                };
                 finding.add(witness(found.answer, 0.0));
             }
         }

@@ -1,7 +1,7 @@
 //! The result of certification as text.
 
 use super::run::{Block, Panel};
-use super::tally::{Fault, Finding, Tally};
+use super::tally::{Explained, Fault, Finding, Tally};
 
 /// The width of the subjects' names.
 const NAME: usize = 18;
@@ -83,17 +83,23 @@ pub fn agreement(panel: &Panel, total: &Block) -> String {
         if tally.errata.is_empty() {
             continue;
         }
-        let differs = tally.count(Fault::Differs);
+        lines.push(String::new());
         lines.push(format!(
-            "{} differs from the exact answer on {} queries, by erratum:",
+            "{} differs from the exact answer on {} queries, which is explained by:",
             judged.subject.name(),
-            grouped(differs)
+            count(tally, Fault::Differs)
         ));
-        for (errata, finding) in &tally.errata {
+        lines.push(format!(
+            "  {:<26}{:>9}{:>13}  witness",
+            "erratum", "alone", "with others"
+        ));
+        for (erratum, Explained { alone, with_others }) in &tally.errata {
+            let witness = if alone.count > 0 { alone } else { with_others };
             lines.push(format!(
-                "  {:>9}  {errata:<44} {}",
-                grouped(finding.count),
-                first(finding)
+                "  {erratum:<26}{:>9}{:>13}  {}",
+                grouped(alone.count),
+                grouped(with_others.count),
+                first(witness)
             ));
         }
     }
@@ -143,9 +149,9 @@ pub fn witnesses(panel: &Panel, total: &Block) -> String {
 /// How bad a witness is, in a few letters.
 fn measure(fault: Fault, severity: f64) -> String {
     match fault {
-        Fault::Tunnel | Fault::MissedGraze => format!("margin {severity:.3}"),
-        Fault::FalseHit => format!("gap {severity:.2e} m"),
-        Fault::Late | Fault::Early => format!("by {severity:.2e}"),
+        Fault::Tunnel | Fault::MissedGraze => format!("central {severity:.2}"),
+        Fault::FalseHit => format!("gap {} m", short(severity)),
+        Fault::Late | Fault::Early => format!("by {}", short(severity)),
         Fault::NearHit | Fault::NoAnswer | Fault::WrongCase | Fault::Differs => String::new(),
     }
 }
@@ -165,9 +171,15 @@ fn count(tally: &Tally, fault: Fault) -> String {
 }
 
 fn worst(tally: &Tally, fault: Fault) -> String {
-    match tally.worst(fault) {
+    short(tally.worst(fault))
+}
+
+/// A number of at least 0 to about three digits.
+pub fn short(number: f64) -> String {
+    match number {
         0.0 => "0".to_owned(),
-        time => format!("{time:.1e}"),
+        0.01..1000.0 => format!("{number:.3}"),
+        _ => format!("{number:.1e}"),
     }
 }
 

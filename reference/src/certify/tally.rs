@@ -12,7 +12,8 @@ use super::verdict::{Judgement, Verdict};
 /// What can be wrong with an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Fault {
-    /// [`Verdict::Tunnel`]. Worst: `toi`, `u` and `v` farthest from 0 and 1.
+    /// [`Verdict::Tunnel`]. Worst: `toi`, `u` and `v` farthest from 0 and 1,
+    /// together.
     Tunnel,
     /// [`Verdict::MissedGraze`]. Worst: as for a tunnel.
     MissedGraze,
@@ -63,9 +64,18 @@ pub struct Tally {
     pub hits: u64,
     /// What was wrong with its answers.
     pub faults: BTreeMap<Fault, Finding>,
-    /// For a subject with known errata: the answers that differ from the exact one, by the errata
-    /// that explain them.
-    pub errata: BTreeMap<String, Finding>,
+    /// For a subject with known errata: its answers that differ from the exact one, by the erratum
+    /// that explains them.
+    pub errata: BTreeMap<&'static str, Explained>,
+}
+
+/// The answers that one erratum explains.
+#[derive(Clone, Debug, Default)]
+pub struct Explained {
+    /// It alone.
+    pub alone: Finding,
+    /// It together with others; such an answer stands under each of them.
+    pub with_others: Finding,
 }
 
 impl Fault {
@@ -101,12 +111,12 @@ impl Fault {
 impl Judgement {
     /// What is wrong with the answer, each with its severity. `gap` is asked for a false hit alone.
     pub fn faults(&self, truth: &ExactAnswer, gap: impl FnOnce() -> f64) -> Vec<(Fault, f64)> {
-        let margin = || truth.hit.as_ref().map_or(0.0, margin);
+        let centrality = || truth.hit.as_ref().map_or(0.0, centrality);
         let mut faults = Vec::new();
         match self.verdict {
             Verdict::Right => {}
-            Verdict::Tunnel => faults.push((Fault::Tunnel, margin())),
-            Verdict::MissedGraze => faults.push((Fault::MissedGraze, margin())),
+            Verdict::Tunnel => faults.push((Fault::Tunnel, centrality())),
+            Verdict::MissedGraze => faults.push((Fault::MissedGraze, centrality())),
             Verdict::FalseHit => faults.push((Fault::FalseHit, gap())),
             Verdict::NearHit => faults.push((Fault::NearHit, 0.0)),
             Verdict::NoAnswer => faults.push((Fault::NoAnswer, 0.0)),
@@ -124,12 +134,15 @@ impl Judgement {
     }
 }
 
-/// How far the time and the place of a contact are from the ends of the step and of the edges.
-fn margin(hit: &ExactHit) -> f64 {
+/// How far the time and the place of a contact are from the ends of the step and of the edges: 0 if
+/// each is at an end, 1 if each is in the middle.
+fn centrality(hit: &ExactHit) -> f64 {
     let from_ends = |number: Enclosure| number.below.min(1.0 - number.above);
-    from_ends(hit.toi)
-        .min(from_ends(hit.first.u))
-        .min(from_ends(hit.first.v))
+    let sum = [hit.toi, hit.first.u, hit.first.v]
+        .map(from_ends)
+        .iter()
+        .sum::<f64>();
+    sum * 2.0 / 3.0
 }
 
 impl Finding {
@@ -174,7 +187,9 @@ impl Tally {
             self.faults.entry(fault).or_default().merge(finding);
         }
         for (erratum, finding) in later.errata {
-            self.errata.entry(erratum).or_default().merge(finding);
+            let explained = self.errata.entry(erratum).or_default();
+            explained.alone.merge(finding.alone);
+            explained.with_others.merge(finding.with_others);
         }
     }
 }

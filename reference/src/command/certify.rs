@@ -123,6 +123,8 @@ impl Certify {
     }
 
     fn text(&self, panel: &Panel, blocks: &[Block], total: &Block) -> String {
+        let everything = (blocks.len() > 1).then(|| total.clone());
+        let blocks: Vec<_> = blocks.iter().cloned().chain(everything).collect();
         let settings = format!(
             "tunnelproof {}, seed {}, exact arithmetic by {}",
             env!("CARGO_PKG_VERSION"),
@@ -131,7 +133,7 @@ impl Certify {
         );
         [
             settings,
-            table::blocks(panel, blocks),
+            table::blocks(panel, &blocks),
             table::agreement(panel, total),
             table::witnesses(panel, total),
         ]
@@ -139,7 +141,7 @@ impl Certify {
     }
 }
 
-fn judged(subject: &'static dyn Subject) -> Judged<'static> {
+pub(super) fn judged(subject: &'static dyn Subject) -> Judged<'static> {
     let is_published = subject.name() == Shadow::PUBLISHED.name();
     Judged {
         subject,

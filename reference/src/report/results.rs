@@ -12,12 +12,13 @@
 //!
 //! A source has `name`, `queries`, `hits`, `crossings`, `labels`, the findings `wrong_labels` and
 //! `disagreements` (oracle against the second judge), and `subjects`. A subject has `subject`,
-//! `hits` (that it reports), `faults`, a finding by name, and `errata`, a finding by the names of
-//! the errata that explain it. A finding has `count` and `worst`, its worst witness: `severity`, `id`,
+//! `hits` (that it reports), `faults`, a finding by name, and `errata`, by the erratum that explains
+//! an answer two findings, `alone` and `with_others`. A finding has `count` and `worst`, its worst witness: `severity`, `id`,
 //! the `command` that explains it, the `query` with decimal and with hexadecimal numbers
 //! ([`crate::corpus::jsonl`] reads both), `truth` and `answer` ([`super::answer`]; `null` for no
 //! answer). `severity` is the gap of a false hit in metres, the difference of a late or early time
-//! of impact, and for missed contacts how far time and place are from their ends.
+//! of impact, and for missed contacts how far time and place are from their ends
+//! ([`crate::certify::tally`]).
 
 use std::collections::BTreeMap;
 
@@ -28,7 +29,7 @@ use crate::certify::permitted::{PERMITTED, Permitted};
 use crate::certify::run::{Block, Panel};
 use crate::certify::strict::failures;
 use crate::certify::table::command;
-use crate::certify::tally::{Fault, Finding, Tally, Witness};
+use crate::certify::tally::{Explained, Fault, Finding, Tally, Witness};
 use crate::corpus::Entry;
 use crate::corpus::jsonl::{self, Numbers};
 use crate::field::{self, Integer};
@@ -74,13 +75,19 @@ struct Subject<'a> {
     subject: &'a str,
     hits: u64,
     faults: BTreeMap<&'static str, Found<'a>>,
-    errata: BTreeMap<&'a str, Found<'a>>,
+    errata: BTreeMap<&'a str, ExplainedFields<'a>>,
 }
 
 #[derive(Serialize)]
 struct Found<'a> {
     count: u64,
     worst: Option<WitnessFields<'a>>,
+}
+
+#[derive(Serialize)]
+struct ExplainedFields<'a> {
+    alone: Found<'a>,
+    with_others: Found<'a>,
 }
 
 #[derive(Serialize)]
@@ -157,7 +164,7 @@ fn subject<'a>(name: &'a str, tally: &'a Tally) -> Subject<'a> {
         errata: tally
             .errata
             .iter()
-            .map(|(errata, finding)| (errata.as_str(), finding.into()))
+            .map(|(&erratum, explained)| (erratum, explained.into()))
             .collect(),
     }
 }
@@ -185,6 +192,15 @@ impl<'a> From<&'a Finding> for Found<'a> {
         Found {
             count: finding.count,
             worst: finding.worst.as_ref().map(WitnessFields::from),
+        }
+    }
+}
+
+impl<'a> From<&'a Explained> for ExplainedFields<'a> {
+    fn from(explained: &'a Explained) -> Self {
+        ExplainedFields {
+            alone: (&explained.alone).into(),
+            with_others: (&explained.with_others).into(),
         }
     }
 }
