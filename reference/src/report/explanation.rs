@@ -39,11 +39,17 @@ pub fn explain(title: &str, edges: &EdgeEdge, subjects: &[Judged]) -> Result<Str
 }
 
 fn points(text: &mut String, query: &Query) {
-    for (time, points) in [(0, query.start()), (1, query.end())] {
-        for (name, point) in ['A', 'B', 'C', 'D'].iter().zip(points) {
-            let [x, y, z] = [point.x, point.y, point.z].map(number::short);
-            let _ = writeln!(text, "  {name}({time})  {x:>24} {y:>24} {z:>24}");
-        }
+    let points = query.start().iter().chain(query.end());
+    let rows: Vec<_> = points
+        .map(|point| [point.x, point.y, point.z].map(number::short))
+        .collect();
+    let width = rows.iter().flatten().map(String::len).max().unwrap_or(0);
+    for (index, [x, y, z]) in rows.iter().enumerate() {
+        let (name, time) = (['A', 'B', 'C', 'D'][index % 4], index / 4);
+        let _ = writeln!(
+            text,
+            "  {name}({time})  {x:>width$}  {y:>width$}  {z:>width$}"
+        );
     }
 }
 
@@ -89,11 +95,13 @@ fn triple_product<Z: Integer>(text: &mut String, decision: &Decision<Z>, query: 
     let shift = f.content().trailing_zeros();
     let exponent = 3 * Scaled::<Z>::new(query).exponent;
     let _ = writeln!(text, "\nf(t), exactly 2^{} times:", exponent + shift as i64);
-    for (power, coefficient) in f.coefficients().iter().enumerate() {
-        let integer = coefficient.shr_floor(shift).to_string();
+    let integers = f.coefficients().iter();
+    let integers: Vec<_> = integers.map(|c| c.shr_floor(shift).to_string()).collect();
+    let width = integers.iter().map(String::len).max().unwrap_or(0);
+    let powers = ["1", "t", "t^2", "t^3"];
+    for ((power, integer), coefficient) in powers.iter().zip(&integers).zip(f.coefficients()) {
         let decimal = number::scaled(coefficient, exponent);
-        let power = ["1", "t", "t^2", "t^3"].get(power).copied().unwrap_or("?");
-        let _ = writeln!(text, "  {power:<4} {integer:>28}    in m^3: {decimal}");
+        let _ = writeln!(text, "  {power:<4} {integer:>width$}   in m^3: {decimal}");
     }
 }
 
@@ -102,31 +110,31 @@ fn steps<Z: Integer>(text: &mut String, decision: &Decision<Z>) {
     let heading = match (decision.f().is_zero(), steps.is_empty()) {
         (false, true) => "f has no root in [0, 1], so the edges never share a plane.",
         (false, false) => "Roots of f in [0, 1], where the edges share a plane:",
-        (true, _) => {
-            "f is identically 0. The start, and when an end meets the other edge's line or ends:"
-        }
+        (true, _) => "f is identically 0. When an end comes onto the other edge's line or ends:",
     };
     let _ = writeln!(text, "\n{heading}");
-    for step in steps {
-        let event = match step.event {
-            Event::Start => "start".to_owned(),
-            Event::Coplanar => String::new(),
-            Event::EndOnLine(end) => ["A", "B", "C", "D"][end % 4].to_owned(),
+    for same_time in steps.chunk_by(|a, b| a.time.compare(&b.time).is_eq()) {
+        let events = same_time.iter().map(|step| match step.event {
+            Event::Start => "start",
+            Event::Coplanar => "",
+            Event::EndOnLine(end) => ["A", "B", "C", "D"][end % 4],
+        });
+        let events = events.collect::<Vec<_>>().join(" ");
+        let events = if events.is_empty() {
+            events
+        } else {
+            format!("{events}: ")
         };
-        let _ = writeln!(
-            text,
-            "  t = {:<26} {event:<6}{}",
-            exactly(&step.time),
-            meeting(&step)
-        );
+        let time = exactly(&same_time[0].time);
+        let _ = writeln!(text, "  t = {time:<24}  {events}{}", meeting(&same_time[0]));
     }
 }
 
 fn meeting<Z>(step: &Step<Z>) -> String {
     match (&step.contact, step.meeting) {
-        (Some((first, second)), _) => format!("contact: {}", place(first, second.as_ref())),
-        (None, Some([u, v])) => format!("lines meet beyond the edges: u = {u:.6}, v = {v:.6}"),
-        (None, None) => "no contact: parallel or a point".to_owned(),
+        (Some((first, second)), _) => format!("contact, {}", place(first, second.as_ref())),
+        (None, Some([u, v])) => format!("lines meet beyond the edges, u = {u:.6}, v = {v:.6}"),
+        (None, None) => "no contact".to_owned(),
     }
 }
 
@@ -158,9 +166,11 @@ fn impact<Z: Integer>(text: &mut String, decision: &Decision<Z>, answer: &ExactA
             let _ = writeln!(text, "  exactly   {}", number::fraction(&value));
         }
         None => {
-            let poly = number::polynomial(&toi.poly().primitive_part());
-            let _ = writeln!(text, "  exactly   the root in {} of", hit.toi);
-            let _ = writeln!(text, "            {poly}");
+            let _ = writeln!(
+                text,
+                "  exactly   irrational, a root of {}",
+                defining(toi, decision)
+            );
         }
     }
     let _ = writeln!(text, "  decimals  {}", number::decimal(toi));
@@ -171,6 +181,15 @@ fn impact<Z: Integer>(text: &mut String, decision: &Decision<Z>, answer: &ExactA
         place(&hit.first, hit.second.as_ref())
     );
     let _ = writeln!(text, "  kind      {}", kind(&hit));
+}
+
+/// The polynomial that the time of impact is a root of.
+fn defining<Z: Integer>(toi: &Algebraic<Z>, decision: &Decision<Z>) -> String {
+    let poly = toi.poly().primitive_part();
+    match poly == decision.f().primitive_part() {
+        true => "f".to_owned(),
+        false => number::polynomial(&poly),
+    }
 }
 
 fn kind(hit: &ExactHit) -> String {
@@ -196,11 +215,15 @@ fn kind(hit: &ExactHit) -> String {
 }
 
 fn verdicts(text: &mut String, subjects: &[Judged], query: &Query, truth: &ExactAnswer) {
-    text.push_str("\nWhat the subjects say\n");
-    for judged in subjects {
+    let rows = subjects.iter().map(|judged| {
         let found = judged.judge(query, truth);
-        let name = judged.subject.name();
-        let _ = writeln!(text, "  {name:<18}{:<44}{}", claim(&found), worth(&found));
+        (judged.subject.name(), claim(&found), worth(&found))
+    });
+    let rows: Vec<_> = rows.collect();
+    let width = rows.iter().map(|row| row.1.len()).max().unwrap_or(0);
+    text.push_str("\nWhat the subjects say\n");
+    for (name, claim, worth) in rows {
+        let _ = writeln!(text, "  {name:<17} {claim:<width$}  {worth}");
     }
 }
 
@@ -223,18 +246,25 @@ fn claim(found: &Found) -> String {
     }
 }
 
+/// The verdict, and what else is wrong.
 fn worth(found: &Found) -> String {
-    let words = found.faults.iter().map(|&(fault, severity)| match fault {
+    let is_verdict = |fault| {
+        !matches!(
+            fault,
+            Fault::WrongCase | Fault::Differs | Fault::Late | Fault::Early
+        )
+    };
+    let is_right = !found.faults.iter().any(|&(fault, _)| is_verdict(fault));
+    let faults = found.faults.iter().map(|&(fault, severity)| match fault {
         Fault::FalseHit => format!("false hit (gap {} m)", table::short(severity)),
         Fault::Late | Fault::Early => format!("{} by {}", fault.name(), table::short(severity)),
         _ => fault.name().to_owned(),
     });
-    let mut words: Vec<_> = words.collect();
-    if words.is_empty() {
-        words.push("right".to_owned());
-    }
-    if !found.errata.is_empty() {
-        words.push(format!("erratum {}", found.errata.join(" + ")));
-    }
+    let errata = match found.errata.as_slice() {
+        [] => None,
+        errata => Some(format!("erratum {}", errata.join(" + "))),
+    };
+    let right = is_right.then(|| "right".to_owned());
+    let words: Vec<_> = right.into_iter().chain(faults).chain(errata).collect();
     words.join(", ")
 }
