@@ -62,14 +62,14 @@ fn details(answer: &ExactAnswer, hit: &ExactHit) -> String {
 
 /// `= 0.5`, or `\u{2248} 0.333333` where six digits are not the whole number.
 fn about(number: Enclosure) -> String {
-    let rounded = format!("{:.6}", number.below);
+    let value = number.below;
+    let rounded = format!("{value:.6}");
     let short = rounded.trim_end_matches('0').trim_end_matches('.');
-    if number.is_exact() && short.parse() == Ok(number.below) {
-        return format!("= {short}");
-    }
-    match number.below {
-        value if value > 0.0 && value < 1e-4 => format!("\u{2248} {value:.3e}"),
-        _ => format!("\u{2248} {rounded}"),
+    let is_whole = number.is_exact() && short.parse() == Ok(value);
+    match (is_whole, value > 0.0 && value < 1e-4) {
+        (true, _) => format!("= {short}"),
+        (false, true) => format!("\u{2248} {value:.3e}"),
+        (false, false) => format!("\u{2248} {short}"),
     }
 }
 
@@ -98,7 +98,7 @@ pub(super) fn legend(canvas: &mut Canvas, is_hit: bool) {
         for edge in 0..2 {
             let y = 567.0 + 13.0 * edge as f64;
             let ends = [Vector2::new(x, y), Vector2::new(x + 26.0, y)];
-            draw_edge(canvas, ends, edge, when, 0.7);
+            draw_edge(canvas, ends, edge, when, 0.65);
         }
         canvas.text(Vector2::new(x + 38.0, 578.0), words, name);
         x += 60.0 + 8.0 * name.len() as f64;

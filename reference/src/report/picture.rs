@@ -35,7 +35,6 @@ pub fn draw(title: &str, query: &Query, answer: &ExactAnswer) -> String {
     caption::title(&mut canvas, title);
     scene.draw_paths(&mut canvas);
     scene.draw_edges(&mut canvas);
-    scene.draw_contacts(&mut canvas);
     scene.draw_labels(&mut canvas);
     caption::caption(&mut canvas, answer, scene.is_drawn_apart);
     caption::legend(&mut canvas, answer.hit.is_some());
@@ -53,13 +52,13 @@ pub(super) fn draw_edge(
     let paint = &PAINTS[edge];
     match when {
         When::Start => {
-            canvas.line(ends, PAPER, 14.0 * size);
-            canvas.line(ends, paint.solid, 11.0 * size);
-            canvas.line(ends, paint.faint, 8.4 * size);
+            canvas.line(ends, PAPER, 17.0 * size);
+            canvas.line(ends, paint.solid, 14.0 * size);
+            canvas.line(ends, paint.faint, 11.4 * size);
         }
         When::End => {
-            canvas.line(ends, PAPER, 14.0 * size);
-            canvas.line(ends, paint.solid, 11.0 * size);
+            canvas.line(ends, PAPER, 11.0 * size);
+            canvas.line(ends, paint.solid, 8.5 * size);
         }
         When::Impact => {
             canvas.line(ends, PAPER, 6.0 * size);
@@ -139,18 +138,16 @@ impl Scene {
         }
     }
 
-    /// The far ones first; those at the time of impact on top.
+    /// Start, end and impact on top of each other, thick to thin, so that none hides another where
+    /// they coincide; of each the far edge first.
     fn draw_edges(&self, canvas: &mut Canvas) {
-        let is_impact = |stroke: &&Stroke| stroke.when == When::Impact;
-        let (impact, others): (Vec<_>, Vec<_>) = self.strokes.iter().partition(is_impact);
-        for stroke in others.into_iter().chain(impact) {
-            draw_edge(canvas, stroke.ends, stroke.edge, stroke.when, 1.0);
-        }
-    }
-
-    fn draw_contacts(&self, canvas: &mut Canvas) {
-        if let [a, b] = self.contacts[..] {
-            canvas.line([a, b], "#f6b26b", 7.0);
+        for when in [When::Start, When::End, When::Impact] {
+            if let ([a, b], When::Impact) = (&self.contacts[..], when) {
+                canvas.line([*a, *b], "#f9b872", 13.0);
+            }
+            for stroke in self.strokes.iter().filter(|stroke| stroke.when == when) {
+                draw_edge(canvas, stroke.ends, stroke.edge, when, 1.0);
+            }
         }
         for &at in &self.contacts {
             canvas.sphere(at, 8.5);

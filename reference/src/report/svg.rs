@@ -78,9 +78,9 @@ impl Canvas {
         ));
     }
 
-    /// The path of an end of this edge, with an arrow in the middle if there is room for it.
+    /// The path of an end of this edge, with an arrow past its middle if there is room for it.
     pub(super) fn path(&mut self, [from, to]: [Vector2<f64>; 2], edge: usize) {
-        let middle = (from + to) * 0.5;
+        let middle = from + (to - from) * 0.6;
         let marker = match (to - from).norm() > 30.0 {
             true => format!(r#" marker-mid="url(#arrow{edge})""#),
             false => String::new(),
