@@ -16,3 +16,6 @@ pub mod strict;
 pub mod table;
 pub mod tally;
 pub mod verdict;
+
+#[cfg(test)]
+mod tests;

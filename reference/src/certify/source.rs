@@ -3,7 +3,7 @@
 use tunnelproof::query::Query;
 use tunnelproof::scenario::figures::{FIGURES, Figure};
 
-use crate::corpus::{self, CorpusError, Entries, Entry, ReadOptions};
+use crate::corpus::{self, CorpusError, Entries, Entry, Problem, ReadOptions};
 use crate::generate::{Family, GeneratedId};
 
 /// A finite sequence of queries with a name.
@@ -105,11 +105,12 @@ impl Source {
 ///
 /// [`CorpusError`] if there is none.
 pub fn locate(identifier: &str, options: ReadOptions) -> Result<Entry, CorpusError> {
-    let name = identifier.strip_prefix(FIGURE);
-    match name.and_then(Figure::from_name) {
-        Some(case) => Ok(figure(case)),
-        None => corpus::locate::locate(identifier, options),
-    }
+    let Some(name) = identifier.strip_prefix(FIGURE) else {
+        return corpus::locate::locate(identifier, options);
+    };
+    let case = Figure::from_name(name);
+    case.map(figure)
+        .ok_or_else(|| CorpusError::new(identifier, Problem::NoFigure))
 }
 
 const FIGURE: &str = "figure:";

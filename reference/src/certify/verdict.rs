@@ -59,7 +59,7 @@ impl Judgement {
         verdict: Verdict::NoAnswer,
         is_hit: false,
         wrong_case: false,
-        differs: true,
+        differs: false,
         late: 0.0,
         early: 0.0,
     };

@@ -24,7 +24,7 @@ mod output;
 
 /// Judges continuous collision detection of moving edges against exact arithmetic.
 #[derive(Parser)]
-#[command(version, arg_required_else_help = true)]
+#[command(name = "tunnelproof", version, arg_required_else_help = true)]
 pub(crate) struct Cli {
     /// Threads to work on; by default RAYON_NUM_THREADS, or one for each core
     #[arg(long, global = true, value_name = "N")]

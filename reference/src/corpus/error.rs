@@ -4,6 +4,7 @@ use std::fmt;
 use std::io;
 
 use tunnelproof::query::{QueryError, QueryKind};
+use tunnelproof::scenario::figures::FIGURES;
 
 use super::dyadic::NotF64;
 use super::hexfloat::HexFloatError;

@@ -81,6 +81,7 @@ pub(super) fn polynomial<Z: Integer>(poly: &Poly<Z>) -> String {
 pub(super) fn scaled<Z: Integer>(value: &Z, exponent: i64) -> String {
     let (mantissa, own) = value.approximate();
     match own + exponent {
+        _ if value.is_zero() => "0".to_owned(),
         exponent @ -1000..=900 => short(mantissa * 2f64.powi(exponent as i32)),
         exponent => format!("{mantissa:e} * 2^{exponent}"),
     }

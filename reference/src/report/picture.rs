@@ -229,3 +229,81 @@ fn contacts(hit: &ExactHit, [a, b, ..]: &[Vector3<f64>; 4]) -> Vec<Vector3<f64>>
 fn middle(number: Enclosure) -> f64 {
     number.below + (number.above - number.below) * 0.5
 }
+
+#[cfg(test)]
+mod tests {
+    use tunnelproof::query::{EdgeEdge, Point};
+    use tunnelproof::scenario::figures::FIGURES;
+
+    use super::*;
+    use crate::generate::FAMILIES;
+    use crate::oracle::decide_query;
+
+    /// Every number in the picture's geometry, and whether the document is well-formed.
+    fn coordinates(query: &Query) -> Vec<f64> {
+        let answer = decide_query(query).unwrap();
+        let svg = draw("a <query> & \"more\"", query, &answer);
+        let document = roxmltree::Document::parse(&svg).unwrap();
+        let names = ["x1", "y1", "x2", "y2", "cx", "cy", "x", "y"];
+        let shapes = document.descendants().filter(|node| {
+            let name = node.tag_name().name();
+            ["line", "circle", "text"].contains(&name)
+        });
+        shapes
+            .flat_map(|node| names.map(|name| node.attribute(name).map(str::parse)))
+            .flatten()
+            .map(Result::unwrap)
+            .collect()
+    }
+
+    #[test]
+    fn picture_of_every_figure_and_family_stays_on_the_sheet() {
+        let figures = FIGURES.iter().map(|case| Query::EdgeEdge(case.query()));
+        let drawn = FAMILIES
+            .iter()
+            .flat_map(|family| (0..150).map(|i| family.query(5, i)));
+        for query in figures.chain(drawn) {
+            for value in coordinates(&query) {
+                assert!((0.0..=WIDTH).contains(&value), "{value} in {query:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn picture_of_extreme_points_has_finite_numbers() {
+        for size in [0.0, f64::from_bits(1), 1e-200, 1e300, f64::MAX] {
+            let point = |x: f64, y: f64, z: f64| Point::new(x, y, z) * size;
+            let start = [
+                point(-1.0, 0.0, 0.0),
+                point(1.0, 0.0, 0.0),
+                point(0.0, -1.0, 1.0),
+                point(0.0, 1.0, 1.0),
+            ];
+            let end = [
+                start[0],
+                start[1],
+                point(0.0, -1.0, -1.0),
+                point(0.0, 1.0, -1.0),
+            ];
+            let query = Query::EdgeEdge(EdgeEdge::new(start, end, 0.0).unwrap());
+            for value in coordinates(&query) {
+                assert!((0.0..=WIDTH).contains(&value), "{value} at size {size}");
+            }
+        }
+    }
+
+    #[test]
+    fn picture_title_of_any_length_is_cut() {
+        let query = Query::EdgeEdge(FIGURES[0].query());
+        let answer = decide_query(&query).unwrap();
+        let svg = draw(&"long".repeat(1000), &query, &answer);
+        let document = roxmltree::Document::parse(&svg).unwrap();
+        let texts = document
+            .descendants()
+            .filter(|node| node.has_tag_name("text"));
+        let longest = texts
+            .filter_map(|node| node.text())
+            .map(|text| text.chars().count());
+        assert!(longest.max().unwrap() <= 100);
+    }
+}

@@ -122,3 +122,50 @@ fn longest_extent(
     let angle = 0.5 * f64::atan2(2.0 * xy, xx - yy);
     first * angle.cos() + second * angle.sin()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn view_of_a_plane_shows_it_undistorted() {
+        let normal = Vector3::new(1.0, 2.0, -2.0) / 3.0;
+        let across = Vector3::new(2.0, 1.0, 2.0) / 3.0;
+        let along = normal.cross(&across);
+        let points = [(0.0, 0.0), (4.0, 0.0), (1.0, 2.0), (3.0, -1.0)]
+            .map(|(x, y)| across * x + along * y + normal * 7.0);
+        let view = View::of(&points, &[[0, 1], [2, 3]]);
+        for [i, j] in pairs(4) {
+            let seen = (view.project(&points[i]) - view.project(&points[j])).norm() * view.unit;
+            let length = (points[i] - points[j]).norm();
+            assert!(seen > 0.98 * length && seen < 1.0001 * length);
+        }
+    }
+
+    #[test]
+    fn view_looks_at_no_edge_end_on() {
+        let points = [
+            Vector3::new(0.0, 0.0, -1.0),
+            Vector3::new(0.0, 0.0, 1.0),
+            Vector3::new(1.0, -0.5, 0.0),
+            Vector3::new(2.0, 0.5, 0.3),
+        ];
+        let view = View::of(&points, &[[0, 1], [2, 3]]);
+        for [i, j] in [[0, 1], [2, 3]] {
+            let seen = (view.project(&points[i]) - view.project(&points[j])).norm() * view.unit;
+            assert!(seen > 0.5 * (points[i] - points[j]).norm());
+        }
+    }
+
+    #[test]
+    fn view_shows_the_z_axis_upwards() {
+        let points = [
+            Vector3::new(0.0, 0.0, 0.0),
+            Vector3::new(1.0, 0.0, 0.2),
+            Vector3::new(0.3, 0.1, 0.9),
+        ];
+        let view = View::of(&points, &[]);
+        let [low, high] = [points[0], Vector3::z()].map(|point| view.project(&point).y);
+        assert!(high > low);
+    }
+}
