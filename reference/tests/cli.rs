@@ -1,5 +1,11 @@
 //! The command line from outside: what it writes, and how it ends.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
 use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
@@ -410,7 +416,7 @@ fn explain_names_that_are_wrong_are_refused() {
         ("knot:1:2", "no such family"),
         ("figure:9.9", "there are 4.1 to 4.12"),
         ("lattice:1:x", "index"),
-        ("nothing", "FAMILY:SEED:INDEX"),
+        ("nothing", "figure:NAME"),
     ] {
         assert_refused(&tunnelproof(&["explain", name]), name, None, what);
     }

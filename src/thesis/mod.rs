@@ -15,9 +15,9 @@
 //! impact, which 2.2.2 asks for.
 //!
 //! The path is a heuristic: it rounds, and it decides by thresholds. It can miss contacts and
-//! report contacts that do not exist. Where differences or products of coordinates overflow, no
-//! comparison holds for a NaN, so that nothing counts as zero or as equal because of it; the
-//! answer then means little, but it is a miss or a contact made of finite numbers.
+//! report contacts that do not exist. Where differences or products of coordinates overflow, a NaN
+//! counts neither as zero nor as equal to anything; the answer then means little, but it is a miss
+//! or a contact made of finite numbers.
 
 pub mod detect;
 pub mod general;

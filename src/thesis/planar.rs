@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn static_segments_need_exact_arithmetic_no_more_than_their_thresholds_allow() {
+    fn static_segments_below_a_millimetre_never_cross_by_the_distance_threshold() {
         let mut by_distance = Options::default();
         by_distance.thresholds.parallel = by_distance.thresholds.dist;
         // Perpendicular segments of half a millimetre.
@@ -327,6 +327,22 @@ mod tests {
         assert_eq!(toi, Some(0.5));
         let toi = moving_point_segment_intersection(&sliding, &p0, &p1, &published());
         assert_eq!(toi, None);
+    }
+
+    #[test]
+    fn planar_case_without_permanent_points_loses_contacts_to_rounding() {
+        // A slides along the line of CD and meets D at 1/3.
+        let a = moving([1.0, 1.0, 0.0], [-2.0, 0.0, 0.0]);
+        let b = moving([1.0, 0.0, 0.0], [0.0, -1.0, 0.0]);
+        let c = moving([0.0, 1.0, 0.0], [1.0, 0.0, 0.0]);
+        let d = moving([-1.0, 1.0, 0.0], [1.0, 0.0, 0.0]);
+        let without = Options {
+            repairs: Repairs::SLIPS.without(Erratum::PermanentPointOnLine),
+            ..Options::default()
+        };
+        let toi = handle_2d_case(&[a, b, c, d], &Options::default());
+        assert_eq!(toi, Some(1.0 / 3.0));
+        assert_eq!(handle_2d_case(&[a, b, c, d], &without), None);
     }
 
     #[test]

@@ -78,15 +78,19 @@ pub fn solve<const N: usize>(coefficients: [f64; N]) -> Roots {
 /// The coefficients times a power of two, where their own size would overflow or underflow later.
 fn rescaled<const N: usize>(coefficients: [f64; N]) -> [f64; N] {
     let largest = coefficients.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-    let two = 2.0_f64;
-    let factor = if largest > two.powi(900) {
-        two.powi(-200)
-    } else if largest < two.powi(-400) {
-        two.powi(500)
+    let factor = if largest > power_of_two(900) {
+        power_of_two(-200)
+    } else if largest < power_of_two(-400) {
+        power_of_two(500)
     } else {
         return coefficients;
     };
     coefficients.map(|c| c * factor)
+}
+
+/// `2^exponent`, for exponents of normal numbers.
+const fn power_of_two(exponent: i64) -> f64 {
+    f64::from_bits(((exponent + 1023) as u64) << 52)
 }
 
 /// The roots of a polynomial whose leading coefficient is not 0.
@@ -295,7 +299,7 @@ mod tests {
     fn solve_takes_huge_and_tiny_coefficients() {
         let plain = cubic(0.25, 0.5, 0.75);
         for scale in [1023, 900, -400, -1000] {
-            let scaled = plain.map(|c| c * 2.0_f64.powi(scale));
+            let scaled = plain.map(|c| c * power_of_two(scale));
             let roots = solve(scaled);
             let overflows = scaled.iter().any(|c| c.is_infinite());
             let expected: &[f64] = if overflows { &[] } else { &[0.25, 0.5, 0.75] };

@@ -45,8 +45,8 @@ pub struct Thresholds {
     pub colinear: f64,
 }
 
-/// 100 `DBL_EPSILON`, as table 3.1 writes it.
-const COEFFICIENTS: f64 = 2.220_446_049_250_313_1e-14;
+/// 100 `DBL_EPSILON`; table 3.1 writes 2.2204460492503131e-14.
+const COEFFICIENTS: f64 = 100.0 * f64::EPSILON;
 
 impl Default for Thresholds {
     /// Table 3.1, and for what it does not name the readings above.
@@ -94,7 +94,8 @@ mod tests {
         assert_eq!(thresholds.dist, 1.0e-6);
         assert_eq!(thresholds.dist_1d, 1.0e-6);
         assert_eq!(thresholds.t, 1.0e-9);
-        assert_eq!(thresholds.coefficients_quadratic, 100.0 * f64::EPSILON);
-        assert_eq!(thresholds.coefficients_cubic, 100.0 * f64::EPSILON);
+        let printed: f64 = "2.2204460492503131e-14".parse().unwrap();
+        assert_eq!(thresholds.coefficients_quadratic, printed);
+        assert_eq!(thresholds.coefficients_cubic, printed);
     }
 }

@@ -67,7 +67,11 @@ mod tests {
     fn map_in_order_keeps_the_order_over_many_batches() {
         let items = (0..3 * BATCH as u64 + 7).map(Ok::<_, ()>);
         let mut seen = Vec::new();
-        map_in_order(items, |n| Ok(n * n), |results| Ok(seen.extend(results))).unwrap();
+        let sink = |results: Vec<_>| {
+            seen.extend(results);
+            Ok(())
+        };
+        map_in_order(items, |n| Ok(n * n), sink).unwrap();
         let expected: Vec<_> = (0..3 * BATCH as u64 + 7).map(|n| n * n).collect();
         assert_eq!(seen, expected);
     }

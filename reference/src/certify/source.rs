@@ -1,9 +1,8 @@
 //! Where the queries that are judged come from.
 
-use tunnelproof::query::Query;
-use tunnelproof::scenario::figures::{FIGURES, Figure};
+use tunnelproof::scenario::figures::FIGURES;
 
-use crate::corpus::{self, CorpusError, Entries, Entry, Problem, ReadOptions};
+use crate::corpus::{self, CorpusError, Entries, Entry, ReadOptions};
 use crate::generate::{Family, GeneratedId};
 
 /// A finite sequence of queries with a name.
@@ -55,7 +54,7 @@ impl Source {
     /// [`CorpusError`] if a corpus cannot be opened.
     pub fn entries(&self) -> Result<Entries, CorpusError> {
         match self {
-            Source::Figures => Ok(Box::new(FIGURES.iter().map(|case| Ok(figure(case))))),
+            Source::Figures => Ok(Box::new(corpus::figures::entries().map(Ok))),
             &Source::Family {
                 family,
                 seed,
@@ -95,31 +94,5 @@ impl Source {
             (Source::File { path, .. }, Some(line)) => format!("{path}:{line}"),
             _ => entry.id.clone(),
         }
-    }
-}
-
-/// The query that an identifier names: `figure:NAME`, or one that
-/// [`corpus::locate`](crate::corpus::locate) knows.
-///
-/// # Errors
-///
-/// [`CorpusError`] if there is none.
-pub fn locate(identifier: &str, options: ReadOptions) -> Result<Entry, CorpusError> {
-    let Some(name) = identifier.strip_prefix(FIGURE) else {
-        return corpus::locate::locate(identifier, options);
-    };
-    let case = Figure::from_name(name);
-    case.map(figure)
-        .ok_or_else(|| CorpusError::new(identifier, Problem::NoFigure))
-}
-
-const FIGURE: &str = "figure:";
-
-fn figure(case: &Figure) -> Entry {
-    Entry {
-        id: format!("{FIGURE}{}", case.name),
-        query: Query::EdgeEdge(case.query()),
-        label: Some(case.contact.is_some()),
-        line: None,
     }
 }

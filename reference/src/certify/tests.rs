@@ -341,7 +341,7 @@ fn certify_wrong_labels_are_found() {
     assert_eq!((block.labels, block.wrong_labels.count), (100, wrong));
     let witness = block.wrong_labels.worst.as_ref().unwrap();
     assert_eq!(witness.id, format!("{path}#lattice:3:0"));
-    let entry = super::source::locate(&witness.id, ReadOptions::default()).unwrap();
+    let entry = crate::corpus::locate::locate(&witness.id, ReadOptions::default()).unwrap();
     assert_eq!(entry.query, witness.query);
     assert_eq!(failures(&panel, &block).len(), 1);
 }

@@ -7,7 +7,7 @@ use clap::Args;
 use tunnelproof::narrow::Unsupported;
 use tunnelproof::query::{EdgeEdge, Query};
 use tunnelproof_reference::certify::run::RunError;
-use tunnelproof_reference::certify::source;
+use tunnelproof_reference::corpus::locate::locate;
 use tunnelproof_reference::oracle::decide_query;
 use tunnelproof_reference::registry;
 use tunnelproof_reference::report::{explanation, picture};
@@ -36,7 +36,7 @@ pub(super) struct Explain {
 
 impl Explain {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
-        let entry = source::locate(&self.query, self.reading.options())?;
+        let entry = locate(&self.query, self.reading.options())?;
         let svg = self.svg.as_deref().map(OutputFile::create).transpose()?;
         let refused = |reason| {
             let place = self.query.clone();

@@ -54,7 +54,7 @@ pub(super) fn entries<I: Iterator<Item = Result<Line, CorpusError>>>(
     options: ReadOptions,
 ) -> Result<impl Iterator<Item = Result<Entry, CorpusError>> + use<I>, CorpusError> {
     let kind = options
-        .kind_of(kind_in_path(path), "the path")
+        .kind_of(kind_in_path(path))
         .map_err(|problem| CorpusError::new(path, problem))?;
     Ok(Entries {
         lines,

@@ -41,11 +41,8 @@ pub enum Problem {
     #[error("line is not UTF-8")]
     NotUtf8,
     /// Nothing says of which kind the query is.
-    #[error("{place} names neither edge-edge nor vertex-face; pass --kind")]
-    KindMissing {
-        /// What could have said it.
-        place: &'static str,
-    },
+    #[error("states no kind; pass --kind edge-edge or --kind vertex-face")]
+    KindMissing,
     /// The kind has another name than the two there are.
     #[error("kind is {}, neither edge-edge nor vertex-face", quoted(.0))]
     KindUnknown(String),
@@ -145,10 +142,13 @@ pub enum Problem {
     },
     /// The text is not of the form of an identifier.
     #[error(
-        "not a query: that is PATH.csv#INDEX, PATH.jsonl#ID, FAMILY:SEED:INDEX, or - for the \
-         standard input"
+        "not a query: that is PATH.csv#INDEX, PATH.jsonl#ID, FAMILY:SEED:INDEX, figure:NAME, or - \
+         for the standard input"
     )]
     Identifier,
+    /// The text has the form of a figure, but names none.
+    #[error("no such figure; there are 4.1 to 4.{}", FIGURES.len())]
+    Figure,
     /// The text has the form of a generated query, but names none.
     #[error(transparent)]
     Generated(IdError),
@@ -186,11 +186,7 @@ impl fmt::Display for CorpusError {
     }
 }
 
-impl std::error::Error for CorpusError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        Some(&self.problem)
-    }
-}
+impl std::error::Error for CorpusError {}
 
 /// `text` with its control characters escaped, so that it stays on one line.
 fn one_line(text: &str) -> String {

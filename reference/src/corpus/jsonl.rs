@@ -76,7 +76,7 @@ fn entry(line: &Line, options: ReadOptions) -> Result<Entry, Problem> {
         Some(name) => Some(QueryKind::from_name(&name).ok_or(Problem::KindUnknown(name))?),
         None => None,
     };
-    let kind = options.kind_of(stated, "the line")?;
+    let kind = options.kind_of(stated)?;
     let mut points = [Point::origin(); 8];
     if record.points.len() != points.len() {
         return Err(Problem::PointCount(record.points.len()));
