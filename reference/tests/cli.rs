@@ -352,6 +352,15 @@ fn certify_strict_fails_on_a_wrong_label() {
 }
 
 #[test]
+fn certify_of_nothing_is_refused() {
+    let output = tunnelproof(&["certify", "--strict", "--family", "lattice", "--count", "0"]);
+    assert_eq!((code(&output), stdout(&output).as_str()), (2, ""));
+    assert_eq!(stderr(&output), "--count 0: no query is left to judge\n");
+    let output = tunnelproof(&["certify", "--count", "0"]);
+    assert!(stdout(&output).contains("agree on all 12 queries"));
+}
+
+#[test]
 fn certify_json_holds_rows_and_witnesses_that_explain_understands() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("results.json");

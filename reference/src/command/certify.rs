@@ -36,7 +36,11 @@ Without files: the figure cases and every family. With files: these, and the fam
 Columns: hits that the subject reports; tunnels, crossings that it misses; missed grazes, contacts
 without crossing that it misses; false hits; near hits, false hits within the distance that the
 subject declares of itself; wrong cases; queries it gives no answer to; and how far the worst time of
-impact is behind (late: dangerous) or ahead of (early: safe) the exact one.")]
+impact is behind (late: dangerous) or ahead of (early: safe) the exact one.
+
+Of the witnesses, \"central\" is 1 if the time and the parameters of the missed contact are in the
+middle of the step and the edges, 0 if they are at the ends; \"gap\" is the least distance during the
+step.")]
 pub(super) struct Certify {
     /// Files of queries (.jsonl or .csv); - is the standard input
     #[arg(value_name = "FILE")]
@@ -47,7 +51,7 @@ pub(super) struct Certify {
     /// Families of generated queries; by default all, or none if files are given
     #[arg(long, value_delimiter = ',', value_parser = family())]
     family: Vec<&'static Family>,
-    /// How many queries of each family
+    /// How many queries of each family; 0 for none
     #[arg(long, value_name = "N", default_value_t = 20_000)]
     count: u64,
     /// The seed of the families
@@ -65,9 +69,13 @@ pub(super) struct Certify {
 
 impl Certify {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
+        let sources = self.sources();
+        if sources.is_empty() {
+            return Err(Failure::Nothing);
+        }
         let json = self.json.as_deref().map(OutputFile::create).transpose()?;
         let panel = self.panel();
-        let blocks = judge(&panel, &self.sources())?;
+        let blocks = judge(&panel, &sources)?;
         let mut total = Block {
             name: "all".to_owned(),
             ..Block::default()

@@ -62,6 +62,8 @@ enum Failure {
         /// Why it cannot be.
         error: io::Error,
     },
+    /// There is nothing to do.
+    Nothing,
     /// The threads cannot be started.
     Threads(rayon::ThreadPoolBuildError),
 }
@@ -132,6 +134,7 @@ impl fmt::Display for Failure {
         match self {
             Failure::Input(error) => error.fmt(f),
             Failure::Output { name, error } => write!(f, "{name}: cannot be written: {error}"),
+            Failure::Nothing => f.write_str("--count 0: no query is left to judge"),
             Failure::Threads(error) => write!(f, "--threads: {error}"),
         }
     }
