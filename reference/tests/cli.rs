@@ -351,6 +351,22 @@ fn certify_strict_fails_on_a_wrong_label() {
     }
 }
 
+#[cfg(unix)]
+#[test]
+fn certify_witness_from_the_standard_input_comes_with_its_query() {
+    let label = CROSSING.replace("\"id\"", "\"label\":0,\"id\"");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("results.json");
+    let output = with_input(&["certify", "--json", path.to_str().unwrap(), "-"], &label);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let results: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    let witness = &results["total"]["wrong_labels"]["worst"];
+    let command = witness["command"].as_str().unwrap();
+    let command = command.replace("cargo run --release --", env!("CARGO_BIN_EXE_tunnelproof"));
+    let explained = Command::new("sh").args(["-c", &command]).output().unwrap();
+    assert!(stdout(&explained).contains("exactly   1/3"), "{command}");
+}
+
 #[test]
 fn certify_of_nothing_is_refused() {
     let output = tunnelproof(&["certify", "--strict", "--family", "lattice", "--count", "0"]);

@@ -1,5 +1,6 @@
 //! Work on a stream in parallel, results in the order of the stream.
 
+use std::panic::resume_unwind;
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread;
 
@@ -27,7 +28,7 @@ where
     E: Send + 'static,
 {
     let (sender, receiver) = sync_channel(BATCH);
-    thread::spawn(move || {
+    let reader = thread::spawn(move || {
         for item in items {
             if sender.send(item).is_err() {
                 return;
@@ -49,7 +50,11 @@ where
             return Err(error);
         }
     }
-    Ok(())
+    // A stream that panics has not ended.
+    match reader.join() {
+        Ok(()) => Ok(()),
+        Err(panic) => resume_unwind(panic),
+    }
 }
 
 /// The items that are there, at least one; `None` at the end of the stream.
@@ -74,6 +79,16 @@ mod tests {
         map_in_order(items, |n| Ok(n * n), sink).unwrap();
         let expected: Vec<_> = (0..3 * BATCH as u64 + 7).map(|n| n * n).collect();
         assert_eq!(seen, expected);
+    }
+
+    #[test]
+    #[should_panic(expected = "broken stream")]
+    fn map_in_order_stream_that_panics_does_not_pass_for_its_end() {
+        let items = (0..10).map(|n| match n {
+            7 => panic!("broken stream"),
+            n => Ok::<_, ()>(n),
+        });
+        let _ = map_in_order(items, Ok, |_| Ok(()));
     }
 
     #[test]

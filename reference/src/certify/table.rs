@@ -1,7 +1,8 @@
 //! The result of certification as text.
 
 use super::run::{Block, Panel};
-use super::tally::{Explained, Fault, Finding, Tally};
+use super::tally::{Explained, Fault, Finding, Tally, Witness};
+use crate::corpus::jsonl::{self, Numbers};
 
 /// The width of the subjects' names.
 const NAME: usize = 18;
@@ -136,7 +137,7 @@ pub fn witnesses(panel: &Panel, total: &Block) -> String {
                 judged.subject.name(),
                 fault.name(),
                 measure(*fault, witness.severity),
-                command(&witness.id)
+                command(witness)
             ));
         }
     }
@@ -156,14 +157,26 @@ fn measure(fault: Fault, severity: f64) -> String {
     }
 }
 
-/// The command that explains a query, ready to paste into a shell.
-pub fn command(id: &str) -> String {
+/// The command that explains a witness, ready to paste into a shell.
+pub fn command(witness: &Witness) -> String {
+    const EXPLAIN: &str = "cargo run --release -- explain";
+    if !witness.id.starts_with(STANDARD_INPUT) {
+        return format!("{EXPLAIN} {}", quoted(&witness.id));
+    }
+    let line = jsonl::write(&witness.entry(), Numbers::Decimal);
+    format!("echo {} | {EXPLAIN} -", quoted(&line))
+}
+
+/// What the identifiers of queries begin with that no file holds.
+const STANDARD_INPUT: &str = "-#";
+
+/// A text as one word of a shell.
+fn quoted(text: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-./:@%+,=".contains(c);
-    let id = match id.chars().all(is_plain) {
-        true => id.to_owned(),
-        false => format!("'{}'", id.replace('\'', r"'\''")),
-    };
-    format!("cargo run --release -- explain {id}")
+    match text.chars().all(is_plain) {
+        true => text.to_owned(),
+        false => format!("'{}'", text.replace('\'', r"'\''")),
+    }
 }
 
 fn count(tally: &Tally, fault: Fault) -> String {
@@ -194,4 +207,40 @@ pub fn grouped(number: u64) -> String {
         text.push(digit);
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quoted_text_is_one_word() {
+        assert_eq!(quoted("lattice:1:4711"), "lattice:1:4711");
+        assert_eq!(quoted("a b.csv#3"), "'a b.csv#3'");
+        assert_eq!(quoted("it's"), r"'it'\''s'");
+    }
+
+    #[test]
+    fn grouped_has_a_comma_between_thousands() {
+        for (number, text) in [
+            (0, "0"),
+            (999, "999"),
+            (1000, "1,000"),
+            (1234567, "1,234,567"),
+        ] {
+            assert_eq!(grouped(number), text);
+        }
+    }
+
+    #[test]
+    fn short_is_about_three_digits() {
+        for (number, text) in [
+            (0.0, "0"),
+            (1.0, "1.000"),
+            (2.449, "2.449"),
+            (1.1e-16, "1.1e-16"),
+        ] {
+            assert_eq!(short(number), text);
+        }
+    }
 }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use tunnelproof::query::Query;
 
 use crate::answer::{Enclosure, ExactAnswer, ExactHit};
+use crate::corpus::Entry;
 use crate::subject::Answer;
 
 use super::verdict::{Judgement, Verdict};
@@ -143,6 +144,18 @@ fn centrality(hit: &ExactHit) -> f64 {
         .iter()
         .sum::<f64>();
     sum * 2.0 / 3.0
+}
+
+impl Witness {
+    /// The query as an entry of a corpus.
+    pub fn entry(&self) -> Entry {
+        Entry {
+            id: self.id.clone(),
+            query: self.query,
+            label: None,
+            line: None,
+        }
+    }
 }
 
 impl Finding {

@@ -30,7 +30,6 @@ use crate::certify::run::{Block, Panel};
 use crate::certify::strict::failures;
 use crate::certify::table::command;
 use crate::certify::tally::{Explained, Fault, Finding, Tally, Witness};
-use crate::corpus::Entry;
 use crate::corpus::jsonl::{self, Numbers};
 use crate::field::{self, Integer};
 
@@ -207,18 +206,15 @@ impl<'a> From<&'a Explained> for ExplainedFields<'a> {
 
 impl<'a> From<&'a Witness> for WitnessFields<'a> {
     fn from(witness: &'a Witness) -> Self {
-        let entry = Entry {
-            id: witness.id.clone(),
-            query: witness.query,
-            label: None,
-            line: None,
+        let entry = witness.entry();
+        let query = |numbers| {
+            let line = jsonl::write(&entry, numbers);
+            serde_json::from_str(&line).expect("a query is written as JSON")
         };
-        let query =
-            |numbers| serde_json::from_str(&jsonl::write(&entry, numbers)).unwrap_or_default();
         WitnessFields {
             severity: witness.severity,
             id: &witness.id,
-            command: command(&witness.id),
+            command: command(witness),
             query: query(Numbers::Decimal),
             query_hexadecimal: query(Numbers::Hexadecimal),
             truth: Fields::exact(&witness.truth),
