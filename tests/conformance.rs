@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use tunnelproof::scenario::figures::FIGURES;
 
@@ -10,9 +10,8 @@ fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
-fn read(path: impl AsRef<Path>) -> String {
-    let path = root().join(path);
-    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+fn read(path: &str) -> String {
+    fs::read_to_string(root().join(path)).expect(path)
 }
 
 /// The tables of the page: rows of cells, the head first, without the line below it.
@@ -81,9 +80,13 @@ fn columns(table: &[Vec<String>]) -> Vec<(bool, Vec<Vec<Place>>)> {
         .collect()
 }
 
+fn is_part_of_name(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
 /// Whether a text defines an item or a field of this name.
 fn defines(text: &str, name: &str) -> bool {
-    let is_end = |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+    let is_end = |rest: &str| !rest.starts_with(is_part_of_name);
     let kinds = ["fn ", "struct ", "enum ", "static ", "pub "];
     kinds.iter().any(|kind| {
         let item = format!("{kind}{name}");
@@ -112,12 +115,12 @@ fn plain(name: &str) -> String {
 /// The functions of a folder whose documentation starts with `Algorithm N`, with that number.
 fn documented(folder: &str) -> BTreeSet<(u8, Place)> {
     let mut found = BTreeSet::new();
-    for entry in fs::read_dir(root().join(folder)).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
+    for entry in fs::read_dir(root().join(folder)).expect(folder) {
+        let entry = entry.expect(folder);
+        if entry.path().is_dir() {
             continue;
         }
-        let file = folder.to_owned() + path.file_name().unwrap().to_str().unwrap();
+        let file = folder.to_owned() + &entry.file_name().to_string_lossy();
         let text = read(&file);
         let mut lines = text.lines();
         while let Some(line) = lines.next() {
@@ -125,13 +128,16 @@ fn documented(folder: &str) -> BTreeSet<(u8, Place)> {
                 continue;
             };
             let digits: String = rest.chars().take_while(char::is_ascii_digit).collect();
-            let item = lines.find(|line| !line.starts_with("///")).unwrap();
-            let Some((_, signature)) = item.split_once("fn ") else {
+            let item = lines.find(|line| !line.starts_with("///"));
+            let Some((_, signature)) = item.and_then(|item| item.split_once("fn ")) else {
                 continue;
             };
-            let name = signature.split(['(', '<']).next().unwrap().to_owned();
-            let file = file.clone();
-            found.insert((digits.parse().unwrap(), Place { name, file }));
+            let name = signature.chars().take_while(|&c| is_part_of_name(c));
+            let place = Place {
+                name: name.collect(),
+                file: file.clone(),
+            };
+            found.insert((digits.parse().expect(line), place));
         }
     }
     found

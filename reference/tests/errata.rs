@@ -15,7 +15,7 @@ use tunnelproof_reference::subject::{Answer, Engine, Subject};
 
 fn page() -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/errata.md");
-    fs::read_to_string(path).unwrap()
+    fs::read_to_string(path).expect("the page is there")
 }
 
 /// A line of JSON in the page.
@@ -31,25 +31,23 @@ struct Witness {
 
 impl Witness {
     fn new(line: &str) -> Self {
-        let fields: Value = serde_json::from_str(line).unwrap();
+        let fields: Value = serde_json::from_str(line).expect(line);
         let time = |field: &str| match &fields[field] {
             Value::Null if fields.get(field).is_some() => None,
             value => Some(value.as_f64().expect(field)),
         };
         let lines = Cursor::new(line.to_owned());
         let mut entries =
-            corpus::read(lines, "page", Some(Format::Jsonl), ReadOptions::default()).unwrap();
-        let entry = entries.next().unwrap().unwrap();
-        let name = entry.id.split('/').next().unwrap();
+            corpus::read(lines, "page", Some(Format::Jsonl), ReadOptions::default()).expect(line);
+        let entry = entries.next().expect(line).expect(line);
+        let name = entry.id.split('/').next().unwrap_or_default();
+        let by = fields["by"].as_str();
+        assert!(matches!(by, Some("shadow" | "f64")), "{line}");
         Witness {
             erratum: Erratum::from_name(name).expect(name),
             right: time("right"),
             unrepaired: time("unrepaired"),
-            is_exact: match fields["by"].as_str() {
-                Some("shadow") => true,
-                Some("f64") => false,
-                by => panic!("{}: {by:?}", entry.id),
-            },
+            is_exact: by == Some("shadow"),
             query: entry.query,
             id: entry.id,
         }
@@ -73,7 +71,7 @@ impl Witness {
             };
             Engine(Thesis { options }).answer(&self.query)
         };
-        match answer.unwrap() {
+        match answer.expect(&self.id) {
             Answer::Exact(answer) => answer.hit.map(|hit| hit.toi.below),
             Answer::Engine(report) => report.verdict.contact().map(|contact| contact.toi),
         }
