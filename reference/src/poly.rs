@@ -45,6 +45,11 @@ impl<Z: Integer> Poly<Z> {
         self.coefficients.is_empty()
     }
 
+    /// Whether it is the polynomial 1.
+    pub fn is_one(&self) -> bool {
+        matches!(self.coefficients(), [constant] if *constant == Z::one())
+    }
+
     /// The degree; 0 for constants, the zero polynomial included.
     pub fn degree(&self) -> usize {
         self.coefficients.len().saturating_sub(1)
@@ -326,6 +331,11 @@ impl<Z: Integer> Poly<Z> {
                 _ => power(&g, delta).div_exact(&power(&h, delta - 1)),
             };
         }
+    }
+
+    /// Whether `other` is a multiple of it over the rationals; it is not 0.
+    pub fn divides(&self, other: &Self) -> bool {
+        other.pseudo_remainder(self).is_zero()
     }
 
     /// The remainder of `leading(other)^(1 + deg self - deg other) self` by `other`, which is not 0.

@@ -86,7 +86,11 @@ impl<'a, Z: Integer> Element<'a, Z> {
 }
 
 fn times<Z: Integer>(poly: &Rc<Poly<Z>>, factor: Option<&Rc<Poly<Z>>>) -> Rc<Poly<Z>> {
-    factor.map_or_else(|| poly.clone(), |factor| Rc::new(poly.mul(factor)))
+    match factor {
+        None => poly.clone(),
+        Some(factor) if poly.is_one() => factor.clone(),
+        Some(factor) => Rc::new(poly.mul(factor)),
+    }
 }
 
 fn product<Z: Integer>(a: Option<Rc<Poly<Z>>>, b: Option<&Rc<Poly<Z>>>) -> Option<Rc<Poly<Z>>> {
