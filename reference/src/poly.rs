@@ -12,11 +12,10 @@ pub struct Poly<Z> {
 
 impl<Z: Integer> Poly<Z> {
     /// The polynomial of these coefficients, ascending.
-    pub fn new(mut coefficients: Vec<Z>) -> Self {
-        while coefficients.last().is_some_and(Z::is_zero) {
-            coefficients.pop();
-        }
-        Poly { coefficients }
+    pub fn new(coefficients: Vec<Z>) -> Self {
+        let mut poly = Poly { coefficients };
+        poly.trim();
+        poly
     }
 
     /// The polynomial 0.
@@ -46,6 +45,11 @@ impl<Z: Integer> Poly<Z> {
         self.coefficients.is_empty()
     }
 
+    /// Whether it is the polynomial 1.
+    pub fn is_one(&self) -> bool {
+        matches!(self.coefficients(), [constant] if *constant == Z::one())
+    }
+
     /// The degree; 0 for constants, the zero polynomial included.
     pub fn degree(&self) -> usize {
         self.coefficients.len().saturating_sub(1)
@@ -58,26 +62,46 @@ impl<Z: Integer> Poly<Z> {
 
     /// `self + other`.
     pub fn add(&self, other: &Self) -> Self {
-        let (long, short) = if self.coefficients.len() < other.coefficients.len() {
-            (other, self)
-        } else {
-            (self, other)
-        };
-        let mut sum = long.coefficients.clone();
-        for (a, b) in sum.iter_mut().zip(&short.coefficients) {
-            a.add_assign(b);
-        }
-        Poly::new(sum)
+        let mut sum = self.clone();
+        sum.add_assign(other);
+        sum
     }
 
     /// `self - other`.
     pub fn sub(&self, other: &Self) -> Self {
-        let mut difference = self.coefficients.clone();
-        difference.resize(difference.len().max(other.coefficients.len()), Z::zero());
-        for (a, b) in difference.iter_mut().zip(&other.coefficients) {
+        let mut difference = self.clone();
+        difference.sub_assign(other);
+        difference
+    }
+
+    /// `self += other`.
+    pub fn add_assign(&mut self, other: &Self) {
+        self.lengthen(other.coefficients.len());
+        for (a, b) in self.coefficients.iter_mut().zip(&other.coefficients) {
+            a.add_assign(b);
+        }
+        self.trim();
+    }
+
+    /// `self -= other`.
+    pub fn sub_assign(&mut self, other: &Self) {
+        self.lengthen(other.coefficients.len());
+        for (a, b) in self.coefficients.iter_mut().zip(&other.coefficients) {
             a.sub_assign(b);
         }
-        Poly::new(difference)
+        self.trim();
+    }
+
+    fn lengthen(&mut self, length: usize) {
+        if self.coefficients.len() < length {
+            self.coefficients.resize(length, Z::zero());
+        }
+    }
+
+    fn trim(&mut self) {
+        while self.coefficients.last().is_some_and(Z::is_zero) {
+            self.coefficients.pop();
+        }
     }
 
     /// `-self`.
@@ -108,18 +132,13 @@ impl<Z: Integer> Poly<Z> {
         if a.is_zero() || b.is_zero() {
             return;
         }
-        let length = a.coefficients.len() + b.coefficients.len() - 1;
-        if self.coefficients.len() < length {
-            self.coefficients.resize(length, Z::zero());
-        }
+        self.lengthen(a.coefficients.len() + b.coefficients.len() - 1);
         for (i, x) in a.coefficients.iter().enumerate() {
             for (j, y) in b.coefficients.iter().enumerate() {
                 step(&mut self.coefficients[i + j], x, y);
             }
         }
-        while self.coefficients.last().is_some_and(Z::is_zero) {
-            self.coefficients.pop();
-        }
+        self.trim();
     }
 
     /// `factor * self`.
@@ -175,18 +194,12 @@ impl<Z: Integer> Poly<Z> {
 
     /// `binomial(n, i) b_i` for `i = 0 ..= n`, with `b_i` the Bernstein coefficients on `[0, 1]`.
     ///
-    /// From `t^k = t^k (t + (1 - t))^(n - k)`: the `i`-th is the sum over `k <= i` of
-    /// `binomial(n - k, i - k) a_k`.
+    /// With `t = x / (1 + x)`, `(1 + x)^n p(t)` has the `i`-th for the coefficient of `x^i`: read
+    /// backwards, `p` with `x` for `t` becomes it by a shift by one.
     pub fn scaled_bernstein(&self) -> Vec<Z> {
-        let n = self.degree();
-        let mut scaled = vec![Z::zero(); n + 1];
-        for (k, coefficient) in self.coefficients.iter().enumerate() {
-            let mut binomial = 1_i64;
-            for (j, sum) in (0_i64..).zip(&mut scaled[k..]) {
-                sum.add_product(coefficient, &Z::from_i64(binomial));
-                binomial = binomial * ((n - k) as i64 - j) / (j + 1);
-            }
-        }
+        let mut scaled: Vec<Z> = self.coefficients.iter().rev().cloned().collect();
+        shift_by_one(&mut scaled);
+        scaled.reverse();
         scaled
     }
 
@@ -209,17 +222,9 @@ impl<Z: Integer> Poly<Z> {
 
     /// `p(t + 1)`.
     pub fn shift_by_one(&self) -> Self {
-        let mut shifted = self.coefficients.clone();
-        let n = self.degree();
-        for start in 0..n {
-            for k in (start..n).rev() {
-                let (low, high) = shifted.split_at_mut(k + 1);
-                low[k].add_assign(&high[0]);
-            }
-        }
-        Poly {
-            coefficients: shifted,
-        }
+        let mut shifted = self.clone();
+        shift_by_one(&mut shifted.coefficients);
+        shifted
     }
 
     /// `self / other`, which the caller knows to be a polynomial with integer coefficients.
@@ -328,6 +333,11 @@ impl<Z: Integer> Poly<Z> {
         }
     }
 
+    /// Whether `other` is a multiple of it over the rationals; it is not 0.
+    pub fn divides(&self, other: &Self) -> bool {
+        other.pseudo_remainder(self).is_zero()
+    }
+
     /// The remainder of `leading(other)^(1 + deg self - deg other) self` by `other`, which is not 0.
     fn pseudo_remainder(&self, other: &Self) -> Self {
         let Some(leading) = other.leading() else {
@@ -359,6 +369,16 @@ impl<Z: Integer> Poly<Z> {
             primitive
         } else {
             primitive.div_exact(&repeated)
+        }
+    }
+}
+
+/// Turns the coefficients of `p(t)`, ascending, into those of `p(t + 1)`.
+fn shift_by_one<Z: Integer>(coefficients: &mut [Z]) {
+    for start in 1..coefficients.len() {
+        for k in (start..coefficients.len()).rev() {
+            let (low, high) = coefficients.split_at_mut(k);
+            low[k - 1].add_assign(&high[0]);
         }
     }
 }

@@ -6,12 +6,17 @@ use crate::answer::Enclosure;
 use crate::field::Integer;
 use crate::poly::Poly;
 
-use super::{Algebraic, Interval};
+use super::{Algebraic, FloatPoly, Interval};
+
+/// How narrow an interval is before numbers are rounded: by so much narrower than an ulp of `f64`
+/// that hardly ever one lies inside.
+const BITS_OF_ENCLOSURES: u64 = 80;
 
 impl<Z: Integer> Algebraic<Z> {
     /// The number between its neighbours in `f64`.
     pub fn enclosure(&self) -> Enclosure {
         self.narrow_to_f64();
+        self.refine(BITS_OF_ENCLOSURES);
         loop {
             let (low, high, exponent) = self.bounds();
             let below = round_down(&low, exponent);
@@ -35,18 +40,17 @@ impl<Z: Integer> Algebraic<Z> {
     /// in `[0, 1]` and the denominator must not be 0 there.
     pub fn enclose_quotient(&self, numerator: &Poly<Z>, denominator: &Poly<Z>) -> Enclosure {
         let flip = self.sign_of(denominator).is_lt();
-        let (numerator, denominator) = if flip {
-            (numerator.neg(), denominator.neg())
-        } else {
-            (numerator.clone(), denominator.clone())
-        };
-        let (mut below, mut above) = self.guess_quotient(&numerator, &denominator);
-        // The sign of the value minus c, which is that of numerator - c denominator.
+        let (mut below, mut above) = self.guess_quotient(numerator, denominator);
+        // The sign of the value minus c: that of numerator - c denominator, if the denominator is
+        // above 0.
         let versus = |c: f64| {
             let (cut, exponent) = dyadic::<Z>(c);
             let mut difference = numerator.scale(&Z::one().shl(exponent));
-            difference.sub_product(&Poly::constant(cut), &denominator);
-            self.sign_of(&difference)
+            difference.sub_product(&Poly::constant(cut), denominator);
+            match self.sign_of(&difference) {
+                sign if flip => sign.reverse(),
+                sign => sign,
+            }
         };
         while let Some(cut) = between(below, above) {
             match versus(cut) {
@@ -55,47 +59,64 @@ impl<Z: Integer> Algebraic<Z> {
                 Ordering::Greater => below = cut,
             }
         }
-        if versus(below).is_eq() {
-            return Enclosure::exactly(below);
+        if below == 0.0 && versus(0.0).is_eq() {
+            return Enclosure::exactly(0.0);
         }
-        if versus(above).is_eq() {
-            return Enclosure::exactly(above);
+        if above == 1.0 && versus(1.0).is_eq() {
+            return Enclosure::exactly(1.0);
         }
         Enclosure { below, above }
     }
 
-    /// Bounds in `[0, 1]` of a quotient that lies there, the denominator above 0.
+    /// Bounds in `[0, 1]` of a quotient that lies there. It is strictly between them, but where they
+    /// are 0 and 1.
     fn guess_quotient(&self, numerator: &Poly<Z>, denominator: &Poly<Z>) -> (f64, f64) {
-        self.refine(128);
+        self.refine(BITS_OF_ENCLOSURES);
         let interval = self.interval.borrow();
-        let (n_below, n_above) = interval.range_of(numerator);
-        let (d_below, d_above) = interval.range_of(denominator);
-        if n_below.sign().is_lt() || !d_below.sign().is_gt() {
+        let mut n = interval.range_of(numerator);
+        let mut d = interval.range_of(denominator);
+        if d.1.sign().is_lt() {
+            (n, d) = ((n.1.neg(), n.0.neg()), (d.1.neg(), d.0.neg()));
+        }
+        if n.0.sign().is_lt() || !d.0.sign().is_gt() {
             return (0.0, 1.0);
         }
         // Both ranges are scaled by 2^(exponent degree).
-        let scale = |z: Z, own: usize, other: usize| {
-            z.shl(interval.exponent * own.max(other) as u64 - interval.exponent * own as u64)
+        let (n_degree, d_degree) = (numerator.degree() as u64, denominator.degree() as u64);
+        let n_scale = interval.exponent * d_degree.saturating_sub(n_degree);
+        let d_scale = interval.exponent * n_degree.saturating_sub(d_degree);
+        // The quotient has about 64 bits over 2^shift, so that one unit more or less hardly matters.
+        let fraction = |n: &Z, d: &Z| {
+            let d = d.shl(d_scale);
+            let shift = (d.bits() + 64).saturating_sub(n.bits() + n_scale);
+            (n.shl(n_scale + shift).div_floor(&d), shift)
         };
-        let (nd, dd) = (numerator.degree(), denominator.degree());
-        let fraction = |n: Z, d: Z| scale(n, nd, dd).shl(1100).div_floor(&scale(d, dd, nd));
-        let below = round_down(&fraction(n_below, d_above), 1100);
-        let above = round_up(&fraction(n_above, d_below).add(&Z::one()), 1100);
-        (below.clamp(0.0, 1.0), above.clamp(0.0, 1.0))
+        let (low, shift) = fraction(&n.0, &d.1);
+        let below = if low.is_zero() {
+            0.0
+        } else {
+            round_down(&low.sub(&Z::one()), shift)
+        };
+        let (high, shift) = fraction(&n.1, &d.0);
+        let above = round_up(&high.add(&Z::one()), shift);
+        (below, above.min(1.0))
     }
 
     /// Narrows the interval to about an `f64` ulp: a root in floating point is a guess, and exact
-    /// signs around it make it a proof. A bad guess costs time only.
-    pub(super) fn narrow_to_f64(&self) {
+    /// signs around it make it a proof. A bad guess costs time only. Returns bounds in `f64`.
+    pub(super) fn narrow_to_f64(&self) -> (f64, f64) {
+        *self.float_bounds.get_or_init(|| {
+            self.narrow_by_guess();
+            self.interval.borrow().float_bounds()
+        })
+    }
+
+    fn narrow_by_guess(&self) {
         let mut interval = self.interval.borrow_mut();
-        if interval.is_point() {
+        let (below, above) = interval.float_bounds();
+        if interval.is_point() || between(below, above).is_none() {
             return;
         }
-        let below = round_down(&interval.low, interval.exponent);
-        let above = round_up(&interval.high, interval.exponent);
-        let Some(_) = between(below, above) else {
-            return;
-        };
         let before = self
             .poly
             .evaluate_dyadic(&interval.low, interval.exponent)
@@ -137,6 +158,16 @@ impl<Z: Integer> Algebraic<Z> {
     }
 }
 
+impl<Z: Integer> Interval<Z> {
+    /// The largest `f64` not above the low end and the smallest not below the high end.
+    fn float_bounds(&self) -> (f64, f64) {
+        (
+            round_down(&self.low, self.exponent),
+            round_up(&self.high, self.exponent),
+        )
+    }
+}
+
 fn cut_at_f64<Z: Integer>(interval: &mut Interval<Z>, poly: &Poly<Z>, cut: f64, before: Ordering) {
     let (numerator, exponent) = dyadic::<Z>(cut);
     interval.widen_exponent(exponent);
@@ -148,10 +179,10 @@ fn cut_at_f64<Z: Integer>(interval: &mut Interval<Z>, poly: &Poly<Z>, cut: f64, 
 /// A root of `poly` between `below` and `above` in floating point and how far off it may be: bisection
 /// and Newton steps. `before` is the sign of `poly` at the low end. Only a guess.
 fn guess_root<Z: Integer>(poly: &Poly<Z>, below: f64, above: f64, before: Ordering) -> (f64, f64) {
-    let coefficients = scaled_coefficients(poly);
+    let poly = FloatPoly::multiple_of(poly);
     let evaluate = |t: f64| {
         let (mut value, mut slope, mut size) = (0.0, 0.0, 0.0);
-        for &c in coefficients.iter().rev() {
+        for c in poly.descending() {
             slope = slope * t + value;
             value = value * t + c;
             size = size * t + c.abs();
@@ -184,21 +215,6 @@ fn guess_root<Z: Integer>(poly: &Poly<Z>, below: f64, above: f64, before: Orderi
     (t.clamp(below, above), error)
 }
 
-/// The coefficients divided by one power of two such that none overflows.
-fn scaled_coefficients<Z: Integer>(poly: &Poly<Z>) -> Vec<f64> {
-    let parts: Vec<(f64, i64)> = poly.coefficients().iter().map(Z::approximate).collect();
-    let top = parts
-        .iter()
-        .filter(|part| part.0 != 0.0)
-        .map(|part| part.1)
-        .max()
-        .unwrap_or(0);
-    parts
-        .iter()
-        .map(|&(m, e)| m * 2f64.powi((e - top).max(-1100) as i32))
-        .collect()
-}
-
 /// An `f64` strictly between two others, about in the middle of the `f64`s between them; `None` if
 /// there is none. Both are at least 0.
 fn between(below: f64, above: f64) -> Option<f64> {
@@ -207,7 +223,7 @@ fn between(below: f64, above: f64) -> Option<f64> {
 }
 
 /// A finite `f64` as `numerator / 2^exponent`.
-pub(crate) fn dyadic<Z: Integer>(value: f64) -> (Z, u64) {
+pub(super) fn dyadic<Z: Integer>(value: f64) -> (Z, u64) {
     let (mantissa, exponent) = decompose(value);
     let numerator = Z::from_i64(mantissa);
     match exponent {

@@ -4,19 +4,21 @@
 //! answered by narrowing the interval until the answer shows; whether something is *equal*, which
 //! narrowing can never show, is decided by a greatest common divisor. Nothing takes a tolerance.
 
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::cmp::Ordering;
 
 use crate::field::{Integer, Ratio};
 use crate::poly::Poly;
 
 mod enclose;
+mod floating;
 mod interval;
 mod isolate;
 
 pub(crate) use enclose::decompose;
 pub use isolate::isolate_roots;
 
+use floating::FloatPoly;
 use interval::Interval;
 
 /// A real algebraic number in `[0, 1]`.
@@ -29,6 +31,8 @@ pub struct Algebraic<Z> {
     /// A single point (then the number is this dyadic rational), or an interval that holds the
     /// number strictly inside and whose ends are not roots.
     interval: RefCell<Interval<Z>>,
+    /// Bounds in `f64`, once the interval was narrowed to about an ulp of them.
+    float_bounds: OnceCell<(f64, f64)>,
 }
 
 impl<Z: Integer> Algebraic<Z> {
@@ -40,10 +44,7 @@ impl<Z: Integer> Algebraic<Z> {
     /// The number `numerator / 2^exponent`, in `[0, 1]`.
     pub fn dyadic(numerator: Z, exponent: u64) -> Self {
         let poly = Poly::new(vec![numerator.neg(), Z::one().shl(exponent)]);
-        Algebraic {
-            poly,
-            interval: RefCell::new(Interval::point(numerator, exponent)),
-        }
+        Self::isolated(poly, Interval::point(numerator, exponent))
     }
 
     /// The number `value`, in `[0, 1]`.
@@ -61,6 +62,7 @@ impl<Z: Integer> Algebraic<Z> {
         Algebraic {
             poly,
             interval: RefCell::new(interval),
+            float_bounds: OnceCell::new(),
         }
     }
 
@@ -128,10 +130,6 @@ impl<Z: Integer> Algebraic<Z> {
         if let Some(sign) = self.sign_if_rational(q).or_else(|| self.try_sign_of(q)) {
             return sign;
         }
-        self.narrow_to_f64();
-        if let Some(sign) = self.try_sign_of(q) {
-            return sign;
-        }
         if self.is_root_of(q) {
             return Ordering::Equal;
         }
@@ -145,9 +143,13 @@ impl<Z: Integer> Algebraic<Z> {
         }
     }
 
-    /// The sign of `q` at the number if the interval as it now stands shows it.
+    /// The sign of `q` at the number if the interval, narrowed to about an ulp of `f64` at least,
+    /// shows it.
     pub fn try_sign_of(&self, q: &Poly<Z>) -> Option<Ordering> {
-        self.interval.borrow().sign_of(q)
+        let (low, high) = self.narrow_to_f64();
+        FloatPoly::multiple_of(q)
+            .sign_between(low, high)
+            .or_else(|| self.interval.borrow().sign_of(q))
     }
 
     fn sign_if_rational(&self, q: &Poly<Z>) -> Option<Ordering> {
@@ -168,8 +170,12 @@ impl<Z: Integer> Algebraic<Z> {
     /// Whether `q` is 0 at the number.
     ///
     /// The common divisor of `q` and the defining polynomial has no root in the interval but the
-    /// number, a simple one if any, so it has it exactly if it changes sign between the ends.
+    /// number, a simple one if any, so it has it exactly if it changes sign between the ends. Mostly
+    /// `q` is a multiple of the defining polynomial, which shows at less cost.
     fn is_root_of(&self, q: &Poly<Z>) -> bool {
+        if self.poly.divides(q) {
+            return true;
+        }
         let common = self.poly.gcd(q);
         let interval = self.interval.borrow();
         if interval.is_point() {

@@ -108,28 +108,13 @@ impl<Z: Integer> Motion<Z> {
     /// A component of `N` that is not 0 at the time, and its sign. The ones that the time's bounds
     /// show come first: to see that a component is 0 costs more.
     pub(super) fn transversal_axis(&self, time: &Algebraic<Z>) -> Option<(usize, Ordering)> {
-        let shown = |h: usize| {
-            let component = &self.n.0[h];
-            (
-                h,
-                if component.is_zero() {
-                    None
-                } else {
-                    time.try_sign_of(component)
-                },
-            )
-        };
-        let quick = [0, 1, 2]
-            .map(shown)
-            .into_iter()
-            .find_map(|(h, sign)| Some((h, sign?)));
-        quick.filter(|(_, sign)| sign.is_ne()).or_else(|| {
-            let exact = |h: usize| (h, time.sign_of(&self.n.0[h]));
-            [0, 1, 2]
-                .into_iter()
-                .map(exact)
-                .find(|(_, sign)| sign.is_ne())
-        })
+        let axes = || [0, 1, 2].into_iter();
+        let shown = |h: usize| Some((h, time.try_sign_of(&self.n.0[h])?));
+        let exact = |h: usize| (h, time.sign_of(&self.n.0[h]));
+        axes()
+            .filter_map(shown)
+            .chain(axes().map(exact))
+            .find(|(_, sign)| sign.is_ne())
     }
 
     /// The lines meet in one point. From `A + u K = C + v L`: `M x L = u N` and `M x K = v N`, which

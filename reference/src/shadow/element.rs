@@ -58,22 +58,20 @@ impl<'a, Z: Integer> Element<'a, Z> {
     }
 
     /// `step(self, other)` over a common denominator.
-    fn combine(self, other: Self, step: fn(&Poly<Z>, &Poly<Z>) -> Poly<Z>) -> Self {
+    fn combine(self, other: Self, step: fn(&mut Poly<Z>, &Poly<Z>)) -> Self {
         let at = self.common_root(&other);
-        let (numerator, denominator) = if self.has_denominator_of(&other) {
-            (step(&self.numerator, &other.numerator), self.denominator)
+        let (mut numerator, term, denominator) = if self.has_denominator_of(&other) {
+            (self.numerator, other.numerator, self.denominator)
         } else {
-            let (a, b) = (
+            (
                 times(&self.numerator, other.denominator.as_ref()),
                 times(&other.numerator, self.denominator.as_ref()),
-            );
-            (
-                step(&a, &b),
                 product(self.denominator, other.denominator.as_ref()),
             )
         };
+        step(Rc::make_mut(&mut numerator), &term);
         Element {
-            numerator: Rc::new(numerator),
+            numerator,
             denominator,
             at,
         }
@@ -88,7 +86,11 @@ impl<'a, Z: Integer> Element<'a, Z> {
 }
 
 fn times<Z: Integer>(poly: &Rc<Poly<Z>>, factor: Option<&Rc<Poly<Z>>>) -> Rc<Poly<Z>> {
-    factor.map_or_else(|| poly.clone(), |factor| Rc::new(poly.mul(factor)))
+    match factor {
+        None => poly.clone(),
+        Some(factor) if poly.is_one() => factor.clone(),
+        Some(factor) => Rc::new(poly.mul(factor)),
+    }
 }
 
 fn product<Z: Integer>(a: Option<Rc<Poly<Z>>>, b: Option<&Rc<Poly<Z>>>) -> Option<Rc<Poly<Z>>> {
@@ -112,7 +114,7 @@ impl<Z: Integer> Add for Element<'_, Z> {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
-        self.combine(other, Poly::add)
+        self.combine(other, Poly::add_assign)
     }
 }
 
@@ -120,7 +122,7 @@ impl<Z: Integer> Sub for Element<'_, Z> {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
-        self.combine(other, Poly::sub)
+        self.combine(other, Poly::sub_assign)
     }
 }
 

@@ -119,7 +119,7 @@ fn reverses<Z: Integer>(g: &[Poly<Z>; 3], s: &Algebraic<Z>) -> bool {
 /// Whether `0 < s < 1`.
 fn is_inside_step<Z: Integer>(s: &Algebraic<Z>) -> bool {
     let from_one = Poly::new(vec![Z::from_i64(-1), Z::one()]);
-    s.compare(&Algebraic::zero()).is_gt() && s.sign_of(&from_one).is_lt()
+    !s.is_zero() && s.sign_of(&from_one).is_lt()
 }
 
 /// The times in `(0, 1)`, ascending, from which on edges that stay on one line touch, and before

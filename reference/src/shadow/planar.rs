@@ -84,8 +84,8 @@ pub(super) fn static_segment_segment_intersection<F: OrderedField>(
     if !u.in_unit_interval() || !v.in_unit_interval() {
         return false;
     }
-    let Vector([_, _, delta]) = &(&(r * &u) - &(s * &v)) - &b;
-    delta.is_zero()
+    let [[.., r], [.., s], [.., b]] = [&r.0, &s.0, &b.0].map(|x| x.each_ref().map(F::clone));
+    (r * u - s * v - b).is_zero()
 }
 
 /// Algorithm 17: the first time at which the moving point `x` is on the moving segment `yz`.
