@@ -19,7 +19,11 @@ struct Package {
 }
 
 const PACKAGES: [Package; 2] = [
-    Package { name: "engine", sources: "src", roots: &[("crate", "engine")] },
+    Package {
+        name: "engine",
+        sources: "src",
+        roots: &[("crate", "engine")],
+    },
     Package {
         name: "reference",
         sources: "reference/src",
@@ -37,11 +41,17 @@ fn root() -> PathBuf {
 /// The edges written in the page: lines `engine::query -> engine::contact, ...` in its last block.
 fn documented() -> Graph {
     let page = fs::read_to_string(root().join("docs/architecture.md")).unwrap();
-    let block = page.rsplit("```").nth(1).expect("the page ends in a fenced block");
+    let block = page
+        .rsplit("```")
+        .nth(1)
+        .expect("the page ends in a fenced block");
     let edges = block.lines().filter_map(|line| line.split_once("->"));
     edges
         .map(|(from, to)| {
-            let to = to.split(',').map(|name| name.trim().to_owned()).filter(|n| !n.is_empty());
+            let to = to
+                .split(',')
+                .map(|name| name.trim().to_owned())
+                .filter(|n| !n.is_empty());
             (from.trim().to_owned(), to.collect())
         })
         .collect()
@@ -63,10 +73,23 @@ fn sources(folder: &Path) -> Vec<(String, PathBuf)> {
     visit(folder, &mut files);
     files.sort();
     let module = |path: &PathBuf| {
-        let first = path.strip_prefix(folder).unwrap().components().next().unwrap();
-        Path::new(first.as_os_str()).file_stem().unwrap().to_str().unwrap().to_owned()
+        let first = path
+            .strip_prefix(folder)
+            .unwrap()
+            .components()
+            .next()
+            .unwrap();
+        Path::new(first.as_os_str())
+            .file_stem()
+            .unwrap()
+            .to_str()
+            .unwrap()
+            .to_owned()
     };
-    files.into_iter().map(|path| (module(&path), path)).collect()
+    files
+        .into_iter()
+        .map(|path| (module(&path), path))
+        .collect()
 }
 
 /// The code without comments and without the test module that may end the file.
@@ -79,8 +102,11 @@ fn code(text: &str) -> String {
 /// The modules named after `root::` or within `root::{...}`.
 fn imports(code: &str, root: &str) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
-    let identifier =
-        |text: &str| text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
+    let identifier = |text: &str| {
+        text.chars()
+            .take_while(|c| c.is_alphanumeric() || *c == '_')
+            .collect::<String>()
+    };
     for (at, _) in code.match_indices(&format!("{root}::")) {
         if code[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == ':') {
             continue;
@@ -115,16 +141,20 @@ fn actual() -> Graph {
         let files = sources(&root().join(package.sources));
         let modules: BTreeSet<String> = files.iter().map(|(module, _)| module.clone()).collect();
         for (module, path) in &files {
-            if CRATE_FILES.contains(&module.as_str()) || path.file_stem().is_some_and(|s| s == "tests")
+            if CRATE_FILES.contains(&module.as_str())
+                || path.file_stem().is_some_and(|s| s == "tests")
             {
                 continue;
             }
             let code = code(&fs::read_to_string(path).unwrap());
-            let edges = graph.entry(format!("{}::{module}", package.name)).or_default();
+            let edges = graph
+                .entry(format!("{}::{module}", package.name))
+                .or_default();
             for (prefix, owner) in package.roots {
                 let named = imports(&code, prefix).into_iter();
                 let foreign = *owner != package.name;
-                let named = named.filter(|name| foreign || modules.contains(name) && name != module);
+                let named =
+                    named.filter(|name| foreign || modules.contains(name) && name != module);
                 edges.extend(named.map(|name| format!("{owner}::{name}")));
             }
         }
@@ -148,7 +178,11 @@ fn architecture_module_graph_is_the_documented_one() {
             (None, None) => {}
         }
     }
-    assert!(differences.is_empty(), "docs/architecture.md differs:\n{}", differences.join("\n"));
+    assert!(
+        differences.is_empty(),
+        "docs/architecture.md differs:\n{}",
+        differences.join("\n")
+    );
 }
 
 #[test]
@@ -167,9 +201,14 @@ fn architecture_judges_do_not_know_each_other_and_the_engine_knows_no_judge() {
     assert!(!reaches("reference::oracle", "reference::shadow"));
     assert!(!reaches("reference::shadow", "reference::oracle"));
     assert!(!reaches("reference::oracle", "engine::thesis"));
-    let engine = graph.iter().filter(|(module, _)| module.starts_with("engine"));
+    let engine = graph
+        .iter()
+        .filter(|(module, _)| module.starts_with("engine"));
     for (module, edges) in engine {
-        assert!(edges.iter().all(|edge| edge.starts_with("engine")), "{module}");
+        assert!(
+            edges.iter().all(|edge| edge.starts_with("engine")),
+            "{module}"
+        );
     }
     // The graph is not empty for a reason that the other test would share.
     assert!(reaches("reference::oracle", "reference::poly"));
@@ -177,7 +216,8 @@ fn architecture_judges_do_not_know_each_other_and_the_engine_knows_no_judge() {
 
 #[test]
 fn imports_are_found_in_groups_and_paths() {
-    let code = "use crate::a::B; use crate::{c::{D, E}, f};\nfn g() { crate::h::i(); mycrate::x() }";
+    let code =
+        "use crate::a::B; use crate::{c::{D, E}, f};\nfn g() { crate::h::i(); mycrate::x() }";
     let found: Vec<String> = imports(code, "crate").into_iter().collect();
     assert_eq!(found, ["a", "c", "f", "h"]);
 }
