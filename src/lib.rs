@@ -10,3 +10,5 @@ pub mod certified;
 pub mod contact;
 pub mod narrow;
 pub mod query;
+pub mod scenario;
+pub mod thesis;

@@ -3,7 +3,9 @@
 
 pub mod algebraic;
 pub mod answer;
+pub mod corpus;
 pub mod field;
+pub mod generate;
 pub mod oracle;
 pub mod poly;
 pub mod scaled;

@@ -1,0 +1,97 @@
+//! The queries that are measured.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use tunnelproof::query::{EdgeEdge, Point, Query};
+use tunnelproof_reference::corpus::{self, ReadOptions};
+use tunnelproof_reference::field::Integer;
+use tunnelproof_reference::generate;
+
+/// The name of the arithmetic.
+pub fn backend<Z: Integer>() -> &'static str {
+    Z::BACKEND
+}
+
+/// Named sets: generated ones, then the public ones that are there.
+pub fn sets() -> Vec<(String, Vec<EdgeEdge>)> {
+    let mut sets: Vec<(String, Vec<EdgeEdge>)> = generate::FAMILIES
+        .iter()
+        .map(|family| {
+            let queries = (0..4096).map(|index| family.query(1, index));
+            (
+                family.name().to_owned(),
+                queries.filter_map(edge_edge).collect(),
+            )
+        })
+        .collect();
+    let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
+    let handcrafted = csv_files(&shared.join("ccd-sample-queries"));
+    if !handcrafted.is_empty() {
+        sets.push((
+            "handcrafted".to_owned(),
+            handcrafted.iter().flat_map(|p| csv(p)).collect(),
+        ));
+    }
+    for name in ["candidates-cloth-ball", "hits-cloth-ball"] {
+        if let Ok(bytes) = fs::read(shared.join(format!("{name}.ee.bin"))) {
+            sets.push((name.to_owned(), binary(&bytes)));
+        }
+    }
+    sets
+}
+
+fn edge_edge(query: Query) -> Option<EdgeEdge> {
+    match query {
+        Query::EdgeEdge(query) => Some(query),
+        Query::VertexFace(_) => None,
+    }
+}
+
+/// The edge-edge csv files below a folder, in order of their paths.
+fn csv_files(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|e| e == "csv")
+                && path.to_string_lossy().contains("edge-edge")
+            {
+                files.push(path);
+            }
+        }
+    }
+    files.sort();
+    files
+}
+
+fn csv(path: &Path) -> Vec<EdgeEdge> {
+    let entries = corpus::open(&path.to_string_lossy(), ReadOptions::default());
+    let entries = entries.expect("a public csv opens");
+    entries
+        .map(|entry| entry.expect("a public csv is sound").query)
+        .filter_map(edge_edge)
+        .collect()
+}
+
+/// `i64 n`, then `n` times the 24 coordinates of eight points, little-endian.
+fn binary(bytes: &[u8]) -> Vec<EdgeEdge> {
+    let (count, rest) = bytes.split_at(8);
+    let count = i64::from_le_bytes(count.try_into().expect("eight bytes")) as usize;
+    let numbers: Vec<f64> = rest
+        .chunks_exact(8)
+        .take(24 * count)
+        .map(|bytes| f64::from_le_bytes(bytes.try_into().expect("eight bytes")))
+        .collect();
+    let query = |c: &[f64]| {
+        let point = |i: usize| Point::new(c[3 * i], c[3 * i + 1], c[3 * i + 2]);
+        EdgeEdge::new([0, 1, 2, 3].map(point), [4, 5, 6, 7].map(point), 0.0)
+    };
+    numbers
+        .chunks_exact(24)
+        .map(|c| query(c).expect("finite coordinates"))
+        .collect()
+}

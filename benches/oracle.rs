@@ -1,0 +1,47 @@
+//! The speed of the exact oracle: the whole decision with the time of impact to the last bit, and
+//! the answer with every number rounded both ways.
+//!
+//! `cargo bench --bench oracle` runs the default backend; add `--features gmp` for GMP. The public
+//! sets are measured where `../shared/data` is present; the generated families always.
+
+use std::hint::black_box;
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use tunnelproof::query::EdgeEdge;
+use tunnelproof_reference::{field, oracle};
+
+mod data;
+
+fn bench(c: &mut Criterion) {
+    let mut group = c.benchmark_group(format!("oracle/{}", data::backend::<field::Default>()));
+    for (name, queries) in data::sets() {
+        group.throughput(Throughput::Elements(queries.len() as u64));
+        group.bench_with_input(BenchmarkId::new("toi", &name), &queries, |b, queries| {
+            b.iter(|| queries.iter().for_each(decide_toi));
+        });
+        group.bench_with_input(BenchmarkId::new("answer", &name), &queries, |b, queries| {
+            b.iter(|| queries.iter().for_each(decide_all));
+        });
+    }
+    group.finish();
+}
+
+fn decide_toi(query: &EdgeEdge) {
+    let decision = oracle::decide::<field::Default>(query).ok();
+    black_box(decision.and_then(|decision| decision.toi().map(|toi| toi.enclosure())));
+}
+
+fn decide_all(query: &EdgeEdge) {
+    black_box(
+        oracle::decide::<field::Default>(query)
+            .map(|decision| decision.written())
+            .ok(),
+    );
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default().sample_size(20);
+    targets = bench
+}
+criterion_main!(benches);

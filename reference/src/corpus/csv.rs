@@ -1,0 +1,174 @@
+//! Queries in the public CCD query format, eight rows a query.
+//!
+//! A row is a point: `x_num,x_den,y_num,y_den,z_num,z_den,label`, integers of any size. The rows are
+//! A, B, C, D at `t = 0`, then A, B, C, D at `t = 1`. Every coordinate has to be exactly an `f64`;
+//! the fraction need not be in lowest terms and its denominator may be negative. The label, 1 for a
+//! hit and 0 for a miss, is the same on the eight rows. The format comes with "A Large Scale
+//! Benchmark and an Inclusion-Based Algorithm for Continuous Collision Detection" (Wang, Ferguson,
+//! Schneider, Jiang, Attene, Panozzo, ACM TOG 2021).
+//!
+//! A file does not say which kind its queries are, but the sets keep the kinds in folders of their
+//! names; see [`kind_in_path`].
+
+use std::path::{Component, Path};
+
+use tunnelproof::query::{Point, Query, QueryKind};
+
+use super::dyadic::{exact_f64, exact_quotient};
+use super::error::{CorpusError, Problem};
+use super::lines::Line;
+use super::{Entry, ReadOptions};
+use crate::field::{self, Integer};
+
+const COLUMNS: [&str; 7] = [
+    "x_num", "x_den", "y_num", "y_den", "z_num", "z_den", "label",
+];
+
+/// The kind that a path names, by a component that holds `edge-edge` or `vertex-face`.
+///
+/// The component nearest to the file decides, the file's own name first. One that holds both names
+/// says nothing.
+pub fn kind_in_path(path: &str) -> Option<QueryKind> {
+    Path::new(path).components().rev().find_map(|component| {
+        let Component::Normal(name) = component else {
+            return None;
+        };
+        let name = name.to_string_lossy();
+        let holds = |kind: QueryKind| name.contains(kind.name());
+        match (holds(QueryKind::EdgeEdge), holds(QueryKind::VertexFace)) {
+            (true, false) => Some(QueryKind::EdgeEdge),
+            (false, true) => Some(QueryKind::VertexFace),
+            _ => None,
+        }
+    })
+}
+
+/// The queries of the given lines.
+///
+/// # Errors
+///
+/// [`Problem::KindMissing`] or [`Problem::KindContradiction`] if the kind is not known.
+pub(super) fn entries<I: Iterator<Item = Result<Line, CorpusError>>>(
+    lines: I,
+    path: &str,
+    options: ReadOptions,
+) -> Result<impl Iterator<Item = Result<Entry, CorpusError>> + use<I>, CorpusError> {
+    let kind = options
+        .kind_of(kind_in_path(path))
+        .map_err(|problem| CorpusError::new(path, problem))?;
+    Ok(Entries {
+        lines,
+        path: path.to_owned(),
+        kind,
+        radius: options.radius.unwrap_or(0.0),
+        index: 0,
+    })
+}
+
+struct Entries<I> {
+    lines: I,
+    path: String,
+    kind: QueryKind,
+    radius: f64,
+    index: u64,
+}
+
+impl<I: Iterator<Item = Result<Line, CorpusError>>> Iterator for Entries<I> {
+    type Item = Result<Entry, CorpusError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let first = self.lines.next()?;
+        Some(first.and_then(|first| self.entry(&first)))
+    }
+}
+
+impl<I: Iterator<Item = Result<Line, CorpusError>>> Entries<I> {
+    /// The query whose first row is given; the others are read.
+    fn entry(&mut self, first: &Line) -> Result<Entry, CorpusError> {
+        let (point, label) = self.row(first)?;
+        let mut points = [point; 8];
+        let mut last = first.number;
+        for (rows, point) in points.iter_mut().enumerate().skip(1) {
+            let index = self.index;
+            let Some(line) = self.lines.next() else {
+                let problem = Problem::Truncated { rows, index };
+                return Err(CorpusError::at(&self.path, last, problem));
+            };
+            let line = line?;
+            last = line.number;
+            let (position, own) = self.row(&line)?;
+            if own != label {
+                let problem = Problem::LabelDisagrees {
+                    label: own,
+                    first: first.number,
+                };
+                return Err(CorpusError::at(&self.path, last, problem));
+            }
+            *point = position;
+        }
+        let [a, b, c, d, a1, b1, c1, d1] = points;
+        let query = Query::new(self.kind, [a, b, c, d], [a1, b1, c1, d1], self.radius)
+            .map_err(|error| CorpusError::at(&self.path, first.number, error.into()))?;
+        let id = format!("{}#{}", self.path, self.index);
+        self.index += 1;
+        Ok(Entry {
+            id,
+            query,
+            label: Some(label),
+            line: Some(first.number),
+        })
+    }
+
+    fn row(&self, line: &Line) -> Result<(Point, bool), CorpusError> {
+        row(&line.text).map_err(|problem| CorpusError::at(&self.path, line.number, problem))
+    }
+}
+
+fn row(text: &str) -> Result<(Point, bool), Problem> {
+    let mut cells = [""; 7];
+    let mut count = 0;
+    for cell in text.split(',') {
+        if let Some(place) = cells.get_mut(count) {
+            *place = cell.trim();
+        }
+        count += 1;
+    }
+    if count != cells.len() {
+        return Err(Problem::ColumnCount(count));
+    }
+    let mut point = Point::origin();
+    for axis in 0..3 {
+        point[axis] = coordinate(axis, cells[2 * axis], cells[2 * axis + 1])?;
+    }
+    match cells[6] {
+        "0" => Ok((point, false)),
+        "1" => Ok((point, true)),
+        label => Err(Problem::Label(label.to_owned())),
+    }
+}
+
+/// The `f64` that is exactly `numerator / denominator`.
+fn coordinate(axis: usize, numerator: &str, denominator: &str) -> Result<f64, Problem> {
+    // Without integers on the heap where the denominator is a power of two, as it mostly is.
+    if let (Ok(n), Ok(d)) = (numerator.parse::<i64>(), denominator.parse::<u64>())
+        && d.is_power_of_two()
+        && let Ok(value) = exact_f64(n < 0, n.unsigned_abs(), -i64::from(d.trailing_zeros()))
+    {
+        return Ok(value);
+    }
+    let integer = |column: usize, text: &str| {
+        field::Default::from_decimal(text).ok_or_else(|| Problem::NotInteger {
+            column: COLUMNS[column],
+            text: text.to_owned(),
+        })
+    };
+    let numerator = integer(2 * axis, numerator)?;
+    let denominator = integer(2 * axis + 1, denominator)?;
+    if denominator.is_zero() {
+        return Err(Problem::ZeroDenominator(COLUMNS[2 * axis + 1]));
+    }
+    exact_quotient(&numerator, &denominator).map_err(|reason| Problem::NotF64 {
+        axis: ['x', 'y', 'z'][axis],
+        reason,
+    })
+}

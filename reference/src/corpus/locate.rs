@@ -1,0 +1,73 @@
+//! The query that an identifier names.
+
+use tunnelproof::query::Query;
+
+use super::{CorpusError, Entry, Format, Problem, ReadOptions, open};
+use crate::generate::{GeneratedId, IdError};
+
+/// The query that `identifier` names: `PATH.csv#INDEX`, `PATH.jsonl#ID`, `FAMILY:SEED:INDEX`, or `-`
+/// for the first one on the standard input.
+///
+/// `PATH` ends at the first `#` after an extension of a corpus. A file is read up to the query, and
+/// of several with one `id` the first is taken.
+///
+/// # Errors
+///
+/// [`CorpusError`] if the identifier is of none of these forms, if what it names does not exist, or
+/// if the file is wrong up to there.
+pub fn locate(identifier: &str, options: ReadOptions) -> Result<Entry, CorpusError> {
+    if identifier == "-" {
+        let first = open(identifier, options)?.next();
+        return first.unwrap_or_else(|| Err(CorpusError::new(identifier, Problem::Empty)));
+    }
+    match split_path(identifier) {
+        Some((path, id)) => in_file(path, id, identifier, options),
+        None => {
+            generated(identifier, options).map_err(|problem| CorpusError::new(identifier, problem))
+        }
+    }
+}
+
+/// `PATH` and what stands behind its `#`.
+fn split_path(identifier: &str) -> Option<(&str, &str)> {
+    identifier
+        .match_indices('#')
+        .map(|(at, _)| (&identifier[..at], &identifier[at + 1..]))
+        .find(|(path, _)| Format::of_path(path).is_some())
+}
+
+/// A query of a file, by the `id` that its line states or by the whole identifier, which is how a
+/// csv calls its queries.
+fn in_file(
+    path: &str,
+    id: &str,
+    identifier: &str,
+    options: ReadOptions,
+) -> Result<Entry, CorpusError> {
+    let mut count = 0;
+    for entry in open(path, options)? {
+        let entry = entry?;
+        if entry.id == id || entry.id == identifier {
+            return Ok(entry);
+        }
+        count += 1;
+    }
+    let id = id.to_owned();
+    Err(CorpusError::new(path, Problem::NotFound { id, count }))
+}
+
+fn generated(identifier: &str, options: ReadOptions) -> Result<Entry, Problem> {
+    let id: GeneratedId = identifier.parse().map_err(|error| match error {
+        IdError::Form => Problem::Identifier,
+        error => Problem::Generated(error),
+    })?;
+    let query = id.query();
+    let kind = options.kind_of(Some(query.kind()))?;
+    let radius = options.radius.unwrap_or(query.radius());
+    Ok(Entry {
+        id: id.to_string(),
+        query: Query::new(kind, *query.start(), *query.end(), radius)?,
+        label: None,
+        line: None,
+    })
+}
