@@ -1,6 +1,6 @@
 //! Stage 3: the cubic `f = (K x L) . M` in Bernstein form, with a bound on its error.
 
-use super::motion::{Motion, Vector, cross, dot};
+use super::motion::{Motion, add, cross, dot, larger, largest, reach, smaller};
 use super::separate::U;
 
 /// `f` on `[0, 1]`, up to an error.
@@ -30,22 +30,20 @@ impl Cubic {
     /// returns `None` unless all factors are below `2^300` and `16 u P` is above `2^-700`, so what
     /// underflow adds (fewer than 40 times `2^-775`) is below `2^-68` of the bound. Overflow cannot
     /// happen then. NaN and infinities fail the same test.
-    #[inline]
+    #[inline(always)]
     pub(super) fn new(motion: &Motion) -> Option<Self> {
-        let [k, l, m] = [&motion.k, &motion.l, &motion.m].map(Motion::reach);
-        let reach = |v: &Vector| v[0].max(v[1]).max(v[2]);
+        let (k, l, m) = (reach(&motion.k), reach(&motion.l), reach(&motion.m));
         let permanent = m[0] * (k[1] * l[2] + k[2] * l[1])
             + m[1] * (k[2] * l[0] + k[0] * l[2])
             + m[2] * (k[0] * l[1] + k[1] * l[0]);
         let error = 16.0 * U * permanent;
-        let largest = reach(&k).max(reach(&l)).max(reach(&m));
-        if !(largest < LARGEST && error > SMALLEST) {
+        let size = larger(larger(largest(&k), largest(&l)), largest(&m));
+        if !(size < LARGEST && error > SMALLEST) {
             return None;
         }
         let ([k0, k1], [l0, l1], [m0, m1]) = (&motion.k, &motion.l, &motion.m);
         let (n00, n11) = (cross(k0, l0), cross(k1, l1));
-        let (left, right) = (cross(k0, l1), cross(k1, l0));
-        let n01 = [0, 1, 2].map(|i| left[i] + right[i]);
+        let n01 = add(&cross(k0, l1), &cross(k1, l0));
         let bernstein = [
             dot(m0, &n00),
             (dot(m1, &n00) + dot(m0, &n01)) / 3.0,
@@ -57,10 +55,11 @@ impl Cubic {
 
     /// Whether `f` has no root in `[0, 1]`, so that the edges are never coplanar: it is a convex
     /// combination of its coefficients.
-    #[inline]
+    #[inline(always)]
     pub(super) fn has_no_root(&self) -> bool {
         let [b0, b1, b2, b3] = self.bernstein;
-        b0.min(b1).min(b2.min(b3)) > self.error || b0.max(b1).max(b2.max(b3)) < -self.error
+        smaller(smaller(b0, b1), smaller(b2, b3)) > self.error
+            || larger(larger(b0, b1), larger(b2, b3)) < -self.error
     }
 }
 

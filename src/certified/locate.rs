@@ -1,6 +1,6 @@
 //! Stage 4, continued: whether the edges touch at a root of `f`.
 
-use super::motion::{Motion, Vector};
+use super::motion::{Motion, Vector, reach};
 use super::root::Bracket;
 use super::separate::U;
 
@@ -40,7 +40,13 @@ impl Motion {
             return Place::Unclear;
         }
         let s = 1.0 - t;
-        let at = |ends: &[Vector; 2]| [0, 1, 2].map(|i| s * ends[0][i] + t * ends[1][i]);
+        let at = |[start, end]: &[Vector; 2]| {
+            [
+                s * start[0] + t * end[0],
+                s * start[1] + t * end[1],
+                s * start[2] + t * end[2],
+            ]
+        };
         let (k, l, m) = (at(&self.k), at(&self.l), at(&self.m));
         let cross = |x: &Vector, y: &Vector, i: usize, j: usize| x[i] * y[j] - x[j] * y[i];
         let normal = [
@@ -56,7 +62,7 @@ impl Motion {
         } else {
             (0, 1, normal[2])
         };
-        let reach = [&self.k, &self.l, &self.m].map(Motion::reach);
+        let reach = [reach(&self.k), reach(&self.l), reach(&self.m)];
         let factor = 16.0 * U + 5.0 * half_width;
         let bound = |x: usize, y: usize| {
             factor * (reach[x][i] * reach[y][j] + reach[x][j] * reach[y][i]) + TINY

@@ -7,7 +7,7 @@
 use super::cubic::Cubic;
 use super::root::Bracket;
 use super::separate::U;
-use crate::query::{EdgeEdge, Point};
+use crate::query::EdgeEdge;
 
 /// An unevaluated sum `high + low`, `|low|` at most half an ulp of `high`.
 #[derive(Clone, Copy)]
@@ -17,7 +17,7 @@ struct Double {
 }
 
 /// `a + b` without error (Knuth; Dekker 1971).
-#[inline]
+#[inline(always)]
 fn two_sum(a: f64, b: f64) -> Double {
     let high = a + b;
     let part = high - a;
@@ -28,7 +28,7 @@ fn two_sum(a: f64, b: f64) -> Double {
 }
 
 /// `a b` without error, unless something over- or underflows (Veltkamp, Dekker 1971).
-#[inline]
+#[inline(always)]
 fn two_product(a: f64, b: f64) -> Double {
     const SPLIT: f64 = 134_217_729.0; // 2^27 + 1
     let halves = |x: f64| {
@@ -45,7 +45,7 @@ fn two_product(a: f64, b: f64) -> Double {
 }
 
 impl Double {
-    #[inline]
+    #[inline(always)]
     fn sum(a: f64, b: f64) -> Self {
         let high = a + b;
         Double {
@@ -54,16 +54,15 @@ impl Double {
         }
     }
 
-    /// `self + other`; relative error below `3 * 2^-106` of `|self| + |other|` (accurate addition, Joldes, Muller,
-    /// Popescu 2017, algorithm 6).
-    #[inline]
+    /// `self + other`; an error below `8 * 2^-106 (|self| + |other|)`: the low parts are added in
+    /// `f64`, which is not precise relative to a sum that cancels, nor need it be.
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
-        let (s, e) = (two_sum(self.high, other.high), two_sum(self.low, other.low));
-        let c = Self::sum(s.high, s.low + e.high);
-        Self::sum(c.high, e.low + c.low)
+        let s = two_sum(self.high, other.high);
+        Self::sum(s.high, s.low + (self.low + other.low))
     }
 
-    #[inline]
+    #[inline(always)]
     fn neg(self) -> Self {
         Double {
             high: -self.high,
@@ -72,7 +71,7 @@ impl Double {
     }
 
     /// `self other`; relative error below `8 * 2^-106`.
-    #[inline]
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let p = two_product(self.high, other.high);
         Self::sum(
@@ -82,7 +81,7 @@ impl Double {
     }
 
     /// `self t`; relative error below `4 * 2^-106`.
-    #[inline]
+    #[inline(always)]
     fn scale(self, t: f64) -> Self {
         let p = two_product(self.high, t);
         Self::sum(p.high, p.low + self.low * t)
@@ -92,12 +91,17 @@ impl Double {
 /// `f` at `t` in double-double arithmetic.
 fn evaluate(query: &EdgeEdge, t: f64) -> f64 {
     let (start, end) = (query.start(), query.end());
+    let component = |to: usize, from: usize, i: usize| {
+        let first = two_sum(start[to][i], -start[from][i]);
+        let last = two_sum(end[to][i], -end[from][i]);
+        first.add(last.add(first.neg()).scale(t))
+    };
     let difference = |to: usize, from: usize| {
-        [0, 1, 2].map(|i| {
-            let at = |p: &[Point; 4]| two_sum(p[to][i], -p[from][i]);
-            let first = at(start);
-            first.add(at(end).add(first.neg()).scale(t))
-        })
+        [
+            component(to, from, 0),
+            component(to, from, 1),
+            component(to, from, 2),
+        ]
     };
     let (k, l, m) = (difference(1, 0), difference(3, 2), difference(2, 0));
     let minor = |i: usize, j: usize| k[i].mul(l[j]).add(k[j].mul(l[i]).neg());
@@ -117,15 +121,15 @@ fn evaluate(query: &EdgeEdge, t: f64) -> f64 {
 /// [`Cubic`] (`error = 16 u P`) and `h = 2^-106`.
 ///
 /// - The value of `f` at `t`: differences are exact double-doubles; a component of `K(t)` is within
-///   `(6 + 8 + 9) h k_i` (difference, product, sum; bounds at the operations), a minor within
-///   `(8 + 2 * 23 + 3) h p_ij`, a term of the determinant within `(8 + 23 + 57) h`, and the two last
-///   sums add `6 h`: `94 h P`, below `2^-50 error = 128 h P`. The rounding to `f64` is relative.
+///   `(16 + 8 + 24) h k_i` (difference, product, sum; bounds at the operations), a minor within
+///   `(8 + 2 * 48 + 8) h p_ij`, a term of the determinant within `(8 + 48 + 112) h`, and the two last
+///   sums add `16 h`: `184 h P`, below `2^-49 error = 256 h P`. The rounding to `f64` is relative.
 /// - The slope: three times the difference of two values of de Casteljau's scheme, each within
 ///   `25 u P` of the exact one: `12 error` covers it. It changes by at most `24 P W` over the bracket,
 ///   because `|f''| <= 6 |b0 - 2 b1 + b2| <= 24 P`. Let `s` be the magnitude less both.
 /// - By Taylor the root is `t - f(t) / f'(t)` up to `12 P W^2 / s`.
 ///
-/// So it is `t + delta` up to `(2^-50 error + 12 P W^2) / s` and, for slope, division and rounding,
+/// So it is `t + delta` up to `(2^-49 error + 12 P W^2) / s` and, for slope, division and rounding,
 /// `|delta| (12 error / s + 8 u)`. Underflow: see [`Cubic::new`]; the errors of products that
 /// underflow are below `2^-765`, the first bound above `2^-750`.
 pub(super) fn round_down(query: &EdgeEdge, cubic: &Cubic, bracket: &Bracket) -> Option<f64> {
@@ -154,5 +158,5 @@ pub(super) fn round_down(query: &EdgeEdge, cubic: &Cubic, bracket: &Bracket) -> 
     (is_between && below > 0.0 && below < 1.0).then_some(below)
 }
 
-/// `2^-50`: the error of [`evaluate`] in units of that of the cubic.
-const VALUE_ERROR: f64 = f64::from_bits((1023 - 50) << 52);
+/// `2^-49`: the error of [`evaluate`] in units of that of the cubic.
+const VALUE_ERROR: f64 = f64::from_bits((1023 - 49) << 52);

@@ -54,7 +54,7 @@ impl Cubic {
         match part.variation(error) {
             Variation::None => Some(()),
             Variation::One { is_rising } => {
-                let bracket = self.narrow(part.low, part.high, is_rising)?;
+                let bracket = self.narrow(&part, is_rising)?;
                 *found.brackets.get_mut(found.count)? = bracket;
                 found.count += 1;
                 Some(())
@@ -87,29 +87,28 @@ impl Cubic {
     }
 
     /// Narrows the interval around the one root in it, to what the error bound lets be certain.
-    fn narrow(&self, low: f64, high: f64, is_rising: bool) -> Option<Bracket> {
+    fn narrow(&self, part: &Part, is_rising: bool) -> Option<Bracket> {
+        let (low, high) = (part.low, part.high);
         let (mut a, mut b) = (low, high);
-        let mut t = self.first_guess(low, high);
+        let mut t = part.chord();
         let mut slope = 0.0;
         for _ in 0..MAX_NEWTON {
             let (value, derivative) = self.evaluate(t);
             slope = derivative;
-            if (value > 0.0) == is_rising {
-                b = t
-            } else {
-                a = t
+            if value.abs() <= self.value_error() {
+                break;
             }
-            let next = t - value / derivative;
-            let next = if next > a && next < b {
-                next
+            if (value > 0.0) == is_rising {
+                b = t;
+            } else {
+                a = t;
+            }
+            let newton = t - value / derivative;
+            t = if newton > a && newton < b {
+                newton
             } else {
                 0.5 * (a + b)
             };
-            let step = (next - t).abs();
-            t = next;
-            if step <= 1e-15 {
-                break;
-            }
         }
         let mut width = 2.0 * self.value_error() / slope.abs() + 2.0 * f64::EPSILON * t;
         for _ in 0..MAX_WIDENINGS {
@@ -132,17 +131,6 @@ impl Cubic {
             width *= 16.0;
         }
         None
-    }
-
-    /// Where the chord from end to end crosses 0.
-    fn first_guess(&self, low: f64, high: f64) -> f64 {
-        let ((at_low, _), (at_high, _)) = (self.evaluate(low), self.evaluate(high));
-        let guess = low + (high - low) * (at_low / (at_low - at_high));
-        if guess > low && guess < high {
-            guess
-        } else {
-            0.5 * (low + high)
-        }
     }
 }
 
@@ -167,6 +155,17 @@ enum Variation {
 }
 
 impl Part {
+    /// Where the chord from end to end crosses 0: a first guess.
+    fn chord(&self) -> f64 {
+        let [at_low, _, _, at_high] = self.bernstein;
+        let guess = self.low + (self.high - self.low) * (at_low / (at_low - at_high));
+        if guess > self.low && guess < self.high {
+            guess
+        } else {
+            0.5 * (self.low + self.high)
+        }
+    }
+
     fn variation(&self, error: f64) -> Variation {
         let [b0, b1, b2, b3] = self.bernstein;
         let positive = [b0, b1, b2, b3].map(|b| b > error);
