@@ -2,6 +2,8 @@
 //! less. So the thesis path and the certified path cannot come to know each other, nor the shadow
 //! and the oracle, without a change of that page.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -9,12 +9,12 @@ use tunnelproof_reference::field::Integer;
 use tunnelproof_reference::generate;
 
 /// The name of the arithmetic.
-pub fn backend<Z: Integer>() -> &'static str {
+pub(crate) fn backend<Z: Integer>() -> &'static str {
     Z::BACKEND
 }
 
 /// Named sets: generated ones, then the public ones that are there.
-pub fn sets() -> Vec<(String, Vec<EdgeEdge>)> {
+pub(crate) fn sets() -> Vec<(String, Vec<EdgeEdge>)> {
     let mut sets: Vec<(String, Vec<EdgeEdge>)> = generate::FAMILIES
         .iter()
         .map(|family| {

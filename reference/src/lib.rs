@@ -9,4 +9,5 @@ pub mod generate;
 pub mod oracle;
 pub mod poly;
 pub mod scaled;
+pub mod shadow;
 pub mod subject;

@@ -24,7 +24,7 @@ pub fn isolate_roots<Z: Integer>(poly: &Poly<Z>) -> Vec<Algebraic<Z>> {
     match rest.sign_variations() {
         0 => {}
         1 => found.push(Algebraic::isolated(rest, Interval::unit())),
-        _ => isolate_inside(rest.square_free_part(), &mut found),
+        _ => isolate_inside(rest, &mut found),
     }
     if ends_in_root {
         found.push(Algebraic::dyadic(Z::one(), 0));
@@ -33,40 +33,62 @@ pub fn isolate_roots<Z: Integer>(poly: &Poly<Z>) -> Vec<Algebraic<Z>> {
     found
 }
 
-/// The roots of the square-free `poly` in the open interval `(0, 1)`, whose ends are not roots.
+/// The roots of `poly` in the open interval `(0, 1)`, whose ends are not roots.
+///
+/// Halving ends only if every root is simple. Mostly they are, and few halvings tell the roots apart;
+/// if not, the square-free part takes the place of the polynomial.
 fn isolate_inside<Z: Integer>(mut poly: Poly<Z>, found: &mut Vec<Algebraic<Z>>) {
+    let mut depth = DEPTH_BEFORE_SQUARE_FREE;
     loop {
         let mut intervals = Vec::new();
-        match halve(&poly, Z::zero(), 0, &mut intervals) {
-            Some((numerator, exponent)) => {
+        match halve(&poly, Z::zero(), 0, depth, &mut intervals) {
+            Halving::Done => {
+                let root = |interval| Algebraic::isolated(poly.clone(), interval);
+                found.extend(intervals.into_iter().map(root));
+                return;
+            }
+            Halving::Root(numerator, exponent) => {
                 // A root at a point of division: take it out and isolate the others.
                 poly = remove_root(poly, &numerator, exponent);
                 found.push(Algebraic::dyadic(numerator, exponent));
             }
-            None => {
-                let root = |interval| Algebraic::isolated(poly.clone(), interval);
-                found.extend(intervals.into_iter().map(root));
-                return;
+            Halving::TooDeep => {
+                poly = poly.square_free_part();
+                depth = u64::MAX;
             }
         }
     }
 }
 
+const DEPTH_BEFORE_SQUARE_FREE: u64 = 6;
+
+/// How the halving of an interval ended.
+enum Halving<Z> {
+    /// Every root is isolated.
+    Done,
+    /// This number, numerator over a power of two, is a root and a point of division.
+    Root(Z, u64),
+    /// Some roots are not told apart at the depth allowed.
+    TooDeep,
+}
+
 /// Isolating intervals of the roots of `local` in `(0, 1)`, which stands for the `position`-th of
-/// `2^exponent` parts of the unit interval. Stops at a root at a point of division and returns it.
+/// `2^exponent` parts of the unit interval.
 fn halve<Z: Integer>(
     local: &Poly<Z>,
     position: Z,
     exponent: u64,
+    depth: u64,
     intervals: &mut Vec<Interval<Z>>,
-) -> Option<(Z, u64)> {
+) -> Halving<Z> {
     match local.sign_variations() {
-        0 => return None,
+        0 => return Halving::Done,
         1 => {
             let high = position.add(&Z::one());
             intervals.push(Interval::new(position, high, exponent));
-            return None;
+            return Halving::Done;
         }
+        _ if exponent >= depth => return Halving::TooDeep,
         _ => {}
     }
     let lower = local.stretch_lower_half();
@@ -74,9 +96,12 @@ fn halve<Z: Integer>(
     let (left, exponent) = (position.shl(1), exponent + 1);
     let right = left.add(&Z::one());
     if upper.coefficients()[0].is_zero() {
-        return Some((right, exponent));
+        return Halving::Root(right, exponent);
     }
-    halve(&lower, left, exponent, intervals).or_else(|| halve(&upper, right, exponent, intervals))
+    match halve(&lower, left, exponent, depth, intervals) {
+        Halving::Done => halve(&upper, right, exponent, depth, intervals),
+        stopped => stopped,
+    }
 }
 
 /// `poly` divided by `2^exponent t - numerator` as often as it goes.

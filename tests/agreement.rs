@@ -1,0 +1,90 @@
+//! Two independent ways to every answer, over both backends: oracle and shadow on generated queries,
+//! and on the public sets with their labels where `../shared/data` is present.
+//!
+//! With the feature `gmp` the default backend is GMP, and the comparisons with `num-bigint` are
+//! between two implementations of arithmetic; without it they hold trivially.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use num_bigint::BigInt;
+use tunnelproof::query::{EdgeEdge, Query};
+use tunnelproof_reference::answer::ExactAnswer;
+use tunnelproof_reference::corpus::{self, ReadOptions};
+use tunnelproof_reference::field::{self, Integer};
+use tunnelproof_reference::generate::FAMILIES;
+use tunnelproof_reference::{oracle, shadow};
+
+const COUNT: u64 = 20_000;
+
+fn by_oracle<Z: Integer>(query: &EdgeEdge) -> ExactAnswer {
+    oracle::decide::<Z>(query)
+        .expect("an edge-edge query of radius 0")
+        .written()
+}
+
+fn by_shadow<Z: Integer>(query: &EdgeEdge) -> ExactAnswer {
+    shadow::edge_edge::<Z>(query, tunnelproof::thesis::Repairs::ALL)
+}
+
+/// Every edge-edge csv below a folder.
+fn csv_files(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        if path.is_dir() {
+            files.extend(csv_files(&path));
+        } else if path.extension().is_some_and(|extension| extension == "csv")
+            && path.to_string_lossy().contains("edge-edge")
+        {
+            files.push(path);
+        }
+    }
+    files.sort();
+    files
+}
+
+#[test]
+fn oracle_shadow_and_label_agree_on_the_public_sets() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
+    let files = csv_files(&folder);
+    if files.is_empty() {
+        eprintln!("skipped: no public sets in {}", folder.display());
+        return;
+    }
+    let mut count = 0;
+    for file in files {
+        let path = file.to_string_lossy();
+        for entry in corpus::open(&path, ReadOptions::default()).expect("a readable file") {
+            let entry = entry.expect("a sound file");
+            let Query::EdgeEdge(query) = &entry.query else {
+                panic!("{} is not edge-edge", entry.id)
+            };
+            let answer = by_oracle::<field::Default>(query);
+            assert_eq!(Some(answer.hit.is_some()), entry.label, "{}", entry.id);
+            assert_eq!(answer, by_shadow::<field::Default>(query), "{}", entry.id);
+            assert_eq!(answer, by_oracle::<BigInt>(query), "{}", entry.id);
+            count += 1;
+        }
+    }
+    eprintln!("{count} labelled queries");
+    assert!(count >= 1000, "only {count} queries were read");
+}
+
+#[test]
+fn oracle_shadow_and_backends_agree_on_every_family() {
+    for family in FAMILIES {
+        for index in 0..COUNT {
+            let Query::EdgeEdge(query) = family.query(1, index) else {
+                continue;
+            };
+            let id = || format!("{}:1:{index}", family.name());
+            let answer = by_oracle::<field::Default>(&query);
+            assert_eq!(answer, by_shadow::<field::Default>(&query), "{}", id());
+            if index % 8 == 0 {
+                assert_eq!(answer, by_oracle::<BigInt>(&query), "{}", id());
+                assert_eq!(answer, by_shadow::<BigInt>(&query), "{}", id());
+            }
+        }
+    }
+}
