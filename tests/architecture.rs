@@ -29,7 +29,11 @@ const PACKAGES: [Package; 2] = [
     Package {
         name: "reference",
         sources: "reference/src",
-        roots: &[("crate", "reference"), ("tunnelproof", "engine")],
+        roots: &[
+            ("crate", "reference"),
+            ("tunnelproof_reference", "reference"),
+            ("tunnelproof", "engine"),
+        ],
     },
 ];
 

@@ -12,8 +12,9 @@
 //! the polynomials `K = B - A`, `L = D - C`, `M = C - A`, `f = (K x L) . M`:
 //!
 //! - A contact at `s = 0` or `s = 1` is a graze: the step does not show one of the two sides.
-//! - General motion (`f` not identically 0): a crossing if `f` changes sign at `s` and the edges
-//!   share, at `s`, a point that is interior to both (`0 < u < 1` and `0 < v < 1` for some pair).
+//! - General motion (`f` not identically 0): a crossing if `f` changes sign at `s`, and the lines meet
+//!   there at an angle (`K x L` is not 0 at `s`) in a point that is interior to both edges
+//!   (`0 < u < 1` and `0 < v < 1`).
 //! - Coplanar motion (`f = 0` for all `t`, the four points not always on a line): for an end `X` of
 //!   one edge and the other edge `YZ` let `G = (Y - X) x (Z - X)`. A crossing if, for one of the
 //!   four such ends, `G` is not identically 0 and reverses its direction at `s` (its root there has

@@ -3,11 +3,14 @@
 
 pub mod algebraic;
 pub mod answer;
+pub mod certify;
 pub mod corpus;
 pub mod field;
 pub mod generate;
 pub mod oracle;
 pub mod poly;
+pub mod registry;
+pub mod report;
 pub mod scaled;
 pub mod shadow;
 pub mod subject;

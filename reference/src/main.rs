@@ -1,1 +1,11 @@
-fn main() {}
+//! The command line: `eval`, `certify` and `explain`.
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+mod command;
+
+fn main() -> ExitCode {
+    command::Cli::parse().run()
+}

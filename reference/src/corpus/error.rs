@@ -4,6 +4,7 @@ use std::fmt;
 use std::io;
 
 use tunnelproof::query::{QueryError, QueryKind};
+use tunnelproof::scenario::figures::FIGURES;
 
 use super::dyadic::NotF64;
 use super::hexfloat::HexFloatError;
@@ -141,10 +142,13 @@ pub enum Problem {
     },
     /// The text is not of the form of an identifier.
     #[error(
-        "not a query: that is PATH.csv#INDEX, PATH.jsonl#ID, FAMILY:SEED:INDEX, or - for the \
-         standard input"
+        "not a query: that is PATH.csv#INDEX, PATH.jsonl#ID, FAMILY:SEED:INDEX, figure:NAME, or - \
+         for the standard input"
     )]
     Identifier,
+    /// The text has the form of a figure, but names none.
+    #[error("no such figure; there are 4.1 to 4.{}", FIGURES.len())]
+    Figure,
     /// The text has the form of a generated query, but names none.
     #[error(transparent)]
     Generated(IdError),

@@ -2,11 +2,11 @@
 
 use tunnelproof::query::Query;
 
-use super::{CorpusError, Entry, Format, Problem, ReadOptions, open};
+use super::{CorpusError, Entry, Format, Problem, ReadOptions, figures, open};
 use crate::generate::{GeneratedId, IdError};
 
-/// The query that `identifier` names: `PATH.csv#INDEX`, `PATH.jsonl#ID`, `FAMILY:SEED:INDEX`, or `-`
-/// for the first one on the standard input.
+/// The query that `identifier` names: `PATH.csv#INDEX`, `PATH.jsonl#ID`, `FAMILY:SEED:INDEX`,
+/// `figure:NAME`, or `-` for the first one on the standard input.
 ///
 /// `PATH` ends at the first `#` after an extension of a corpus. A file is read up to the query, and
 /// of several with one `id` the first is taken.
@@ -20,12 +20,16 @@ pub fn locate(identifier: &str, options: ReadOptions) -> Result<Entry, CorpusErr
         let first = open(identifier, options)?.next();
         return first.unwrap_or_else(|| Err(CorpusError::new(identifier, Problem::Empty)));
     }
-    match split_path(identifier) {
-        Some((path, id)) => in_file(path, id, identifier, options),
-        None => {
-            generated(identifier, options).map_err(|problem| CorpusError::new(identifier, problem))
-        }
+    if let Some((path, id)) = split_path(identifier) {
+        return in_file(path, id, identifier, options);
     }
+    let entry = match figures::name_in(identifier) {
+        Some(name) => figures::by_name(name).ok_or(Problem::Figure),
+        None => generated(identifier),
+    };
+    entry
+        .and_then(|entry| as_asked(entry, options))
+        .map_err(|problem| CorpusError::new(identifier, problem))
 }
 
 /// `PATH` and what stands behind its `#`.
@@ -56,18 +60,24 @@ fn in_file(
     Err(CorpusError::new(path, Problem::NotFound { id, count }))
 }
 
-fn generated(identifier: &str, options: ReadOptions) -> Result<Entry, Problem> {
+fn generated(identifier: &str) -> Result<Entry, Problem> {
     let id: GeneratedId = identifier.parse().map_err(|error| match error {
         IdError::Form => Problem::Identifier,
         error => Problem::Generated(error),
     })?;
-    let query = id.query();
-    let kind = options.kind_of(Some(query.kind()))?;
-    let radius = options.radius.unwrap_or(query.radius());
     Ok(Entry {
         id: id.to_string(),
-        query: Query::new(kind, *query.start(), *query.end(), radius)?,
+        query: id.query(),
         label: None,
         line: None,
     })
+}
+
+/// The entry with the kind and the radius that the options ask for.
+fn as_asked(entry: Entry, options: ReadOptions) -> Result<Entry, Problem> {
+    let query = entry.query;
+    let kind = options.kind_of(Some(query.kind()))?;
+    let radius = options.radius.unwrap_or(query.radius());
+    let query = Query::new(kind, *query.start(), *query.end(), radius)?;
+    Ok(Entry { query, ..entry })
 }

@@ -11,6 +11,7 @@
 //! | `PATH.csv#INDEX` | of a csv file, counted from 0 |
 //! | `PATH.jsonl#ID` | of a jsonl file, with this `id` |
 //! | `FAMILY:SEED:INDEX` | of a [family](crate::generate) |
+//! | `figure:NAME` | of a [figure](figures) of the thesis |
 //! | `-` | the first on the standard input |
 
 use std::fs::File;
@@ -25,6 +26,7 @@ pub use error::{CorpusError, Problem};
 pub mod csv;
 mod dyadic;
 mod error;
+pub mod figures;
 pub mod hexfloat;
 pub mod jsonl;
 mod lines;

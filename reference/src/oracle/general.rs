@@ -39,7 +39,7 @@ impl<Z: Integer> Motion<Z> {
     /// Whether the contact at this root of `f` is a crossing, in the sense of [`crate::answer`].
     fn crosses(&self, time: &Algebraic<Z>, locus: &Locus<Z>) -> bool {
         let (before, after) = self.signs_around(time);
-        locus.interior && before != after && is_inside(time)
+        locus.cuts_inside && before != after && is_inside(time)
     }
 
     /// The signs of `f` just before and just after a root of it.

@@ -15,8 +15,8 @@ pub(super) struct Locus<Z> {
     pub(super) first: Place<Z>,
     /// The other end of an overlap of more than a point.
     pub(super) second: Option<Place<Z>>,
-    /// Whether some pair of parameters strictly between 0 and 1 is in contact.
-    pub(super) interior: bool,
+    /// Whether the lines meet at an angle, in a point that is interior to both edges.
+    pub(super) cuts_inside: bool,
 }
 
 /// A point of both edges.
@@ -99,7 +99,7 @@ impl<Z: Integer> Motion<Z> {
                         v: Parameter::Start,
                     },
                     second: None,
-                    interior: true,
+                    cuts_inside: false,
                 }),
             },
         }
@@ -145,7 +145,6 @@ impl<Z: Integer> Motion<Z> {
         let on_first = Position::of(time, &u, n, sign)?;
         let v = self.m.cross_component(&self.k, axis);
         let on_second = Position::of(time, &v, n, sign)?;
-        let interior = on_first.is_interior() && on_second.is_interior();
         let (u, v) = (
             Parameter::Quotient(u, n.clone()),
             Parameter::Quotient(v, n.clone()),
@@ -153,7 +152,7 @@ impl<Z: Integer> Motion<Z> {
         Some(Locus {
             first: Place { u, v },
             second: None,
-            interior,
+            cuts_inside: on_first.is_interior() && on_second.is_interior(),
         })
     }
 
@@ -163,7 +162,7 @@ impl<Z: Integer> Motion<Z> {
             return None;
         }
         let (n, d) = (self.m.dot(&self.l).neg(), self.l.dot(&self.l));
-        let on_second = Position::of(time, &n, &d, Ordering::Greater)?;
+        Position::of(time, &n, &d, Ordering::Greater)?;
         let first = Place {
             u: Parameter::Start,
             v: Parameter::Quotient(n, d),
@@ -171,7 +170,7 @@ impl<Z: Integer> Motion<Z> {
         Some(Locus {
             first,
             second: None,
-            interior: on_second.is_interior(),
+            cuts_inside: false,
         })
     }
 
@@ -181,7 +180,7 @@ impl<Z: Integer> Motion<Z> {
             return None;
         }
         let (n, d) = (self.m.dot(&self.k), self.k.dot(&self.k));
-        let on_first = Position::of(time, &n, &d, Ordering::Greater)?;
+        Position::of(time, &n, &d, Ordering::Greater)?;
         let first = Place {
             u: Parameter::Quotient(n, d),
             v: Parameter::Start,
@@ -189,7 +188,7 @@ impl<Z: Integer> Motion<Z> {
         Some(Locus {
             first,
             second: None,
-            interior: on_first.is_interior(),
+            cuts_inside: false,
         })
     }
 
@@ -243,7 +242,7 @@ impl<Z: Integer> Motion<Z> {
         });
         Some(Locus {
             first,
-            interior: second.is_some(),
+            cuts_inside: false,
             second,
         })
     }

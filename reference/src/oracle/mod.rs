@@ -32,11 +32,13 @@ mod general;
 mod literal;
 mod locus;
 mod motion;
+mod steps;
 #[cfg(test)]
 mod tests;
 mod vector;
 
 pub use gap::{comes_within, least_distance};
+pub use steps::{Event, Step};
 
 use locus::Locus;
 use motion::Motion;

@@ -96,6 +96,33 @@ fn oracle_reports_a_later_crossing_behind_a_graze() {
 }
 
 #[test]
+fn oracle_calls_contact_of_momentarily_parallel_edges_a_graze_though_the_lines_swap_sides() {
+    // f = -4 (2 t - 1)^3: it changes sign, but AB stays below CD before and after.
+    let points = [
+        [-2., 0., 1.],
+        [0., 0., -1.],
+        [-1., -1., 1.],
+        [1., 1., -1.],
+        [0., 0., -1.],
+        [2., 0., 1.],
+        [-1., 1., -1.],
+        [1., -1., 1.],
+    ];
+    let hit = answer(points).hit.unwrap();
+    assert_eq!(
+        (hit.toi, hit.kind, hit.crosses),
+        (exactly(0.5), ContactKind::Graze, false)
+    );
+    assert!(hit.flags.temporarily_parallel);
+    // A disturbance that a crossing would survive.
+    let mut lower = points;
+    for corner in [0, 1, 4, 5] {
+        lower[corner][2] -= 0.001;
+    }
+    assert_eq!(answer(lower).hit, None);
+}
+
+#[test]
 fn oracle_gives_both_ends_of_an_overlap() {
     // Collinear: AB = [0, 2], CD = [5, 3] moving left by 2.
     let touching = answer([

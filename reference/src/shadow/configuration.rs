@@ -78,26 +78,12 @@ impl<'a, Z: Integer> Configuration<'a, Z> {
         }
     }
 
-    /// Whether the edges, which have a common plane at this time, share a point that is interior to
-    /// both; of an edge that is a point every parameter is that point.
-    pub(super) fn shares_interior_point(&self) -> bool {
-        let Polynomials {
-            points: [a, b, c, d],
-            m,
-            n,
-            ..
-        } = self.pair;
-        match (self.first_is_point, self.second_is_point) {
-            (true, true) => vanishes(m, self.at),
-            (true, false) => self.is_strictly_between(a, c, d),
-            (false, true) => self.is_strictly_between(c, a, b),
-            (false, false) if self.parallel => self.overlaps_in_more_than_a_point(),
-            (false, false) => {
-                let n2 = dot(n, n);
-                let inside = |x: &Poly<Z>| self.sign(x).is_gt() && self.sign(&x.sub(&n2)).is_lt();
-                self.crossing_numerators().iter().all(inside)
-            }
-        }
+    /// Whether the lines, which have a common plane at this time, meet at an angle in a point that
+    /// is interior to both edges.
+    pub(super) fn cut_inside_both(&self) -> bool {
+        let n2 = dot(&self.pair.n, &self.pair.n);
+        let inside = |x: &Poly<Z>| self.sign(x).is_gt() && self.sign(&x.sub(&n2)).is_lt();
+        !self.parallel && self.crossing_numerators().iter().all(inside)
     }
 
     /// Whether `x` is on the segment `yz` and neither `y` nor `z`.

@@ -55,7 +55,7 @@ impl<'a, Z: Integer> Crossings<'a, Z> {
         match &self.confinement {
             Confinement::Space => {
                 let (before, after) = signs_around_root(&self.pair.f, s);
-                before != after && edges().shares_interior_point()
+                before != after && edges().cut_inside_both()
             }
             Confinement::Plane(g) => {
                 self.pair

@@ -1,0 +1,21 @@
+//! Certification: subjects judged on queries against the exact answer.
+//!
+//! The oracle says what is true, and a second judge, the shadow of the thesis' algorithms, has to
+//! say the same on every query. Each query is judged by itself, on any thread; what is counted is
+//! counted in the order of the queries, so that the result does not depend on the threads.
+//!
+//! [`verdict`] says what one answer is worth, [`tally`] counts, [`run`] does it for a whole
+//! [`source`], [`strict`] says whether the result passes and [`table`] writes it down. How far a
+//! subject may be off is in [`permitted`] and nowhere else.
+
+pub mod batch;
+pub mod permitted;
+pub mod run;
+pub mod source;
+pub mod strict;
+pub mod table;
+pub mod tally;
+pub mod verdict;
+
+#[cfg(test)]
+mod tests;

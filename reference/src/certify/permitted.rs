@@ -1,0 +1,34 @@
+//! The tolerances: how far a subject may be off before `--strict` fails it. This is the only place
+//! in the crate that has any.
+
+/// What a subject is permitted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Permitted {
+    /// The name of the subject.
+    pub subject: &'static str,
+    /// A false hit passes if the edges come within this distance, in metres.
+    pub distance: f64,
+    /// How much later than the exact time of impact, without unit.
+    pub late: f64,
+    /// Where the values come from.
+    pub source: &'static str,
+}
+
+/// Every permitted deviation. A subject that is not named here is permitted none.
+pub const PERMITTED: &[Permitted] = &[Permitted {
+    subject: "thesis",
+    distance: 1e-6,
+    late: 1e-9,
+    source: "thresholds for distance and time, thesis table 3.1",
+}];
+
+/// What the subject of this name is permitted.
+pub fn permitted(subject: &str) -> Permitted {
+    let row = PERMITTED.iter().find(|row| row.subject == subject);
+    row.copied().unwrap_or(Permitted {
+        subject: "",
+        distance: 0.0,
+        late: 0.0,
+        source: "none: every deviation counts",
+    })
+}

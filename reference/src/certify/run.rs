@@ -1,0 +1,252 @@
+//! Corpora judged as a whole.
+
+use std::fmt;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use tunnelproof::narrow::Unsupported;
+use tunnelproof::query::{EdgeEdge, Query};
+
+use crate::answer::ExactAnswer;
+use crate::corpus::{CorpusError, Entry};
+use crate::oracle;
+use crate::subject::{Answer, Subject};
+
+use super::batch::map_in_order;
+use super::source::Source;
+use super::tally::{Fault, Finding, Tally, Witness};
+use super::verdict::judge;
+
+/// The names of the errata that together make an answer differ from the exact one.
+pub type Explain<'a> = &'a (dyn Fn(&Query, &ExactAnswer) -> Vec<&'static str> + Sync);
+
+/// Someone to be judged.
+#[derive(Clone, Copy)]
+pub struct Judged<'a> {
+    /// Who answers.
+    pub subject: &'a dyn Subject,
+    /// For a subject with known errata: which of them explain an answer that differs.
+    pub explain: Option<Explain<'a>>,
+}
+
+/// Who judges and who is judged. A subject with the name of a judge is that judge.
+#[derive(Clone)]
+pub struct Panel<'a> {
+    /// Has to agree with the oracle on every query.
+    pub second_judge: &'a dyn Subject,
+    /// Who is judged, in the order of tables.
+    pub subjects: Vec<Judged<'a>>,
+}
+
+/// What was found on one source.
+#[derive(Clone, Debug, Default)]
+pub struct Block {
+    /// The name of the source.
+    pub name: String,
+    /// How many queries there were.
+    pub queries: u64,
+    /// How many of them are hits.
+    pub hits: u64,
+    /// How many of them are crossed.
+    pub crossings: u64,
+    /// How many of them are labelled.
+    pub labels: u64,
+    /// Labels that are not what the oracle says.
+    pub wrong_labels: Finding,
+    /// Queries on which the second judge does not say what the oracle says.
+    pub disagreements: Finding,
+    /// What was found of each subject, in the order of the panel.
+    pub tallies: Vec<Tally>,
+}
+
+/// Why judging ended early.
+#[derive(Debug)]
+pub enum RunError {
+    /// The corpus is wrong.
+    Corpus(CorpusError),
+    /// A query that the oracle does not take.
+    Unsupported {
+        /// Where the query comes from.
+        place: String,
+        /// Why it is not taken.
+        reason: Unsupported,
+    },
+}
+
+impl fmt::Display for RunError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            RunError::Corpus(error) => error.fmt(f),
+            RunError::Unsupported { place, reason } => write!(f, "{place}: {reason}"),
+        }
+    }
+}
+
+impl std::error::Error for RunError {}
+
+impl From<CorpusError> for RunError {
+    fn from(error: CorpusError) -> Self {
+        RunError::Corpus(error)
+    }
+}
+
+impl Panel<'_> {
+    /// Judges every query of a source. `progress` is told how many were judged since it was told
+    /// before.
+    ///
+    /// # Errors
+    ///
+    /// [`RunError`] for the first query that cannot be read or that the oracle does not take.
+    pub fn run(&self, source: &Source, progress: impl Fn(u64)) -> Result<Block, RunError> {
+        let mut block = Block {
+            name: source.name(),
+            tallies: vec![Tally::default(); self.subjects.len()],
+            ..Block::default()
+        };
+        let entries = source.entries()?.map(|entry| entry.map_err(RunError::from));
+        let work = |entry| self.judge(source, entry);
+        map_in_order(entries, work, |cases: Vec<Judgements>| {
+            progress(cases.len() as u64);
+            cases.into_iter().for_each(|case| block.add(case));
+            Ok(())
+        })?;
+        Ok(block)
+    }
+
+    fn judge(&self, source: &Source, entry: Entry) -> Result<Judgements, RunError> {
+        let query = entry.query;
+        let refused = |reason| RunError::Unsupported {
+            place: source.place(&entry),
+            reason,
+        };
+        let truth = oracle::decide_query(&query).map_err(refused)?;
+        let second = answer(self.second_judge, &query);
+        // What the judges said need not be asked again.
+        let said = |judged: &Judged| match judged.subject.name() {
+            name if name == oracle::Oracle.name() => Some(Answer::Exact(truth)),
+            name if name == self.second_judge.name() => second,
+            _ => answer(judged.subject, &query),
+        };
+        let found = |judged: &Judged| judged.compare(&query, &truth, said(judged));
+        Ok(Judgements {
+            subjects: self.subjects.iter().map(found).collect(),
+            id: source.identifier(&entry),
+            query,
+            label: entry.label,
+            truth,
+            second,
+        })
+    }
+}
+
+/// A query and all that was said and found about it.
+struct Judgements {
+    id: String,
+    query: Query,
+    label: Option<bool>,
+    truth: ExactAnswer,
+    second: Option<Answer>,
+    subjects: Vec<Found>,
+}
+
+/// What was found of one subject on one query.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// What the subject says; `None` for no answer.
+    pub answer: Option<Answer>,
+    /// Whether it reports a hit.
+    pub is_hit: bool,
+    /// What is wrong, each with its severity.
+    pub faults: Vec<(Fault, f64)>,
+    /// The errata that together explain an answer that differs.
+    pub errata: Vec<&'static str>,
+}
+
+impl Judged<'_> {
+    /// Asks the subject and compares its answer with the exact one.
+    pub fn judge(&self, query: &Query, truth: &ExactAnswer) -> Found {
+        self.compare(query, truth, answer(self.subject, query))
+    }
+
+    fn compare(&self, query: &Query, truth: &ExactAnswer, answer: Option<Answer>) -> Found {
+        let declared = self.subject.declared_distance();
+        let judgement = judge(truth, answer.as_ref(), || {
+            declared > 0.0 && oracle_gap(query, |edges| oracle::comes_within(edges, declared))
+        });
+        let gap = || oracle_gap(query, |edges| oracle::least_distance(edges).below);
+        let explain = self.explain.filter(|_| judgement.differs);
+        Found {
+            answer,
+            is_hit: judgement.is_hit,
+            faults: judgement.faults(truth, gap),
+            errata: explain.map_or_else(Vec::new, |explain| explain(query, truth)),
+        }
+    }
+}
+
+impl Block {
+    fn add(&mut self, case: Judgements) {
+        let witness = |answer, severity| Witness {
+            severity,
+            id: case.id.clone(),
+            query: case.query,
+            truth: case.truth,
+            answer,
+        };
+        let hit = case.truth.hit;
+        self.queries += 1;
+        self.hits += u64::from(hit.is_some());
+        self.crossings += u64::from(hit.is_some_and(|hit| hit.crosses));
+        self.labels += u64::from(case.label.is_some());
+        if case.label.is_some_and(|label| label != hit.is_some()) {
+            self.wrong_labels.add(witness(None, 0.0));
+        }
+        if case.second != Some(Answer::Exact(case.truth)) {
+            self.disagreements.add(witness(case.second, 0.0));
+        }
+        for (tally, found) in self.tallies.iter_mut().zip(case.subjects) {
+            tally.hits += u64::from(found.is_hit);
+            for (fault, severity) in found.faults {
+                let finding = tally.faults.entry(fault).or_default();
+                finding.add(witness(found.answer, severity));
+            }
+            for erratum in &found.errata {
+                let explained = tally.errata.entry(erratum).or_default();
+                let finding = match found.errata.len() {
+                    1 => &mut explained.alone,
+                    _ => &mut explained.with_others,
+                };
+                finding.add(witness(found.answer, 0.0));
+            }
+        }
+    }
+
+    /// Adds what was found on a later source.
+    pub fn merge(&mut self, later: Block) {
+        self.queries += later.queries;
+        self.hits += later.hits;
+        self.crossings += later.crossings;
+        self.labels += later.labels;
+        self.wrong_labels.merge(later.wrong_labels);
+        self.disagreements.merge(later.disagreements);
+        self.tallies
+            .resize_with(later.tallies.len(), Tally::default);
+        for (tally, later) in self.tallies.iter_mut().zip(later.tallies) {
+            tally.merge(later);
+        }
+    }
+}
+
+/// What `decide` says of an edge-edge query, the only kind that the oracle takes.
+fn oracle_gap<T: Default>(query: &Query, decide: impl FnOnce(&EdgeEdge) -> T) -> T {
+    match query {
+        Query::EdgeEdge(query) => decide(query),
+        Query::VertexFace(_) => T::default(),
+    }
+}
+
+/// The answer of a subject; `None` if it refuses or panics.
+fn answer(subject: &dyn Subject, query: &Query) -> Option<Answer> {
+    catch_unwind(AssertUnwindSafe(|| subject.answer(query)))
+        .ok()
+        .and_then(Result::ok)
+}

@@ -1,0 +1,56 @@
+//! Whether what was found passes.
+
+use super::permitted::permitted;
+use super::run::{Block, Judged, Panel};
+use super::table::grouped;
+use super::tally::{Fault, Tally};
+
+/// What fails: a line for each subject and for each disagreement among judges and labels; none if
+/// everything passes.
+///
+/// A subject fails by a tunnel, a missed graze, a false hit or a missing answer, and by a near hit
+/// or a late time of impact beyond what it is [`permitted`]; an exact one by any other field that
+/// differs. A wrong case alone does not fail an engine: it is a way to an answer, not the answer.
+pub fn failures(panel: &Panel, total: &Block) -> Vec<String> {
+    let subjects = panel.subjects.iter().zip(&total.tallies);
+    let mut lines: Vec<_> = subjects
+        .filter_map(|(judged, tally)| {
+            let faults: Vec<_> = faults(judged, tally).collect();
+            let name = judged.subject.name();
+            (!faults.is_empty()).then(|| format!("{name}: {}", faults.join(", ")))
+        })
+        .collect();
+    let second = format!("oracle and {} disagree", panel.second_judge.name());
+    for (what, finding) in [
+        (second.as_str(), &total.disagreements),
+        ("labels disagree with the oracle", &total.wrong_labels),
+    ] {
+        if finding.count > 0 {
+            lines.push(format!("{what} on {} queries", grouped(finding.count)));
+        }
+    }
+    lines
+}
+
+fn faults<'a>(judged: &Judged, tally: &'a Tally) -> impl Iterator<Item = String> + use<'a> {
+    let declared = judged.subject.declared_distance();
+    let permitted = permitted(judged.subject.name());
+    let counted = [
+        (Fault::Tunnel, "tunnels"),
+        (Fault::MissedGraze, "missed grazes"),
+        (Fault::FalseHit, "false hits"),
+        (Fault::NoAnswer, "queries without answer"),
+        (Fault::NearHit, "near hits beyond what is permitted"),
+        (Fault::Late, "late times of impact beyond what is permitted"),
+        (Fault::Differs, "answers that differ from the exact one"),
+    ];
+    let passes = move |fault: Fault| match fault {
+        Fault::NearHit => declared <= permitted.distance,
+        Fault::Late => tally.worst(Fault::Late) <= permitted.late,
+        _ => false,
+    };
+    counted
+        .into_iter()
+        .filter(move |(fault, _)| tally.count(*fault) > 0 && !passes(*fault))
+        .map(|(fault, words)| format!("{} {words}", grouped(tally.count(fault))))
+}

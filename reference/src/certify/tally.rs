@@ -1,0 +1,208 @@
+//! What was found: counts, and the worst witness of each kind.
+
+use std::collections::BTreeMap;
+
+use tunnelproof::query::Query;
+
+use crate::answer::{Enclosure, ExactAnswer, ExactHit};
+use crate::corpus::Entry;
+use crate::subject::Answer;
+
+use super::verdict::{Judgement, Verdict};
+
+/// What can be wrong with an answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Fault {
+    /// [`Verdict::Tunnel`]. Worst: `toi`, `u` and `v` farthest from 0 and 1,
+    /// together.
+    Tunnel,
+    /// [`Verdict::MissedGraze`]. Worst: as for a tunnel.
+    MissedGraze,
+    /// [`Verdict::FalseHit`]. Worst: the largest gap in metres.
+    FalseHit,
+    /// [`Verdict::NearHit`]. Worst: the first.
+    NearHit,
+    /// [`Verdict::NoAnswer`]. Worst: the first.
+    NoAnswer,
+    /// [`Judgement::wrong_case`]. Worst: the first with a wrong verdict, else the first.
+    WrongCase,
+    /// [`Judgement::differs`]. Worst: the first.
+    Differs,
+    /// [`Judgement::late`]. Worst: the latest.
+    Late,
+    /// [`Judgement::early`]. Worst: the earliest.
+    Early,
+}
+
+/// A query that shows a fault.
+#[derive(Clone, Debug)]
+pub struct Witness {
+    /// How bad it is, by the measure of its [`Fault`].
+    pub severity: f64,
+    /// The identifier of the query.
+    pub id: String,
+    /// The query.
+    pub query: Query,
+    /// The exact answer.
+    pub truth: ExactAnswer,
+    /// What the subject says; `None` for no answer.
+    pub answer: Option<Answer>,
+}
+
+/// How often something was found, and its worst witness.
+#[derive(Clone, Debug, Default)]
+pub struct Finding {
+    /// How often.
+    pub count: u64,
+    /// The worst witness, of equals the first.
+    pub worst: Option<Witness>,
+}
+
+/// What was found of one subject.
+#[derive(Clone, Debug, Default)]
+pub struct Tally {
+    /// How many hits it reports.
+    pub hits: u64,
+    /// What was wrong with its answers.
+    pub faults: BTreeMap<Fault, Finding>,
+    /// For a subject with known errata: its answers that differ from the exact one, by the erratum
+    /// that explains them.
+    pub errata: BTreeMap<&'static str, Explained>,
+}
+
+/// The answers that one erratum explains.
+#[derive(Clone, Debug, Default)]
+pub struct Explained {
+    /// It alone.
+    pub alone: Finding,
+    /// It together with others; such an answer stands under each of them.
+    pub with_others: Finding,
+}
+
+impl Fault {
+    /// Every fault, in the order of tables.
+    pub const ALL: [Fault; 9] = [
+        Fault::Tunnel,
+        Fault::MissedGraze,
+        Fault::FalseHit,
+        Fault::NearHit,
+        Fault::NoAnswer,
+        Fault::WrongCase,
+        Fault::Differs,
+        Fault::Late,
+        Fault::Early,
+    ];
+
+    /// The words used in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Fault::Tunnel => Verdict::Tunnel.name(),
+            Fault::MissedGraze => Verdict::MissedGraze.name(),
+            Fault::FalseHit => Verdict::FalseHit.name(),
+            Fault::NearHit => Verdict::NearHit.name(),
+            Fault::NoAnswer => Verdict::NoAnswer.name(),
+            Fault::WrongCase => "wrong case",
+            Fault::Differs => "differs",
+            Fault::Late => "late",
+            Fault::Early => "early",
+        }
+    }
+}
+
+impl Judgement {
+    /// What is wrong with the answer, each with its severity. `gap` is asked for a false hit alone.
+    pub fn faults(&self, truth: &ExactAnswer, gap: impl FnOnce() -> f64) -> Vec<(Fault, f64)> {
+        let centrality = || truth.hit.as_ref().map_or(0.0, centrality);
+        let mut faults = Vec::new();
+        match self.verdict {
+            Verdict::Right => {}
+            Verdict::Tunnel => faults.push((Fault::Tunnel, centrality())),
+            Verdict::MissedGraze => faults.push((Fault::MissedGraze, centrality())),
+            Verdict::FalseHit => faults.push((Fault::FalseHit, gap())),
+            Verdict::NearHit => faults.push((Fault::NearHit, 0.0)),
+            Verdict::NoAnswer => faults.push((Fault::NoAnswer, 0.0)),
+        }
+        if self.wrong_case {
+            let is_decisive = self.verdict != Verdict::Right;
+            faults.push((Fault::WrongCase, f64::from(u8::from(is_decisive))));
+        }
+        if self.differs {
+            faults.push((Fault::Differs, 0.0));
+        }
+        let times = [(Fault::Late, self.late), (Fault::Early, self.early)];
+        faults.extend(times.into_iter().filter(|(_, by)| *by > 0.0));
+        faults
+    }
+}
+
+/// How far the time and the place of a contact are from the ends of the step and of the edges: 0 if
+/// each is at an end, 1 if each is in the middle.
+fn centrality(hit: &ExactHit) -> f64 {
+    let from_ends = |number: Enclosure| number.below.min(1.0 - number.above);
+    let sum = [hit.toi, hit.first.u, hit.first.v]
+        .map(from_ends)
+        .iter()
+        .sum::<f64>();
+    sum * 2.0 / 3.0
+}
+
+impl Witness {
+    /// The query as an entry of a corpus.
+    pub fn entry(&self) -> Entry {
+        Entry {
+            id: self.id.clone(),
+            query: self.query,
+            label: None,
+            line: None,
+        }
+    }
+}
+
+impl Finding {
+    /// Adds one more, which comes after all that are counted.
+    pub fn add(&mut self, witness: Witness) {
+        self.merge(Finding {
+            count: 1,
+            worst: Some(witness),
+        });
+    }
+
+    /// Adds what was found after all that is counted.
+    pub fn merge(&mut self, later: Finding) {
+        self.count += later.count;
+        let worst = self.worst.as_ref().map(|witness| witness.severity);
+        if let Some(witness) = later.worst
+            && worst.is_none_or(|worst| witness.severity > worst)
+        {
+            self.worst = Some(witness);
+        }
+    }
+}
+
+impl Tally {
+    /// How often this fault was found.
+    pub fn count(&self, fault: Fault) -> u64 {
+        self.faults.get(&fault).map_or(0, |finding| finding.count)
+    }
+
+    /// The severity of the worst witness of this fault; 0 if it was not found.
+    pub fn worst(&self, fault: Fault) -> f64 {
+        let finding = self.faults.get(&fault);
+        finding
+            .and_then(|finding| finding.worst.as_ref())
+            .map_or(0.0, |witness| witness.severity)
+    }
+
+    /// Adds what was found after all that is counted.
+    pub fn merge(&mut self, later: Tally) {
+        self.hits += later.hits;
+        for (fault, finding) in later.faults {
+            self.faults.entry(fault).or_default().merge(finding);
+        }
+        for (erratum, finding) in later.errata {
+            let explained = self.errata.entry(erratum).or_default();
+            explained.alone.merge(finding.alone);
+            explained.with_others.merge(finding.with_others);
+        }
+    }
+}

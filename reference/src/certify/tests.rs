@@ -1,0 +1,368 @@
+//! The judge judged: subjects that lie, each in its own way, are found out.
+
+use std::io::Write as _;
+
+use tunnelproof::contact::{Case, Contact, ContactPoint, Flags, Verdict as Claim};
+use tunnelproof::narrow::{Report, Unsupported};
+use tunnelproof::query::{Point, Query};
+
+use super::run::{Block, Judged, Panel};
+use super::source::Source;
+use super::strict::failures;
+use super::tally::{Fault, Tally};
+use crate::answer::{Enclosure, ExactAnswer};
+use crate::corpus::ReadOptions;
+use crate::corpus::jsonl::{self, Numbers};
+use crate::generate;
+use crate::oracle::{Oracle, decide_query, least_distance};
+use crate::shadow::Shadow;
+use crate::subject::{Answer, Subject};
+
+const COUNT: u64 = 1500;
+
+fn lattice() -> Source {
+    Source::Family {
+        family: generate::by_name("lattice").unwrap(),
+        seed: 3,
+        count: COUNT,
+    }
+}
+
+fn queries() -> impl Iterator<Item = (Query, ExactAnswer)> {
+    let entries = lattice().entries().unwrap();
+    entries.map(|entry| {
+        let query = entry.unwrap().query;
+        (query, decide_query(&query).unwrap())
+    })
+}
+
+/// An engine that knows the exact answer and tells something else.
+struct Liar<L> {
+    lie: L,
+    declared: f64,
+}
+
+impl<L: Fn(&Query, ExactAnswer) -> Result<Report, Unsupported> + Sync> Subject for Liar<L> {
+    fn name(&self) -> &str {
+        "liar"
+    }
+
+    fn answer(&self, query: &Query) -> Result<Answer, Unsupported> {
+        (self.lie)(query, decide_query(query)?).map(Answer::Engine)
+    }
+
+    fn declared_distance(&self) -> f64 {
+        self.declared
+    }
+}
+
+fn honest(truth: ExactAnswer) -> Report {
+    Report {
+        verdict: truth.hit.map_or(Claim::Miss, |hit| claim(hit.toi.below)),
+        case: Some(truth.case),
+        flags: Flags::default(),
+    }
+}
+
+fn claim(toi: f64) -> Claim {
+    let first = ContactPoint {
+        point: Point::origin(),
+        u: 0.5,
+        v: 0.5,
+        normal: None,
+    };
+    Claim::Hit(Contact {
+        toi,
+        first,
+        second: None,
+    })
+}
+
+/// About one query in ten, chosen by its points.
+fn is_chosen(query: &Query) -> bool {
+    let sum: f64 = (query.start().iter().chain(query.end()))
+        .zip(1..)
+        .map(|(point, i)| f64::from(i) * (point.x + 3.0 * point.y + 5.0 * point.z))
+        .sum();
+    sum.rem_euclid(10.0) == 0.0
+}
+
+fn run(subject: &dyn Subject) -> Block {
+    panel(subject).run(&lattice(), |_| {}).unwrap()
+}
+
+fn panel(subject: &dyn Subject) -> Panel<'_> {
+    Panel {
+        second_judge: &Shadow::REPAIRED,
+        subjects: vec![Judged {
+            subject,
+            explain: None,
+        }],
+    }
+}
+
+fn judged(
+    lie: impl Fn(&Query, ExactAnswer) -> Result<Report, Unsupported> + Sync,
+) -> (Tally, Vec<String>) {
+    let liar = Liar { lie, declared: 0.0 };
+    let mut block = run(&liar);
+    let failures = failures(&panel(&liar), &block);
+    (block.tallies.remove(0), failures)
+}
+
+fn counts(tally: &Tally) -> Vec<(Fault, u64)> {
+    let counts = Fault::ALL.map(|fault| (fault, tally.count(fault)));
+    counts.into_iter().filter(|(_, count)| *count > 0).collect()
+}
+
+#[test]
+fn certify_honest_engine_has_no_fault_but_rounding() {
+    let (tally, failures) = judged(|_, truth| Ok(honest(truth)));
+    let faults = counts(&tally);
+    assert!(
+        faults.iter().all(|(fault, _)| *fault == Fault::Early),
+        "{faults:?}"
+    );
+    assert!(tally.worst(Fault::Early) <= f64::EPSILON);
+    assert_eq!(failures, [""; 0]);
+}
+
+#[test]
+fn certify_dropped_hits_are_tunnels_and_missed_grazes() {
+    let (tally, failures) = judged(|query, truth| {
+        let dropped = Report {
+            verdict: Claim::Miss,
+            ..honest(truth)
+        };
+        Ok(if is_chosen(query) {
+            dropped
+        } else {
+            honest(truth)
+        })
+    });
+    let hits: Vec<_> = queries()
+        .filter(|(query, _)| is_chosen(query))
+        .filter_map(|(_, truth)| truth.hit)
+        .collect();
+    let tunnels = hits.iter().filter(|hit| hit.crosses).count() as u64;
+    assert!(tunnels > 0);
+    assert_eq!(tally.count(Fault::Tunnel), tunnels);
+    assert_eq!(tally.count(Fault::MissedGraze), hits.len() as u64 - tunnels);
+    assert_eq!(failures.len(), 1);
+    assert!(failures[0].starts_with(&format!("liar: {tunnels} tunnels, ")));
+}
+
+#[test]
+fn certify_invented_hits_are_false_hits_with_their_gap() {
+    let invent = |query: &Query, truth: ExactAnswer| {
+        let invented = Report {
+            verdict: claim(0.5),
+            ..honest(truth)
+        };
+        let lies = is_chosen(query) && truth.hit.is_none();
+        Ok(if lies { invented } else { honest(truth) })
+    };
+    let gaps: Vec<_> = queries()
+        .filter(|(query, truth)| is_chosen(query) && truth.hit.is_none())
+        .map(|(query, _)| match query {
+            Query::EdgeEdge(edges) => least_distance(&edges).below,
+            Query::VertexFace(_) => unreachable!("a family of edges"),
+        })
+        .collect();
+    let (tally, failures) = judged(invent);
+    assert!(!gaps.is_empty());
+    assert_eq!(tally.count(Fault::FalseHit), gaps.len() as u64);
+    assert_eq!(
+        tally.worst(Fault::FalseHit),
+        gaps.iter().copied().fold(0.0, f64::max)
+    );
+    assert_eq!(failures, [format!("liar: {} false hits", gaps.len())]);
+
+    let declared = 1.0;
+    let declaring = Liar {
+        lie: invent,
+        declared,
+    };
+    let block = run(&declaring);
+    let near = gaps.iter().filter(|gap| **gap < declared).count() as u64;
+    assert!(near > 0 && near < gaps.len() as u64);
+    assert_eq!(block.tallies[0].count(Fault::NearHit), near);
+    assert_eq!(
+        block.tallies[0].count(Fault::FalseHit),
+        gaps.len() as u64 - near
+    );
+}
+
+#[test]
+fn certify_near_hits_pass_only_if_they_are_permitted() {
+    let invent = |_: &Query, truth: ExactAnswer| {
+        Ok(Report {
+            verdict: claim(truth.hit.map_or(0.5, |hit| hit.toi.below)),
+            ..honest(truth)
+        })
+    };
+    let liar = Liar {
+        lie: invent,
+        declared: 1e9,
+    };
+    let block = run(&liar);
+    assert_eq!(block.tallies[0].count(Fault::FalseHit), 0);
+    let failures = failures(&panel(&liar), &block);
+    assert!(
+        failures[0].ends_with("near hits beyond what is permitted"),
+        "{failures:?}"
+    );
+}
+
+#[test]
+fn certify_late_and_early_are_measured() {
+    for (by, fault) in [(1e-3, Fault::Late), (-1e-3, Fault::Early)] {
+        let (tally, failures) = judged(|_, truth| {
+            let mut report = honest(truth);
+            if let Claim::Hit(contact) = &mut report.verdict {
+                contact.toi = (contact.toi + by).clamp(0.0, 1.0);
+            }
+            Ok(report)
+        });
+        assert!((tally.worst(fault) - 1e-3).abs() < 1e-12);
+        assert_eq!(!failures.is_empty(), fault == Fault::Late);
+    }
+}
+
+#[test]
+fn certify_wrong_cases_are_counted_and_do_not_fail_an_engine() {
+    let (tally, failures) = judged(|query, truth| {
+        let case = if is_chosen(query) {
+            Case::General
+        } else {
+            truth.case
+        };
+        Ok(Report {
+            case: Some(case),
+            ..honest(truth)
+        })
+    });
+    let wrong = queries().filter(|(query, truth)| is_chosen(query) && truth.case != Case::General);
+    assert_eq!(tally.count(Fault::WrongCase), wrong.count() as u64);
+    assert!(tally.count(Fault::WrongCase) > 0);
+    assert_eq!(failures, [""; 0]);
+}
+
+#[test]
+fn certify_refusals_panics_and_meaningless_numbers_are_no_answers() {
+    let chosen = queries().filter(|(query, _)| is_chosen(query));
+    let hits = chosen.filter(|(_, truth)| truth.hit.is_some()).count() as u64;
+    let lies = |query: &Query, truth: &ExactAnswer| is_chosen(query) && truth.hit.is_some();
+    let (refusals, _) = judged(|query, truth| match lies(query, &truth) {
+        true => Err(Unsupported::Radius(1.0)),
+        false => Ok(honest(truth)),
+    });
+    let (panics, failures) = judged(|query, truth| match lies(query, &truth) {
+        true => std::panic::resume_unwind(Box::new("broken")),
+        false => Ok(honest(truth)),
+    });
+    for tally in [refusals, panics] {
+        assert_eq!(tally.count(Fault::NoAnswer), hits);
+    }
+    assert_eq!(failures, [format!("liar: {hits} queries without answer")]);
+    for toi in [f64::NAN, f64::INFINITY, -0.5, 1.5] {
+        let (tally, _) = judged(|query, truth| {
+            let mut report = honest(truth);
+            if lies(query, &truth) {
+                report.verdict = claim(toi);
+            }
+            Ok(report)
+        });
+        assert_eq!(tally.count(Fault::NoAnswer), hits, "{toi}");
+    }
+}
+
+/// An exact subject that is off by one neighbour in the time of impact of chosen queries.
+struct AlmostExact;
+
+impl Subject for AlmostExact {
+    fn name(&self) -> &str {
+        "almost exact"
+    }
+
+    fn answer(&self, query: &Query) -> Result<Answer, Unsupported> {
+        let mut answer = decide_query(query)?;
+        if let Some(hit) = answer.hit.as_mut().filter(|_| is_chosen(query)) {
+            hit.toi = Enclosure {
+                below: hit.toi.below,
+                above: hit.toi.below.next_up(),
+            };
+        }
+        Ok(Answer::Exact(answer))
+    }
+}
+
+#[test]
+fn certify_exact_subject_off_by_a_neighbour_differs() {
+    let is_f64 = |truth: &ExactAnswer| truth.hit.is_some_and(|hit| hit.toi.is_exact());
+    let chosen = queries().filter(|(query, truth)| is_chosen(query) && is_f64(truth));
+    let count = chosen.count() as u64;
+    let block = run(&AlmostExact);
+    assert!(count > 0);
+    assert_eq!(block.tallies[0].count(Fault::Differs), count);
+    assert_eq!(block.disagreements.count, 0);
+
+    let panel = Panel {
+        second_judge: &AlmostExact,
+        subjects: Vec::new(),
+    };
+    let block = panel.run(&lattice(), |_| {}).unwrap();
+    assert_eq!(block.disagreements.count, count);
+    let expected = format!("oracle and almost exact disagree on {count} queries");
+    assert_eq!(failures(&panel, &block), [expected]);
+}
+
+#[test]
+fn certify_wrong_labels_are_found() {
+    let mut file = tempfile::Builder::new()
+        .suffix(".jsonl")
+        .tempfile()
+        .unwrap();
+    let mut wrong = 0;
+    for (index, entry) in lattice().entries().unwrap().take(100).enumerate() {
+        let mut entry = entry.unwrap();
+        let truth = decide_query(&entry.query).unwrap().hit.is_some();
+        wrong += u64::from(index % 7 == 0);
+        entry.label = Some(truth != (index % 7 == 0));
+        writeln!(file, "{}", jsonl::write(&entry, Numbers::Decimal)).unwrap();
+    }
+    let path = file.path().to_str().unwrap().to_owned();
+    let source = Source::File {
+        path: path.clone(),
+        options: ReadOptions::default(),
+    };
+    let panel = panel(&Oracle);
+    let block = panel.run(&source, |_| {}).unwrap();
+    assert_eq!((block.labels, block.wrong_labels.count), (100, wrong));
+    let witness = block.wrong_labels.worst.as_ref().unwrap();
+    assert_eq!(witness.id, format!("{path}#lattice:3:0"));
+    let entry = crate::corpus::locate::locate(&witness.id, ReadOptions::default()).unwrap();
+    assert_eq!(entry.query, witness.query);
+    assert_eq!(failures(&panel, &block).len(), 1);
+}
+
+#[test]
+fn certify_result_does_not_depend_on_the_threads() {
+    let blocks = [1, 2, 5].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = pool.build().unwrap();
+        let thesis = crate::registry::by_name("thesis").unwrap();
+        pool.install(|| format!("{:?}", run(thesis)))
+    });
+    assert_eq!(blocks[0], blocks[1]);
+    assert_eq!(blocks[0], blocks[2]);
+}
+
+#[test]
+fn certify_figures_are_hits_where_the_captions_say_so() {
+    let panel = panel(&Oracle);
+    let block = panel.run(&Source::Figures, |_| {}).unwrap();
+    assert_eq!((block.queries, block.labels), (12, 12));
+    assert_eq!(block.wrong_labels.count, 0);
+    assert_eq!(failures(&panel, &block), [""; 0]);
+}

@@ -1,0 +1,126 @@
+//! What one answer is worth, against the exact one.
+
+use tunnelproof::contact::Verdict as Claim;
+use tunnelproof::narrow::Report;
+
+use crate::answer::{Enclosure, ExactAnswer, ExactHit};
+use crate::subject::Answer;
+
+/// Hit and miss, right or wrong.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Verdict {
+    /// A hit where there is one, or a miss where there is none.
+    Right,
+    /// A miss, but the edges swap sides: they get through each other unnoticed.
+    Tunnel,
+    /// A miss, but the edges touch, without swapping sides.
+    MissedGraze,
+    /// A hit, but the edges never touch.
+    FalseHit,
+    /// A false hit with a gap within the distance that the subject declares of itself.
+    NearHit,
+    /// No answer to a query that can be answered, or numbers that mean nothing.
+    NoAnswer,
+}
+
+/// How an answer compares with the exact one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Judgement {
+    /// Hit and miss.
+    pub verdict: Verdict,
+    /// Whether the subject reports a hit.
+    pub is_hit: bool,
+    /// Whether the subject states a case and it is not the exact one.
+    pub wrong_case: bool,
+    /// For an exact subject: whether the answer is not the exact one in every field.
+    pub differs: bool,
+    /// How much later than the exact time of impact, at most; 0 if it is not later.
+    pub late: f64,
+    /// How much earlier than the exact time of impact, at most; 0 if it is not earlier.
+    pub early: f64,
+}
+
+impl Verdict {
+    /// The word used in tables and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Verdict::Right => "right",
+            Verdict::Tunnel => "tunnel",
+            Verdict::MissedGraze => "missed graze",
+            Verdict::FalseHit => "false hit",
+            Verdict::NearHit => "near hit",
+            Verdict::NoAnswer => "no answer",
+        }
+    }
+}
+
+impl Judgement {
+    const NO_ANSWER: Judgement = Judgement {
+        verdict: Verdict::NoAnswer,
+        is_hit: false,
+        wrong_case: false,
+        differs: false,
+        late: 0.0,
+        early: 0.0,
+    };
+}
+
+/// Compares an answer, `None` for no answer, with the exact one.
+///
+/// `is_near` decides whether the gap of a false hit is within the distance that the subject
+/// declares; it is asked for false hits alone, since it is dear.
+pub fn judge(
+    truth: &ExactAnswer,
+    answer: Option<&Answer>,
+    is_near: impl FnOnce() -> bool,
+) -> Judgement {
+    let (toi, case, differs) = match answer {
+        Some(Answer::Exact(exact)) => {
+            let toi = exact.hit.map(|hit| hit.toi);
+            (toi, Some(exact.case), exact != truth)
+        }
+        Some(Answer::Engine(report)) if is_meaningful(report) => {
+            let toi = report.verdict.contact();
+            (toi.map(|c| Enclosure::exactly(c.toi)), report.case, false)
+        }
+        _ => return Judgement::NO_ANSWER,
+    };
+    let (late, early) = match (toi, truth.hit) {
+        (Some(toi), Some(hit)) => lateness(toi, hit.toi),
+        _ => (0.0, 0.0),
+    };
+    Judgement {
+        verdict: match (toi, truth.hit) {
+            (None, None) | (Some(_), Some(_)) => Verdict::Right,
+            (None, Some(ExactHit { crosses: true, .. })) => Verdict::Tunnel,
+            (None, Some(_)) => Verdict::MissedGraze,
+            (Some(_), None) if is_near() => Verdict::NearHit,
+            (Some(_), None) => Verdict::FalseHit,
+        },
+        is_hit: toi.is_some(),
+        wrong_case: case.is_some_and(|case| case != truth.case),
+        differs,
+        late,
+        early,
+    }
+}
+
+/// Whether a claimed time of impact is a time of the step.
+fn is_meaningful(report: &Report) -> bool {
+    match report.verdict {
+        Claim::Miss => true,
+        Claim::Hit(contact) => (0.0..=1.0).contains(&contact.toi),
+    }
+}
+
+/// How much later and how much earlier one number may be than another.
+///
+/// Numbers with the same enclosure are not told apart here. Differences are correctly rounded.
+fn lateness(claimed: Enclosure, exact: Enclosure) -> (f64, f64) {
+    if claimed == exact {
+        return (0.0, 0.0);
+    }
+    let late = claimed.above - exact.below;
+    let early = exact.above - claimed.below;
+    (late.max(0.0), early.max(0.0))
+}

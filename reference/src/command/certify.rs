@@ -1,0 +1,184 @@
+//! `certify`: subjects judged on files and families against the exact answer.
+
+use std::io::IsTerminal;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use indicatif::{ProgressBar, ProgressStyle};
+use tunnelproof_reference::certify::run::{Block, Judged, Panel};
+use tunnelproof_reference::certify::source::Source;
+use tunnelproof_reference::certify::strict::failures;
+use tunnelproof_reference::certify::table;
+use tunnelproof_reference::field::{self, Integer};
+use tunnelproof_reference::generate::{self, FAMILIES, Family};
+use tunnelproof_reference::registry;
+use tunnelproof_reference::report::results::Results;
+use tunnelproof_reference::shadow::Shadow;
+use tunnelproof_reference::subject::Subject;
+
+use super::output::{OutputFile, print};
+use super::{Failure, Reading};
+
+/// Judge subjects against the exact answer
+///
+/// The oracle is the truth, and a second exact judge has to agree with it on every query.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  tunnelproof certify
+  tunnelproof certify --subject thesis --family lattice --count 1000000 --seed 7
+  tunnelproof certify --strict --subject oracle,shadow queries.jsonl unit-tests/edge-edge/*.csv
+
+Without files: the figure cases and every family. With files: these, and the families asked for.
+
+Columns: hits that the subject reports; tunnels, crossings that it misses; missed grazes, contacts
+without crossing that it misses; false hits; near hits, false hits within the distance that the
+subject declares of itself; wrong cases; queries it gives no answer to; and how far the worst time of
+impact is behind (late: dangerous) or ahead of (early: safe) the exact one.
+
+Of the witnesses, \"central\" is 1 if the time and the parameters of the missed contact are in the
+middle of the step and the edges, 0 if they are at the ends; \"gap\" is the least distance during the
+step.")]
+pub(super) struct Certify {
+    /// Files of queries (.jsonl or .csv); - is the standard input
+    #[arg(value_name = "FILE")]
+    files: Vec<String>,
+    /// Who is judged; by default everyone
+    #[arg(long, value_delimiter = ',', value_parser = super::subject())]
+    subject: Vec<&'static dyn Subject>,
+    /// Families of generated queries; by default all, or none if files are given
+    #[arg(long, value_delimiter = ',', value_parser = family())]
+    family: Vec<&'static Family>,
+    /// How many queries of each family; 0 for none
+    #[arg(long, value_name = "N", default_value_t = 20_000)]
+    count: u64,
+    /// The seed of the families
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// Write the whole result to this file, as JSON
+    #[arg(long, value_name = "OUT")]
+    json: Option<PathBuf>,
+    /// Exit with 1 unless every subject passes and all judges and labels agree
+    #[arg(long)]
+    strict: bool,
+    #[command(flatten)]
+    reading: Reading,
+}
+
+impl Certify {
+    pub(super) fn run(self) -> Result<ExitCode, Failure> {
+        let sources = self.sources();
+        if sources.is_empty() {
+            return Err(Failure::Nothing);
+        }
+        let json = self.json.as_deref().map(OutputFile::create).transpose()?;
+        let panel = self.panel();
+        let blocks = judge(&panel, &sources)?;
+        let mut total = Block {
+            name: "all".to_owned(),
+            ..Block::default()
+        };
+        blocks.iter().for_each(|block| total.merge(block.clone()));
+        if let Some(file) = json {
+            let results = Results::new(&panel, self.seed, self.count, &blocks, &total);
+            file.write(&results.text())?;
+        }
+        print(&self.text(&panel, &blocks, &total))?;
+        let failures = failures(&panel, &total);
+        if !self.strict || failures.is_empty() {
+            return Ok(ExitCode::SUCCESS);
+        }
+        failures
+            .iter()
+            .for_each(|failure| eprintln!("--strict: {failure}"));
+        Ok(ExitCode::FAILURE)
+    }
+
+    fn panel(&self) -> Panel<'static> {
+        let subjects = match self.subject.is_empty() {
+            true => registry::subjects().to_vec(),
+            false => self.subject.clone(),
+        };
+        Panel {
+            second_judge: &registry::SECOND_JUDGE,
+            subjects: subjects.into_iter().map(judged).collect(),
+        }
+    }
+
+    fn sources(&self) -> Vec<Source> {
+        let is_everything = self.family.is_empty() && self.files.is_empty();
+        let families = match is_everything {
+            true => FAMILIES.iter().collect(),
+            false => self.family.clone(),
+        };
+        let figures = is_everything.then_some(Source::Figures);
+        let (seed, count) = (self.seed, self.count);
+        let families = families
+            .into_iter()
+            .filter(|_| count > 0)
+            .map(|family| Source::Family {
+                family,
+                seed,
+                count,
+            });
+        let files = self.files.iter().map(|path| Source::File {
+            path: path.clone(),
+            options: self.reading.options(),
+        });
+        figures.into_iter().chain(families).chain(files).collect()
+    }
+
+    fn text(&self, panel: &Panel, blocks: &[Block], total: &Block) -> String {
+        let everything = (blocks.len() > 1).then(|| total.clone());
+        let blocks: Vec<_> = blocks.iter().cloned().chain(everything).collect();
+        let settings = format!(
+            "tunnelproof {}, seed {}, exact arithmetic by {}",
+            env!("CARGO_PKG_VERSION"),
+            self.seed,
+            field::Default::BACKEND
+        );
+        [
+            settings,
+            table::blocks(panel, &blocks),
+            table::agreement(panel, total),
+            table::witnesses(panel, total),
+        ]
+        .join("\n")
+    }
+}
+
+pub(super) fn judged(subject: &'static dyn Subject) -> Judged<'static> {
+    let is_published = subject.name() == Shadow::PUBLISHED.name();
+    Judged {
+        subject,
+        explain: is_published.then_some(&registry::errata),
+    }
+}
+
+/// Judges every source, with a progress bar on the standard error if that is a terminal.
+fn judge(panel: &Panel, sources: &[Source]) -> Result<Vec<Block>, Failure> {
+    let progress = match sources.iter().map(Source::count).sum::<Option<u64>>() {
+        _ if !std::io::stderr().is_terminal() => ProgressBar::hidden(),
+        Some(count) => ProgressBar::new(count).with_style(style()),
+        None => ProgressBar::new_spinner(),
+    };
+    let blocks = sources.iter().map(|source| {
+        progress.set_message(source.name());
+        Ok(panel.run(source, |judged| progress.inc(judged))?)
+    });
+    let blocks = blocks.collect();
+    progress.finish_and_clear();
+    blocks
+}
+
+fn style() -> ProgressStyle {
+    ProgressStyle::with_template("{bar:40} {human_pos} of {human_len} {msg} {eta}")
+        .unwrap_or_else(|_| ProgressStyle::default_bar())
+}
+
+fn family() -> impl TypedValueParser<Value = &'static Family> {
+    PossibleValuesParser::new(FAMILIES.iter().map(Family::name))
+        .try_map(|name| generate::by_name(&name).ok_or("unknown family"))
+}

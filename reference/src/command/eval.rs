@@ -1,0 +1,75 @@
+//! `eval`: a line of JSON for every query.
+
+use std::io::{self, BufWriter, Write};
+use std::process::ExitCode;
+
+use clap::Args;
+use tunnelproof_reference::certify::batch::map_in_order;
+use tunnelproof_reference::certify::run::RunError;
+use tunnelproof_reference::certify::source::Source;
+use tunnelproof_reference::corpus::Entry;
+use tunnelproof_reference::report::answer;
+use tunnelproof_reference::subject::Subject;
+
+use super::output::standard_output;
+use super::{Failure, Reading};
+
+/// Answer every query of files, a line of JSON each
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  tunnelproof eval queries.jsonl
+  tunnelproof eval --subject thesis --kind edge-edge unit-tests/*.csv
+  head -1 queries.jsonl | tunnelproof eval -
+
+A query is a line such as
+  {\"id\": \"a\", \"kind\": \"edge-edge\", \"points\": [[0, 0, 0], ...]}
+with the eight points A B C D at the start and A B C D at the end of the step; numbers may be hex
+floats in quotes (\"0x1.8p-3\"). A .csv is in the public CCD query format.
+
+An exact number stands between its neighbours in f64, {\"below\": B, \"above\": A}, equal if it is
+an f64 itself.")]
+pub(super) struct Eval {
+    /// Files of queries (.jsonl or .csv); - is the standard input
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<String>,
+    /// Who answers
+    #[arg(long, default_value = "oracle", value_parser = super::subject())]
+    subject: &'static dyn Subject,
+    #[command(flatten)]
+    reading: Reading,
+}
+
+impl Eval {
+    pub(super) fn run(self) -> Result<ExitCode, Failure> {
+        let mut output = BufWriter::new(io::stdout().lock());
+        for path in self.files {
+            let options = self.reading.options();
+            let source = Source::File { path, options };
+            let entries = source.entries()?;
+            map_in_order(
+                entries.map(|entry| entry.map_err(Failure::from)),
+                |entry| answer_line(self.subject, &source, &entry),
+                |lines: Vec<String>| write_lines(&mut output, &lines),
+            )?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+fn answer_line(subject: &dyn Subject, source: &Source, entry: &Entry) -> Result<String, Failure> {
+    let answer = subject.answer(&entry.query);
+    let answer = answer.map_err(|reason| RunError::Unsupported {
+        place: source.place(entry),
+        reason,
+    })?;
+    Ok(answer::line(&entry.id, &answer))
+}
+
+fn write_lines(output: &mut impl Write, lines: &[String]) -> Result<(), Failure> {
+    lines
+        .iter()
+        .try_for_each(|line| writeln!(output, "{line}"))
+        .and_then(|()| output.flush())
+        .map_err(standard_output)
+}

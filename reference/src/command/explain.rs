@@ -1,0 +1,62 @@
+//! `explain`: one query, its exact answer, what everyone says of it, and a picture.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+use tunnelproof::narrow::Unsupported;
+use tunnelproof::query::{EdgeEdge, Query};
+use tunnelproof_reference::certify::run::RunError;
+use tunnelproof_reference::corpus::locate::locate;
+use tunnelproof_reference::oracle::decide_query;
+use tunnelproof_reference::registry;
+use tunnelproof_reference::report::{explanation, picture};
+
+use super::output::{OutputFile, print};
+use super::{Failure, Reading, certify};
+
+/// Explain the exact answer to one query, and what every subject says
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  tunnelproof explain figure:4.3
+  tunnelproof explain lattice:1:4711 --svg picture.svg
+  tunnelproof explain 'unit-tests/edge-edge/data_0_1.csv#12'
+  head -1 queries.jsonl | tunnelproof explain -")]
+pub(super) struct Explain {
+    /// figure:NAME, FAMILY:SEED:INDEX, PATH.csv#INDEX, PATH.jsonl#ID, or - for a line on the
+    /// standard input
+    query: String,
+    /// Write a picture to this file
+    #[arg(long, value_name = "OUT")]
+    svg: Option<PathBuf>,
+    #[command(flatten)]
+    reading: Reading,
+}
+
+impl Explain {
+    pub(super) fn run(self) -> Result<ExitCode, Failure> {
+        let entry = locate(&self.query, self.reading.options())?;
+        let svg = self.svg.as_deref().map(OutputFile::create).transpose()?;
+        let refused = |reason| {
+            let place = self.query.clone();
+            Failure::from(RunError::Unsupported { place, reason })
+        };
+        let edges = edge_edge(&entry.query).map_err(refused)?;
+        let subjects = registry::subjects().map(certify::judged);
+        let text = explanation::explain(&entry.id, edges, &subjects).map_err(refused)?;
+        if let Some(file) = svg {
+            let answer = decide_query(&entry.query).map_err(refused)?;
+            file.write(&picture::draw(&entry.id, &entry.query, &answer))?;
+        }
+        print(&text)?;
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+fn edge_edge(query: &Query) -> Result<&EdgeEdge, Unsupported> {
+    match query {
+        Query::EdgeEdge(edges) => Ok(edges),
+        Query::VertexFace(_) => Err(Unsupported::Kind(query.kind())),
+    }
+}

@@ -1,0 +1,141 @@
+//! The commands, what they have in common, and how they end.
+//!
+//! Exit code 0 is success, 1 a judged failure, 2 bad input or output that cannot be written; then one
+//! line on the standard error says what is wrong. Whoever closes the standard output early wants no
+//! more: that is success.
+
+use std::fmt;
+use std::io;
+use std::num::NonZeroUsize;
+use std::process::ExitCode;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand};
+use tunnelproof::query::QueryKind;
+use tunnelproof_reference::certify::run::RunError;
+use tunnelproof_reference::corpus::{CorpusError, ReadOptions};
+use tunnelproof_reference::registry;
+use tunnelproof_reference::subject::Subject;
+
+mod certify;
+mod eval;
+mod explain;
+mod output;
+
+/// Judges continuous collision detection of moving edges against exact arithmetic.
+#[derive(Parser)]
+#[command(name = "tunnelproof", version, arg_required_else_help = true)]
+pub(crate) struct Cli {
+    /// Threads to work on; by default RAYON_NUM_THREADS, or one for each core
+    #[arg(long, global = true, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Eval(eval::Eval),
+    Certify(certify::Certify),
+    Explain(explain::Explain),
+}
+
+/// How files are read.
+#[derive(Args)]
+struct Reading {
+    /// The kind of the queries, where neither the file's path nor the query says it
+    #[arg(long, value_parser = kind())]
+    kind: Option<QueryKind>,
+    /// Ask for a distance of at most R metres, whatever the queries say
+    #[arg(long, value_name = "R")]
+    radius: Option<f64>,
+}
+
+/// Why a command ends early.
+enum Failure {
+    /// Bad input.
+    Input(RunError),
+    /// The output cannot be written.
+    Output {
+        /// What is written.
+        name: String,
+        /// Why it cannot be.
+        error: io::Error,
+    },
+    /// There is nothing to do.
+    Nothing,
+    /// The threads cannot be started.
+    Threads(rayon::ThreadPoolBuildError),
+}
+
+impl Cli {
+    pub(crate) fn run(self) -> ExitCode {
+        match self.start() {
+            Ok(code) => code,
+            Err(Failure::Output { error, .. }) if error.kind() == io::ErrorKind::BrokenPipe => {
+                ExitCode::SUCCESS
+            }
+            Err(failure) => {
+                eprintln!("{failure}");
+                ExitCode::from(2)
+            }
+        }
+    }
+
+    fn start(self) -> Result<ExitCode, Failure> {
+        if let Some(threads) = self.threads {
+            rayon::ThreadPoolBuilder::new()
+                .num_threads(threads.get())
+                .build_global()
+                .map_err(Failure::Threads)?;
+        }
+        match self.command {
+            Command::Eval(eval) => eval.run(),
+            Command::Certify(certify) => certify.run(),
+            Command::Explain(explain) => explain.run(),
+        }
+    }
+}
+
+impl Reading {
+    fn options(&self) -> ReadOptions {
+        ReadOptions {
+            kind: self.kind,
+            radius: self.radius,
+        }
+    }
+}
+
+fn kind() -> impl TypedValueParser<Value = QueryKind> {
+    let kinds = [QueryKind::EdgeEdge, QueryKind::VertexFace];
+    PossibleValuesParser::new(kinds.map(QueryKind::name))
+        .try_map(|name| QueryKind::from_name(&name).ok_or("unknown kind"))
+}
+
+fn subject() -> impl TypedValueParser<Value = &'static dyn Subject> {
+    PossibleValuesParser::new(registry::subjects().map(Subject::name))
+        .try_map(|name| registry::by_name(&name).ok_or("unknown subject"))
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        Failure::Input(error)
+    }
+}
+
+impl From<CorpusError> for Failure {
+    fn from(error: CorpusError) -> Self {
+        Failure::Input(error.into())
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Failure::Input(error) => error.fmt(f),
+            Failure::Output { name, error } => write!(f, "{name}: cannot be written: {error}"),
+            Failure::Nothing => f.write_str("--count 0: no query is left to judge"),
+            Failure::Threads(error) => write!(f, "--threads: {error}"),
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! Where results go.
+
+use std::fs::{self, File, Permissions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+use super::Failure;
+
+/// Writes to the standard output, at once.
+pub(super) fn print(text: &str) -> Result<(), Failure> {
+    let mut output = io::stdout().lock();
+    output
+        .write_all(text.as_bytes())
+        .and_then(|()| output.flush())
+        .map_err(standard_output)
+}
+
+/// That the standard output cannot be written.
+pub(super) fn standard_output(error: io::Error) -> Failure {
+    Failure::Output {
+        name: "standard output".to_owned(),
+        error,
+    }
+}
+
+/// A file to be written, whole or not at all.
+///
+/// It takes its name once it is complete. A name that stands for something else than a file, such
+/// as a device, is written to directly.
+pub(super) struct OutputFile {
+    path: PathBuf,
+    target: Target,
+}
+
+enum Target {
+    New(NamedTempFile),
+    Device(File),
+}
+
+impl OutputFile {
+    /// Sees to it that the file can be made.
+    pub(super) fn create(path: &Path) -> Result<Self, Failure> {
+        let target = Target::create(path).map_err(|error| failure(path, error))?;
+        let path = path.to_owned();
+        Ok(OutputFile { path, target })
+    }
+
+    /// Writes the file, with a line end after the last line.
+    pub(super) fn write(self, text: &str) -> Result<(), Failure> {
+        self.target
+            .write(&self.path, text.as_bytes())
+            .map_err(|error| failure(&self.path, error))
+    }
+}
+
+impl Target {
+    fn create(path: &Path) -> io::Result<Self> {
+        if fs::metadata(path).is_ok_and(|metadata| !metadata.is_file()) {
+            return File::options().write(true).open(path).map(Target::Device);
+        }
+        let folder = match path.parent() {
+            Some(folder) if folder != Path::new("") => folder,
+            _ => Path::new("."),
+        };
+        let mut builder = tempfile::Builder::new();
+        if let Some(permissions) = permissions() {
+            builder.permissions(permissions);
+        }
+        builder.tempfile_in(folder).map(Target::New)
+    }
+
+    fn write(self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        match self {
+            Target::Device(mut file) => file.write_all(bytes),
+            Target::New(mut file) => {
+                file.write_all(bytes)?;
+                file.persist(path).map_err(|error| error.error)?;
+                Ok(())
+            }
+        }
+    }
+}
+
+/// Those of any new file.
+#[cfg(unix)]
+fn permissions() -> Option<Permissions> {
+    use std::os::unix::fs::PermissionsExt;
+    Some(Permissions::from_mode(0o666))
+}
+
+/// Those of any new file.
+#[cfg(not(unix))]
+fn permissions() -> Option<Permissions> {
+    None
+}
+
+fn failure(path: &Path, error: io::Error) -> Failure {
+    Failure::Output {
+        name: path.display().to_string(),
+        error,
+    }
+}

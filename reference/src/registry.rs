@@ -1,0 +1,85 @@
+//! The subjects that the command line knows, and which errata explain the published text.
+
+use std::sync::LazyLock;
+
+use tunnelproof::query::Query;
+use tunnelproof::thesis::{Erratum, Repairs, Thesis};
+
+use crate::answer::ExactAnswer;
+use crate::oracle::Oracle;
+use crate::shadow::Shadow;
+use crate::subject::{Answer, Engine, Subject};
+
+/// Agrees with the oracle on every query, or one of the two is wrong.
+pub static SECOND_JUDGE: Shadow = Shadow::REPAIRED;
+
+static THESIS: LazyLock<Engine<Thesis>> = LazyLock::new(|| Engine(Thesis::default()));
+
+/// Every subject, in the order of tables.
+pub fn subjects() -> [&'static dyn Subject; 4] {
+    [&Oracle, &SECOND_JUDGE, &Shadow::PUBLISHED, &*THESIS]
+}
+
+/// The subject with this [`name`](Subject::name), if any.
+pub fn by_name(name: &str) -> Option<&'static dyn Subject> {
+    let mut subjects = subjects().into_iter();
+    subjects.find(|subject| subject.name() == name)
+}
+
+/// The names of a smallest set of errata whose repair makes the published text give the exact answer;
+/// of equals the first in the order of the algorithms.
+pub fn errata(query: &Query, truth: &ExactAnswer) -> Vec<&'static str> {
+    let exact = Ok(Answer::Exact(*truth));
+    let enough = |repairs: &Repairs| Shadow::new(*repairs).answer(query) == exact;
+    match repairs_by_size().find(enough) {
+        Some(repairs) => repairs.iter().map(Erratum::name).collect(),
+        None => vec!["unexplained"],
+    }
+}
+
+/// Every set of errata, the small ones first.
+fn repairs_by_size() -> impl Iterator<Item = Repairs> {
+    let sets = 0..1u32 << Erratum::ALL.len();
+    (0..=Erratum::ALL.len() as u32)
+        .flat_map(move |size| sets.clone().filter(move |set| set.count_ones() == size))
+        .map(|set| {
+            let chosen = (0..).zip(Erratum::ALL).filter(|(i, _)| set >> i & 1 == 1);
+            chosen.fold(Repairs::NONE, |repairs, (_, erratum)| repairs.with(erratum))
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::certify::permitted::{PERMITTED, permitted};
+
+    #[test]
+    fn subjects_have_names_that_find_them() {
+        for subject in subjects() {
+            assert_eq!(by_name(subject.name()).unwrap().name(), subject.name());
+        }
+        assert!(by_name("nobody").is_none());
+    }
+
+    #[test]
+    fn subjects_are_permitted_the_distance_that_they_declare() {
+        for subject in subjects() {
+            let permitted = permitted(subject.name());
+            assert_eq!(permitted.distance, subject.declared_distance());
+        }
+        for row in PERMITTED {
+            assert!(by_name(row.subject).is_some(), "{}", row.subject);
+        }
+    }
+
+    #[test]
+    fn repairs_by_size_holds_every_set_once() {
+        let sets: Vec<_> = repairs_by_size().collect();
+        assert_eq!(sets.len(), 1 << Erratum::ALL.len());
+        assert_eq!(sets[0], Repairs::NONE);
+        assert_eq!(sets.last(), Some(&Repairs::ALL));
+        assert!(sets.is_sorted_by_key(|set| set.iter().count()));
+        let distinct: std::collections::HashSet<_> = sets.iter().collect();
+        assert_eq!(distinct.len(), sets.len());
+    }
+}

@@ -1,0 +1,201 @@
+//! An answer as a line of JSON.
+//!
+//! | field | meaning |
+//! | --- | --- |
+//! | `id` | the query |
+//! | `hit` | whether there is contact; a miss has, besides, only `case` |
+//! | `toi` | time of impact |
+//! | `kind_of_contact` | `crossing` or `graze` at `toi`; exact subjects only |
+//! | `crosses` | whether any contact of the step is a crossing; exact subjects only |
+//! | `side` | sign of `f` just before `toi`; exact subjects only |
+//! | `case` | the case of the motion; left out by subjects without cases |
+//! | `temporarily_parallel`, `temporarily_point` | the configuration at `toi` |
+//! | `u`, `v` | edge parameters of the contact |
+//! | `overlap` | `u` and `v` of the other end, if the edges overlap in more than a point |
+//! | `points`, `normal` | in metres, of the contact (and the overlap's other end); engines only |
+//!
+//! A number that an exact subject may not be able to write as an `f64` (`toi`, `u`, `v`) is
+//! `{"below": B, "above": A}`: the largest `f64` not above it and the smallest not below it, equal
+//! where it is an `f64`. An engine's own `f64` stands in both.
+
+use serde::Serialize;
+use tunnelproof::contact::{Contact, ContactPoint, Flags, Verdict};
+use tunnelproof::narrow::Report;
+
+use crate::answer::{Enclosure, ExactAnswer, ExactHit, Parameters};
+use crate::subject::Answer;
+
+/// The answer to the query called `id`, without the line end.
+///
+/// A number that is NaN or infinite, which only a broken engine gives, is written as `null`.
+pub fn line(id: &str, answer: &Answer) -> String {
+    let line = Line {
+        id,
+        answer: Fields::new(answer),
+    };
+    serde_json::to_string(&line).expect("fields of text and numbers are JSON")
+}
+
+#[derive(Serialize)]
+struct Line<'a> {
+    id: &'a str,
+    #[serde(flatten)]
+    answer: Fields,
+}
+
+/// The fields of an answer but the identifier.
+#[derive(Serialize)]
+pub struct Fields {
+    hit: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    toi: Option<Bounds>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    kind_of_contact: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    crosses: Option<bool>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    side: Option<i8>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    case: Option<&'static str>,
+    #[serde(flatten)]
+    flags: Option<FlagFields>,
+    #[serde(flatten)]
+    first: Option<Place>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    overlap: Option<Place>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    points: Vec<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    normal: Option<[f64; 3]>,
+}
+
+#[derive(Serialize)]
+struct FlagFields {
+    temporarily_parallel: bool,
+    temporarily_point: bool,
+}
+
+#[derive(Serialize)]
+struct Place {
+    u: Bounds,
+    v: Bounds,
+}
+
+#[derive(Serialize)]
+struct Bounds {
+    below: f64,
+    above: f64,
+}
+
+impl Fields {
+    /// The fields of this answer.
+    pub fn new(answer: &Answer) -> Self {
+        match answer {
+            Answer::Exact(exact) => Self::exact(exact),
+            Answer::Engine(report) => Self::engine(report),
+        }
+    }
+
+    /// The fields of an exact answer.
+    pub fn exact(answer: &ExactAnswer) -> Self {
+        let case = Some(answer.case.name());
+        let Some(ExactHit {
+            toi,
+            kind,
+            crosses,
+            side,
+            first,
+            second,
+            flags,
+        }) = answer.hit
+        else {
+            return Fields {
+                case,
+                ..Self::miss()
+            };
+        };
+        Fields {
+            hit: true,
+            toi: Some(toi.into()),
+            kind_of_contact: Some(kind.name()),
+            crosses: Some(crosses),
+            side: Some(side),
+            case,
+            flags: Some(flags.into()),
+            first: Some(first.into()),
+            overlap: second.map(Place::from),
+            ..Self::miss()
+        }
+    }
+
+    fn engine(report: &Report) -> Self {
+        let case = report.case.map(|case| case.name());
+        let Verdict::Hit(Contact { toi, first, second }) = report.verdict else {
+            return Fields {
+                case,
+                ..Self::miss()
+            };
+        };
+        let points = std::iter::once(first).chain(second);
+        Fields {
+            hit: true,
+            toi: Some(Enclosure::exactly(toi).into()),
+            case,
+            flags: Some(report.flags.into()),
+            first: Some(first.into()),
+            overlap: second.map(Place::from),
+            points: points.map(|at| at.point.into()).collect(),
+            normal: first.normal.map(Into::into),
+            ..Self::miss()
+        }
+    }
+
+    fn miss() -> Self {
+        Fields {
+            hit: false,
+            toi: None,
+            kind_of_contact: None,
+            crosses: None,
+            side: None,
+            case: None,
+            flags: None,
+            first: None,
+            overlap: None,
+            points: Vec::new(),
+            normal: None,
+        }
+    }
+}
+
+impl From<Enclosure> for Bounds {
+    fn from(Enclosure { below, above }: Enclosure) -> Self {
+        Bounds { below, above }
+    }
+}
+
+impl From<Flags> for FlagFields {
+    fn from(flags: Flags) -> Self {
+        FlagFields {
+            temporarily_parallel: flags.temporarily_parallel,
+            temporarily_point: flags.temporarily_point,
+        }
+    }
+}
+
+impl From<Parameters> for Place {
+    fn from(Parameters { u, v }: Parameters) -> Self {
+        Place {
+            u: u.into(),
+            v: v.into(),
+        }
+    }
+}
+
+impl From<ContactPoint> for Place {
+    fn from(at: ContactPoint) -> Self {
+        Place {
+            u: Enclosure::exactly(at.u).into(),
+            v: Enclosure::exactly(at.v).into(),
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! What pictures are drawn on: shapes and text as SVG.
+
+use std::fmt::Write as _;
+
+use nalgebra::Vector2;
+
+/// The colour of text.
+pub(super) const INK: &str = "#1f2933";
+/// The colour of text that matters less.
+pub(super) const PALE_INK: &str = "#616e7c";
+/// The colour of the background.
+pub(super) const PAPER: &str = "#fcfcfa";
+
+/// The colours of an edge.
+pub(super) struct Paint {
+    /// At the end of the step.
+    pub(super) solid: &'static str,
+    /// At its start.
+    pub(super) faint: &'static str,
+    /// At the time of impact.
+    pub(super) dark: &'static str,
+}
+
+/// Blue for `AB`, green for `CD`.
+pub(super) const PAINTS: [Paint; 2] = [
+    Paint {
+        solid: "#2f7fd0",
+        faint: "#d5e6f7",
+        dark: "#14508f",
+    },
+    Paint {
+        solid: "#3aa655",
+        faint: "#d6f0dc",
+        dark: "#17672d",
+    },
+];
+
+/// How a text looks.
+#[derive(Clone, Copy)]
+pub(super) struct Font {
+    pub(super) size: u32,
+    pub(super) colour: &'static str,
+    pub(super) is_bold: bool,
+    /// Whether it is placed by the middle of its baseline instead of the start.
+    pub(super) is_centred: bool,
+}
+
+/// An SVG document that is being drawn, lengths in pixels, y downwards.
+pub(super) struct Canvas(String);
+
+impl Canvas {
+    /// An empty sheet of this size.
+    pub(super) fn new(width: f64, height: f64, title: &str) -> Self {
+        let title = escape(title);
+        let arrows = PAINTS.each_ref().map(|paint| paint.solid);
+        let arrows: String = arrows.into_iter().enumerate().map(arrow).collect();
+        Canvas(format!(
+            r##"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" font-family="DejaVu Sans, Helvetica, Arial, sans-serif">
+<title>{title}</title>
+<defs>
+<radialGradient id="sphere" cx="0.36" cy="0.32" r="0.75"><stop offset="0" stop-color="#ffe0b0"/><stop offset="0.45" stop-color="#f79a2d"/><stop offset="1" stop-color="#d96f0b"/></radialGradient>
+{arrows}</defs>
+<rect width="{width}" height="{height}" fill="{PAPER}"/>
+"##
+        ))
+    }
+
+    /// The document.
+    pub(super) fn finish(self) -> String {
+        self.0 + "</svg>\n"
+    }
+
+    /// A line with round ends; a dot if it has no length.
+    pub(super) fn line(&mut self, [a, b]: [Vector2<f64>; 2], colour: &str, width: f64) {
+        self.element(format_args!(
+            r#"<line x1="{:.1}" y1="{:.1}" x2="{:.1}" y2="{:.1}" stroke="{colour}" stroke-width="{width}" stroke-linecap="round"/>"#,
+            a.x, a.y, b.x, b.y
+        ));
+    }
+
+    /// The path of an end of this edge, with an arrow past its middle if there is room for it.
+    pub(super) fn path(&mut self, [from, to]: [Vector2<f64>; 2], edge: usize) {
+        let middle = from + (to - from) * 0.6;
+        let marker = match (to - from).norm() > 30.0 {
+            true => format!(r#" marker-mid="url(#arrow{edge})""#),
+            false => String::new(),
+        };
+        self.element(format_args!(
+            r#"<polyline points="{:.1},{:.1} {:.1},{:.1} {:.1},{:.1}" fill="none" stroke="{}" stroke-width="1.3" stroke-opacity="0.75"{marker}/>"#,
+            from.x, from.y, middle.x, middle.y, to.x, to.y, PAINTS[edge].solid
+        ));
+    }
+
+    /// A point of contact.
+    pub(super) fn sphere(&mut self, at: Vector2<f64>, radius: f64) {
+        self.element(format_args!(
+            r##"<circle cx="{:.1}" cy="{:.1}" r="{radius}" fill="url(#sphere)" stroke="#a8560a" stroke-width="1.2"/>"##,
+            at.x, at.y
+        ));
+    }
+
+    /// A text.
+    pub(super) fn text(&mut self, at: Vector2<f64>, font: Font, words: &str) {
+        let Font { size, colour, .. } = font;
+        let weight = if font.is_bold { 600 } else { 400 };
+        let anchor = if font.is_centred { "middle" } else { "start" };
+        let words = escape(words);
+        self.element(format_args!(
+            r#"<text x="{:.1}" y="{:.1}" text-anchor="{anchor}" font-size="{size}" font-weight="{weight}" fill="{colour}" stroke="{PAPER}" stroke-width="3" stroke-linejoin="round" paint-order="stroke">{words}</text>"#,
+            at.x, at.y
+        ));
+    }
+
+    fn element(&mut self, element: std::fmt::Arguments) {
+        // Writing to a string does not fail.
+        let _ = writeln!(self.0, "{element}");
+    }
+}
+
+/// The arrow on the path of an end of an edge.
+fn arrow((edge, colour): (usize, &str)) -> String {
+    format!(
+        r#"<marker id="arrow{edge}" viewBox="0 0 10 10" refX="6" refY="5" markerUnits="userSpaceOnUse" markerWidth="11" markerHeight="11" orient="auto"><path d="M1 1 L9 5 L1 9 Z" fill="{colour}"/></marker>
+"#
+    )
+}
+
+/// Text as XML may hold it.
+fn escape(text: &str) -> String {
+    let mut escaped = String::new();
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => escaped.push('\u{fffd}'),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+/// `text` without its middle if it is longer than `longest` characters.
+pub(super) fn elided(text: &str, longest: usize) -> String {
+    let count = text.chars().count();
+    if count <= longest {
+        return text.to_owned();
+    }
+    let head: String = text.chars().take(longest / 3).collect();
+    let kept = longest - longest / 3 - 1;
+    let tail: String = text.chars().skip(count - kept).collect();
+    format!("{head}\u{2026}{tail}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn escape_leaves_nothing_that_xml_forbids() {
+        assert_eq!(escape("a<b>&\"c\""), "a&lt;b&gt;&amp;&quot;c&quot;");
+        assert_eq!(escape("\u{0}\u{1b}\u{ffff}x"), "\u{fffd}\u{fffd}\u{fffd}x");
+    }
+
+    #[test]
+    fn elided_keeps_both_ends() {
+        assert_eq!(elided("abc", 3), "abc");
+        assert_eq!(elided("abcdefghijkl", 9), "abc\u{2026}hijkl");
+    }
+}

@@ -1,0 +1,454 @@
+//! The command line from outside: what it writes, and how it ends.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
+use std::fs;
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+const ORIGIN: &str = "[0,0,0]";
+
+/// Two edges that cross at t = 1/3.
+const CROSSING: &str = r#"{"id":"a","kind":"edge-edge","points":[[0,0,0],[1,0,0],[0.5,-1,1],[0.5,1,1],[0,0,0],[1,0,0],[0.5,-1,-2],["0x1p-1",1,-2]]}"#;
+/// Two edges that keep apart.
+const MISS: &str = r#"{"id":"b","kind":"edge-edge","points":[[0,0,0],[1,0,0],[0,0,1],[1,0,1],[0,0,0],[1,0,0],[0,0,1],[1,0,1]]}"#;
+
+fn tunnelproof(arguments: &[&str]) -> Output {
+    with_input(arguments, "")
+}
+
+fn with_input(arguments: &[&str], input: &str) -> Output {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_tunnelproof"))
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // Whoever does not read the input may close it.
+    let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
+    child.wait_with_output().unwrap()
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().unwrap()
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+fn lines(output: &Output) -> Vec<Value> {
+    let text = stdout(output);
+    text.lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect()
+}
+
+/// A file in a folder of its own.
+fn file(name: &str, content: impl AsRef<[u8]>) -> (TempDir, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let path: PathBuf = folder.path().join(name);
+    fs::write(&path, content).unwrap();
+    let path = path.to_str().unwrap().to_owned();
+    (folder, path)
+}
+
+/// Ends with 2 and one line that starts with the path, a line number if there is one, and says
+/// `what`.
+fn assert_refused(output: &Output, path: &str, line: Option<u32>, what: &str) {
+    let message = stderr(output);
+    assert_eq!(code(output), 2, "{message}");
+    assert_eq!(message.lines().count(), 1, "{message}");
+    let place = match line {
+        Some(line) => format!("{path}:{line}: "),
+        None => format!("{path}: "),
+    };
+    assert!(message.starts_with(&place), "{message} is not at {place}");
+    assert!(message.contains(what), "{message} does not say {what}");
+}
+
+#[test]
+fn eval_bad_lines_are_refused_with_their_place() {
+    let query = |more: &str, points: &str| {
+        format!(r#"{{"id":"a","kind":"edge-edge"{more},"points":[{points}]}}"#)
+    };
+    let seven = [ORIGIN; 7].join(",");
+    let eight = [ORIGIN; 8].join(",");
+    for (content, what) in [
+        ("{".to_owned(), "EOF"),
+        (query("", &seven), "7 points, not 8"),
+        (
+            query("", &format!(r#"["nan",0,0],{seven}"#)),
+            "x of point A at t = 0",
+        ),
+        (query("", &format!("[1e999,0,0],{seven}")), "out of range"),
+        (query(r#","radius":-1"#, &eight), "radius is -1"),
+        (
+            query("", &eight).replace("edge-edge", "knot"),
+            "kind is \"knot\"",
+        ),
+    ] {
+        let content = format!("{MISS}\n{content}\n");
+        let (_folder, path) = file("queries.jsonl", content);
+        let output = tunnelproof(&["eval", &path]);
+        assert_refused(&output, &path, Some(2), what);
+        assert_eq!(lines(&output).len(), 1, "what was answered before stands");
+    }
+}
+
+#[test]
+fn eval_bad_rows_are_refused_with_their_place() {
+    let row = "1,1,1,1,1,1,0\n";
+    for (content, line, what) in [
+        ("1,2,3\n".to_owned(), 1, "3 columns"),
+        (row.to_owned(), 1, "ends after 1 of the 8 rows"),
+        ("a,b,c,d,e,f,g\n".to_owned(), 1, "not an integer"),
+        (format!("{}1,0,1,1,1,1,0\n", row.repeat(7)), 8, "x_den is 0"),
+    ] {
+        let (_folder, path) = file("edge-edge.csv", content);
+        assert_refused(&tunnelproof(&["eval", &path]), &path, Some(line), what);
+    }
+}
+
+#[test]
+fn eval_files_that_are_none_are_refused() {
+    let (_folder, path) = file("empty.jsonl", "");
+    assert_refused(
+        &tunnelproof(&["eval", &path]),
+        &path,
+        None,
+        "holds no query",
+    );
+    let (_folder, path) = file("bytes.jsonl", b"\xff\xfe\x00");
+    assert_refused(&tunnelproof(&["eval", &path]), &path, Some(1), "UTF-8");
+    let (folder, path) = file("some.txt", CROSSING);
+    assert_refused(&tunnelproof(&["eval", &path]), &path, None, ".jsonl");
+    let path = folder.path().to_str().unwrap();
+    assert_refused(&tunnelproof(&["eval", path]), path, None, "directory");
+    let path = &format!("{path}/no.jsonl");
+    assert_refused(&tunnelproof(&["eval", path]), path, None, "no such file");
+}
+
+#[test]
+fn eval_unsupported_queries_are_refused_with_their_place() {
+    let (_folder, path) = file(
+        "vertex-face.jsonl",
+        CROSSING.replace("edge-edge", "vertex-face"),
+    );
+    for command in ["eval", "certify"] {
+        let output = tunnelproof(&[command, &path]);
+        assert_refused(
+            &output,
+            &path,
+            Some(1),
+            "vertex-face queries are not supported yet",
+        );
+    }
+    let (_folder, path) = file("a.jsonl", CROSSING);
+    let output = tunnelproof(&["eval", "--radius", "0.5", &path]);
+    assert_refused(&output, &path, Some(1), "radius");
+    let output = tunnelproof(&["eval", "--kind", "vertex-face", &path]);
+    assert_refused(&output, &path, Some(1), "edge-edge");
+}
+
+#[test]
+fn eval_exact_answer_has_the_stated_fields() {
+    let output = with_input(&["eval", "-"], &format!("{CROSSING}\n{MISS}\n"));
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let expected = r#"{"id":"a","hit":true,"toi":{"below":0.3333333333333333,"above":0.33333333333333337},"kind_of_contact":"crossing","crosses":true,"side":1,"case":"general","temporarily_parallel":false,"temporarily_point":false,"u":{"below":0.5,"above":0.5},"v":{"below":0.5,"above":0.5}}
+{"id":"b","hit":false,"case":"parallel"}
+"#;
+    assert_eq!(stdout(&output), expected);
+}
+
+#[test]
+fn eval_engine_answer_has_points_and_normal() {
+    let output = with_input(&["eval", "--subject", "thesis", "-"], CROSSING);
+    let [answer] = &lines(&output)[..] else {
+        panic!("one line: {}", stdout(&output))
+    };
+    assert_eq!(answer["toi"]["below"], answer["toi"]["above"]);
+    assert_eq!(answer["u"]["below"], 0.5);
+    assert_eq!(answer["points"].as_array().unwrap().len(), 1);
+    assert_eq!(answer["normal"].as_array().unwrap().len(), 3);
+    assert!(answer.get("kind_of_contact").is_none());
+}
+
+#[test]
+fn eval_keeps_the_order_of_files_and_queries() {
+    let all: String = (0..10_000)
+        .map(|i| MISS.replace("\"b\"", &format!("\"{i}\"")) + "\n")
+        .collect();
+    let (_folder, path) = file("many.jsonl", all);
+    let output = tunnelproof(&["eval", "--threads", "2", &path, &path]);
+    let ids: Vec<_> = lines(&output)
+        .iter()
+        .map(|line| line["id"].to_string())
+        .collect();
+    let expected: Vec<_> = (0..20_000).map(|i| format!("\"{}\"", i % 10_000)).collect();
+    assert_eq!(ids, expected);
+}
+
+#[test]
+fn eval_answers_a_query_before_the_next_is_asked() {
+    use std::io::{BufRead, BufReader};
+    let mut child = Command::new(env!("CARGO_BIN_EXE_tunnelproof"))
+        .args(["eval", "-"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut input = child.stdin.take().unwrap();
+    let mut output = BufReader::new(child.stdout.take().unwrap());
+    for query in [CROSSING, MISS] {
+        writeln!(input, "{query}").unwrap();
+        let mut line = String::new();
+        output.read_line(&mut line).unwrap();
+        assert!(line.ends_with("}\n"));
+    }
+    drop(input);
+    assert!(child.wait().unwrap().success());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn output_that_cannot_be_written_is_reported() {
+    for arguments in [
+        &["eval", "-"][..],
+        &["certify", "--count", "10"],
+        &["explain", "figure:4.1"],
+    ] {
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        let mut child = Command::new(env!("CARGO_BIN_EXE_tunnelproof"))
+            .args(arguments)
+            .stdin(Stdio::piped())
+            .stdout(full)
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let _ = child.stdin.take().unwrap().write_all(CROSSING.as_bytes());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(code(&output), 2);
+        assert!(stderr(&output).starts_with("standard output: cannot be written: "));
+        assert_eq!(stderr(&output).lines().count(), 1);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn output_that_nobody_reads_ends_quietly() {
+    let all = format!("{MISS}\n").repeat(20_000);
+    let (_folder, path) = file("many.jsonl", all);
+    let mut child = Command::new(env!("CARGO_BIN_EXE_tunnelproof"))
+        .args(["eval", &path])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((code(&output), stderr(&output).as_str()), (0, ""));
+}
+
+#[test]
+fn names_that_are_unknown_are_answered_with_the_known_ones() {
+    let output = tunnelproof(&["certify", "--subject", "nobody"]);
+    assert_eq!(code(&output), 2);
+    for name in ["oracle", "shadow", "shadow-published", "thesis"] {
+        assert!(stderr(&output).contains(name));
+    }
+    let output = tunnelproof(&["certify", "--family", "none"]);
+    assert_eq!(code(&output), 2);
+    for name in ["uniform", "lattice"] {
+        assert!(stderr(&output).contains(name));
+    }
+}
+
+#[test]
+fn help_and_version_are_there() {
+    for command in [
+        &["--help"][..],
+        &["help", "eval"],
+        &["certify", "--help"],
+        &["explain", "-h"],
+    ] {
+        let output = tunnelproof(command);
+        assert_eq!(code(&output), 0);
+        assert!(stdout(&output).contains("Usage: tunnelproof"));
+    }
+    let output = tunnelproof(&["--version"]);
+    assert_eq!(
+        stdout(&output),
+        format!("tunnelproof {}\n", env!("CARGO_PKG_VERSION"))
+    );
+    assert!(stderr(&tunnelproof(&[])).contains("Commands:"));
+}
+
+#[test]
+fn certify_table_is_the_same_on_any_number_of_threads() {
+    let table = |threads| {
+        let output = tunnelproof(&[
+            "certify",
+            "--count",
+            "2000",
+            "--seed",
+            "9",
+            "--threads",
+            threads,
+        ]);
+        assert_eq!((code(&output), stderr(&output).as_str()), (0, ""));
+        stdout(&output)
+    };
+    let one = table("1");
+    assert_eq!(one, table("2"));
+    assert_eq!(one, table("2"));
+    assert!(
+        one.contains("oracle and shadow agree on all 4,012 queries"),
+        "{one}"
+    );
+    assert!(one.lines().all(|line| line.chars().count() <= 100), "{one}");
+}
+
+#[test]
+fn certify_strict_passes_the_exact_subjects_and_fails_the_published_text() {
+    let certify = |subjects| {
+        tunnelproof(&[
+            "certify",
+            "--strict",
+            "--count",
+            "2000",
+            "--subject",
+            subjects,
+        ])
+    };
+    assert_eq!(code(&certify("oracle,shadow")), 0);
+    let output = certify("oracle,shadow-published");
+    assert_eq!(code(&output), 1);
+    assert!(stderr(&output).starts_with("--strict: shadow-published: "));
+    assert!(!stdout(&output).contains("unexplained"));
+}
+
+#[test]
+fn certify_strict_fails_on_a_wrong_label() {
+    let label = |label: &str| CROSSING.replace("\"id\"", &format!("\"label\":{label},\"id\""));
+    for (text, expected) in [(label("1"), 0), (label("0"), 1)] {
+        let (_folder, path) = file("labelled.jsonl", text);
+        let output = tunnelproof(&["certify", "--strict", "--subject", "oracle", &path]);
+        assert_eq!(code(&output), expected, "{}", stdout(&output));
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn certify_witness_from_the_standard_input_comes_with_its_query() {
+    let label = CROSSING.replace("\"id\"", "\"label\":0,\"id\"");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("results.json");
+    let output = with_input(&["certify", "--json", path.to_str().unwrap(), "-"], &label);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let results: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    let witness = &results["total"]["wrong_labels"]["worst"];
+    let command = witness["command"].as_str().unwrap();
+    let command = command.replace("cargo run --release --", env!("CARGO_BIN_EXE_tunnelproof"));
+    let explained = Command::new("sh").args(["-c", &command]).output().unwrap();
+    assert!(stdout(&explained).contains("exactly   1/3"), "{command}");
+}
+
+#[test]
+fn certify_of_nothing_is_refused() {
+    let output = tunnelproof(&["certify", "--strict", "--family", "lattice", "--count", "0"]);
+    assert_eq!((code(&output), stdout(&output).as_str()), (2, ""));
+    assert_eq!(stderr(&output), "--count 0: no query is left to judge\n");
+    let output = tunnelproof(&["certify", "--count", "0"]);
+    assert!(stdout(&output).contains("agree on all 12 queries"));
+}
+
+#[test]
+fn certify_json_holds_rows_and_witnesses_that_explain_understands() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("results.json");
+    let path = path.to_str().unwrap();
+    let output = tunnelproof(&["certify", "--count", "2000", "--json", path]);
+    assert_eq!(code(&output), 0);
+    let results: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    assert_eq!(results["sources"].as_array().unwrap().len(), 3);
+    assert_eq!(results["total"]["queries"], 4012);
+    assert_eq!(results["total"]["disagreements"]["count"], 0);
+    let published = &results["total"]["subjects"][2];
+    assert_eq!(published["subject"], "shadow-published");
+    let tunnel = &published["faults"]["tunnel"];
+    assert!(tunnel["count"].as_u64().unwrap() > 0);
+    let witness = &tunnel["worst"];
+    let explained = tunnelproof(&["explain", witness["id"].as_str().unwrap()]);
+    assert!(stdout(&explained).contains("tunnel"));
+    for query in ["query", "query_hexadecimal"] {
+        let explained = with_input(&["explain", "-"], &witness[query].to_string());
+        assert!(
+            stdout(&explained).contains("tunnel"),
+            "{}",
+            stderr(&explained)
+        );
+    }
+}
+
+#[test]
+fn certify_json_is_refused_before_the_work_if_it_cannot_be_written() {
+    let output = tunnelproof(&["certify", "--json", "no/such/folder/out.json"]);
+    assert_eq!((code(&output), stdout(&output).as_str()), (2, ""));
+    assert!(stderr(&output).starts_with("no/such/folder/out.json: cannot be written: "));
+}
+
+#[test]
+fn explain_says_the_time_of_impact_exactly() {
+    let text = stdout(&tunnelproof(&["explain", "figure:4.8"]));
+    assert!(text.contains("exactly   3/5"), "{text}");
+    assert!(text.contains("decimals  0.6\n"), "{text}");
+    let text = stdout(&with_input(&["explain", "-"], CROSSING));
+    assert!(text.contains("exactly   1/3"), "{text}");
+    assert!(text.contains("0.33333333333333333333..."), "{text}");
+    let (_folder, path) = file("queries.jsonl", format!("{MISS}\n{CROSSING}\n"));
+    let from_file = stdout(&tunnelproof(&["explain", &format!("{path}#a")]));
+    assert_eq!(from_file, text);
+}
+
+#[test]
+fn explain_writes_a_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("picture.svg");
+    let output = tunnelproof(&["explain", "lattice:1:4711", "--svg", path.to_str().unwrap()]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let svg = fs::read_to_string(path).unwrap();
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    assert!(document.root_element().has_tag_name("svg"));
+}
+
+#[test]
+fn explain_names_that_are_wrong_are_refused() {
+    for (name, what) in [
+        ("knot:1:2", "no such family"),
+        ("figure:9.9", "there are 4.1 to 4.12"),
+        ("lattice:1:x", "index"),
+        ("nothing", "figure:NAME"),
+    ] {
+        assert_refused(&tunnelproof(&["explain", name]), name, None, what);
+    }
+    assert_refused(
+        &with_input(&["explain", "-"], ""),
+        "<stdin>",
+        None,
+        "holds no query",
+    );
+}
