@@ -9,6 +9,8 @@ pub(super) struct Cubic {
     /// The Bernstein coefficients, each within `error` of the exact one.
     pub(super) bernstein: [f64; 4],
     pub(super) error: f64,
+    /// The largest magnitude among the differences that it is computed from.
+    size: f64,
 }
 
 impl Cubic {
@@ -32,15 +34,17 @@ impl Cubic {
     /// happen then. NaN and infinities fail the same test.
     #[inline(always)]
     pub(super) fn new(motion: &Motion) -> Option<Self> {
+        let cubic = Self::unchecked(motion);
+        cubic.is_valid().then_some(cubic)
+    }
+
+    /// As [`Cubic::new`], which is right only if it [`is_valid`](Cubic::is_valid).
+    #[inline(always)]
+    pub(super) fn unchecked(motion: &Motion) -> Self {
         let (k, l, m) = (reach(&motion.k), reach(&motion.l), reach(&motion.m));
         let permanent = m[0] * (k[1] * l[2] + k[2] * l[1])
             + m[1] * (k[2] * l[0] + k[0] * l[2])
             + m[2] * (k[0] * l[1] + k[1] * l[0]);
-        let error = 16.0 * U * permanent;
-        let size = larger(larger(largest(&k), largest(&l)), largest(&m));
-        if !(size < LARGEST && error > SMALLEST) {
-            return None;
-        }
         let ([k0, k1], [l0, l1], [m0, m1]) = (&motion.k, &motion.l, &motion.m);
         let (n00, n11) = (cross(k0, l0), cross(k1, l1));
         let n01 = add(&cross(k0, l1), &cross(k1, l0));
@@ -50,7 +54,18 @@ impl Cubic {
             (dot(m0, &n11) + dot(m1, &n01)) / 3.0,
             dot(m1, &n11),
         ];
-        Some(Cubic { bernstein, error })
+        let size = larger(larger(largest(&k), largest(&l)), largest(&m));
+        Cubic {
+            bernstein,
+            error: 16.0 * U * permanent,
+            size,
+        }
+    }
+
+    /// Whether neither over- nor underflow spoils the error bound.
+    #[inline(always)]
+    pub(super) fn is_valid(&self) -> bool {
+        (self.size < LARGEST) & (self.error > SMALLEST)
     }
 
     /// Whether `f` has no root in `[0, 1]`, so that the edges are never coplanar: it is a convex
@@ -58,8 +73,8 @@ impl Cubic {
     #[inline(always)]
     pub(super) fn has_no_root(&self) -> bool {
         let [b0, b1, b2, b3] = self.bernstein;
-        smaller(smaller(b0, b1), smaller(b2, b3)) > self.error
-            || larger(larger(b0, b1), larger(b2, b3)) < -self.error
+        (smaller(smaller(b0, b1), smaller(b2, b3)) > self.error)
+            | (larger(larger(b0, b1), larger(b2, b3)) < -self.error)
     }
 }
 

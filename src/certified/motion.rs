@@ -5,6 +5,25 @@ use crate::query::{EdgeEdge, Point};
 /// A vector in `f64`.
 pub(super) type Vector = [f64; 3];
 
+/// The points A, B, C, D at `t = 0` and at `t = 1`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Positions {
+    pub(super) start: [Vector; 4],
+    pub(super) end: [Vector; 4],
+}
+
+impl Positions {
+    #[inline(always)]
+    pub(super) fn new(query: &EdgeEdge) -> Self {
+        let plain = |p: &Point| [p.x, p.y, p.z];
+        let plain = |[a, b, c, d]: &[Point; 4]| [plain(a), plain(b), plain(c), plain(d)];
+        Positions {
+            start: plain(query.start()),
+            end: plain(query.end()),
+        }
+    }
+}
+
 /// Rounded differences at `t = 0` and `t = 1`, in metres.
 ///
 /// Each component is the exact difference times `1 + e` with `|e| <= 2^-53` (a difference of two
@@ -21,19 +40,14 @@ pub(super) struct Motion {
 
 impl Motion {
     #[inline(always)]
-    pub(super) fn new(query: &EdgeEdge) -> Self {
-        let ([a0, b0, c0, d0], [a1, b1, c1, d1]) = (query.start(), query.end());
+    pub(super) fn new(positions: &Positions) -> Self {
+        let ([a0, b0, c0, d0], [a1, b1, c1, d1]) = (&positions.start, &positions.end);
         Motion {
-            k: [difference(b0, a0), difference(b1, a1)],
-            l: [difference(d0, c0), difference(d1, c1)],
-            m: [difference(c0, a0), difference(c1, a1)],
+            k: [sub(b0, a0), sub(b1, a1)],
+            l: [sub(d0, c0), sub(d1, c1)],
+            m: [sub(c0, a0), sub(c1, a1)],
         }
     }
-}
-
-#[inline(always)]
-fn difference(to: &Point, from: &Point) -> Vector {
-    [to.x - from.x, to.y - from.y, to.z - from.z]
 }
 
 /// The larger magnitude of each component at both ends: a bound on it for the whole step.

@@ -5,9 +5,9 @@
 //! near to the root, and rounding down is certain; else the exact stage decides.
 
 use super::cubic::Cubic;
+use super::motion::Positions;
 use super::root::Bracket;
 use super::separate::U;
-use crate::query::EdgeEdge;
 
 /// An unevaluated sum `high + low`, `|low|` at most half an ulp of `high`.
 #[derive(Clone, Copy)]
@@ -89,8 +89,8 @@ impl Double {
 }
 
 /// `f` at `t` in double-double arithmetic.
-fn evaluate(query: &EdgeEdge, t: f64) -> f64 {
-    let (start, end) = (query.start(), query.end());
+fn evaluate(positions: &Positions, t: f64) -> f64 {
+    let Positions { start, end } = positions;
     let component = |to: usize, from: usize, i: usize| {
         let first = two_sum(start[to][i], -start[from][i]);
         let last = two_sum(end[to][i], -end[from][i]);
@@ -132,7 +132,7 @@ fn evaluate(query: &EdgeEdge, t: f64) -> f64 {
 /// So it is `t + delta` up to `(2^-49 error + 12 P W^2) / s` and, for slope, division and rounding,
 /// `|delta| (12 error / s + 8 u)`. Underflow: see [`Cubic::new`]; the errors of products that
 /// underflow are below `2^-765`, the first bound above `2^-750`.
-pub(super) fn round_down(query: &EdgeEdge, cubic: &Cubic, bracket: &Bracket) -> Option<f64> {
+pub(super) fn round_down(positions: &Positions, cubic: &Cubic, bracket: &Bracket) -> Option<f64> {
     let t = 0.5 * (bracket.low + bracket.high);
     let width = bracket.high - bracket.low;
     let permanent = cubic.error / (15.0 * U);
@@ -142,7 +142,7 @@ pub(super) fn round_down(query: &EdgeEdge, cubic: &Cubic, bracket: &Bracket) -> 
     if !(least > 0.0) {
         return None;
     }
-    let delta = -evaluate(query, t) / slope;
+    let delta = -evaluate(positions, t) / slope;
     let error = (cubic.error * VALUE_ERROR + 12.0 * permanent * width * width) / least
         + delta.abs() * (slope_error / least + 8.0 * U);
     let Double { high, low } = two_sum(t, delta);

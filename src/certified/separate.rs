@@ -1,7 +1,6 @@
 //! Stages 1 and 2: proofs that two moving edges stay apart.
 
-use super::motion::{Motion, Vector, add, dot, larger, smaller, sub};
-use crate::query::EdgeEdge;
+use super::motion::{Motion, Positions, Vector, add, dot, larger, smaller, sub};
 
 /// The boxes around two swept edges.
 #[derive(Clone, Copy, Debug)]
@@ -15,8 +14,8 @@ pub(super) struct SweptBoxes {
 
 impl SweptBoxes {
     #[inline(always)]
-    pub(super) fn new(query: &EdgeEdge) -> Self {
-        let ([a, b, c, d], [e, f, g, h]) = (query.start(), query.end());
+    pub(super) fn new(positions: &Positions) -> Self {
+        let ([a, b, c, d], [e, f, g, h]) = (&positions.start, &positions.end);
         let axis = |i: usize| {
             let low = smaller(smaller(a[i], b[i]), smaller(e[i], f[i]));
             let high = larger(larger(a[i], b[i]), larger(e[i], f[i]));
