@@ -324,7 +324,8 @@ fn for_shifted(
 ) -> bool {
     let (mut carry, mut lower) = (false, 0);
     let mut limbs = to.iter_mut().skip(whole);
-    for (limb, &own) in limbs.by_ref().zip(from) {
+    // In this order: `zip` takes from the first one also where the second one has ended.
+    for (&own, limb) in from.iter().zip(limbs.by_ref()) {
         let shifted = ((u128::from(own) << 64 | u128::from(lower)) << bits >> 64) as u64;
         (*limb, carry) = step(*limb, shifted, carry);
         lower = own;
@@ -365,3 +366,6 @@ fn multiply_into(to: &mut [u64], a: &[u64], b: &[u64]) {
         rest[0] = carry;
     }
 }
+
+#[cfg(test)]
+mod tests;

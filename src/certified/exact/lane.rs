@@ -243,3 +243,6 @@ fn subtract_high(limbs: &mut [u64], from: usize, other: &[u64]) {
         (*limb, borrow) = (difference, first | second);
     }
 }
+
+#[cfg(test)]
+mod tests;
