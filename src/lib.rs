@@ -6,6 +6,8 @@
 //! published method with its thresholds, Algorithms 1 to 20. Whether an answer is *true* is judged
 //! by the crate `tunnelproof-reference`, which the engine never uses.
 
+pub mod additive;
+pub mod certified;
 pub mod contact;
 pub mod narrow;
 pub mod query;

@@ -2,22 +2,32 @@
 
 use std::sync::LazyLock;
 
+use tunnelproof::additive::Additive;
 use tunnelproof::query::Query;
 use tunnelproof::thesis::{Erratum, Repairs, Thesis};
 
 use crate::answer::ExactAnswer;
 use crate::oracle::Oracle;
 use crate::shadow::Shadow;
-use crate::subject::{Answer, Engine, Subject};
+use crate::subject::{Answer, Certified, Engine, Subject};
 
 /// Agrees with the oracle on every query, or one of the two is wrong.
 pub static SECOND_JUDGE: Shadow = Shadow::REPAIRED;
 
 static THESIS: LazyLock<Engine<Thesis>> = LazyLock::new(|| Engine(Thesis::default()));
 
+static ADDITIVE: LazyLock<Engine<Additive>> = LazyLock::new(|| Engine(Additive::default()));
+
 /// Every subject, in the order of tables.
-pub fn subjects() -> [&'static dyn Subject; 4] {
-    [&Oracle, &SECOND_JUDGE, &Shadow::PUBLISHED, &*THESIS]
+pub fn subjects() -> [&'static dyn Subject; 6] {
+    [
+        &Oracle,
+        &SECOND_JUDGE,
+        &Shadow::PUBLISHED,
+        &*THESIS,
+        &*ADDITIVE,
+        &Certified,
+    ]
 }
 
 /// The subject with this [`name`](Subject::name), if any.

@@ -1,5 +1,6 @@
 //! Whoever answers queries: the judges themselves and the engines that are judged.
 
+use tunnelproof::certified;
 use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
 use tunnelproof::query::Query;
 
@@ -29,8 +30,26 @@ pub trait Subject: Sync {
 pub enum Answer {
     /// An exact subject: every number enclosed by its neighbours.
     Exact(ExactAnswer),
+    /// The certified path: everything exact but the parameters, which have a stated error.
+    Certified(certified::Verdict),
     /// An engine: every number in `f64`.
     Engine(Report),
+}
+
+/// The engine's certified path as a subject, held to all that it promises.
+pub struct Certified;
+
+impl Subject for Certified {
+    fn name(&self) -> &str {
+        "certified"
+    }
+
+    fn answer(&self, query: &Query) -> Result<Answer, Unsupported> {
+        match query {
+            Query::EdgeEdge(query) => certified::decide(query).map(Answer::Certified),
+            Query::VertexFace(_) => Err(Unsupported::Kind(query.kind())),
+        }
+    }
 }
 
 /// An engine as a subject.

@@ -1,9 +1,10 @@
 //! What one answer is worth, against the exact one.
 
+use tunnelproof::certified;
 use tunnelproof::contact::Verdict as Claim;
 use tunnelproof::narrow::Report;
 
-use crate::answer::{Enclosure, ExactAnswer, ExactHit};
+use crate::answer::{Enclosure, ExactAnswer, ExactHit, Parameters};
 use crate::subject::Answer;
 
 /// Hit and miss, right or wrong.
@@ -32,7 +33,8 @@ pub struct Judgement {
     pub is_hit: bool,
     /// Whether the subject states a case and it is not the exact one.
     pub wrong_case: bool,
-    /// For an exact subject: whether the answer is not the exact one in every field.
+    /// For an exact subject: whether the answer is not the exact one in every field. For the certified
+    /// path: whether it is wrong in anything that it promises.
     pub differs: bool,
     /// How much later than the exact time of impact, at most; 0 if it is not later.
     pub late: f64,
@@ -79,6 +81,17 @@ pub fn judge(
             let toi = exact.hit.map(|hit| hit.toi);
             (toi, Some(exact.case), exact != truth)
         }
+        Some(Answer::Certified(verdict)) => {
+            let hit = match verdict {
+                certified::Verdict::Miss => None,
+                certified::Verdict::Hit(hit) => Some(hit),
+            };
+            let toi = hit.map(|hit| Enclosure {
+                below: hit.toi,
+                above: hit.toi_above,
+            });
+            (toi, hit.map(|hit| hit.case), !keeps_promise(hit, truth))
+        }
         Some(Answer::Engine(report)) if is_meaningful(report) => {
             let toi = report.verdict.contact();
             (toi.map(|c| Enclosure::exactly(c.toi)), report.case, false)
@@ -103,6 +116,33 @@ pub fn judge(
         late,
         early,
     }
+}
+
+/// Whether the certified path is right in all that it promises: everything exact, the parameters
+/// within their stated error.
+fn keeps_promise(hit: Option<&certified::Hit>, truth: &ExactAnswer) -> bool {
+    let (Some(hit), Some(exact)) = (hit, &truth.hit) else {
+        return hit.is_none() && truth.hit.is_none();
+    };
+    let is_near = |value: f64, exact: Enclosure| {
+        value >= exact.below - hit.parameter_error && value <= exact.above + hit.parameter_error
+    };
+    let places_agree = |ours: &certified::Parameters, exact: &Parameters| {
+        is_near(ours.u, exact.u) && is_near(ours.v, exact.v)
+    };
+    let seconds_agree = match (&hit.second, &exact.second) {
+        (None, None) => true,
+        (Some(ours), Some(exact)) => places_agree(ours, exact),
+        _ => false,
+    };
+    let toi = Enclosure {
+        below: hit.toi,
+        above: hit.toi_above,
+    };
+    (toi, hit.kind, hit.side, hit.flags, hit.case)
+        == (exact.toi, exact.kind, exact.side, exact.flags, truth.case)
+        && places_agree(&hit.first, &exact.first)
+        && seconds_agree
 }
 
 /// Whether a claimed time of impact is a time of the step.

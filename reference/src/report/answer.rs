@@ -5,9 +5,9 @@
 //! | `id` | the query |
 //! | `hit` | whether there is contact; a miss has, besides, only `case` |
 //! | `toi` | time of impact |
-//! | `kind_of_contact` | `crossing` or `graze` at `toi`; exact subjects only |
+//! | `kind_of_contact` | `crossing` or `graze` at `toi`; exact subjects and the certified path only |
 //! | `crosses` | whether any contact of the step is a crossing; exact subjects only |
-//! | `side` | sign of `f` just before `toi`; exact subjects only |
+//! | `side` | sign of `f` just before `toi`; exact subjects and the certified path only |
 //! | `case` | the case of the motion; left out by subjects without cases |
 //! | `temporarily_parallel`, `temporarily_point` | the configuration at `toi` |
 //! | `u`, `v` | edge parameters of the contact |
@@ -16,9 +16,11 @@
 //!
 //! A number that an exact subject may not be able to write as an `f64` (`toi`, `u`, `v`) is
 //! `{"below": B, "above": A}`: the largest `f64` not above it and the smallest not below it, equal
-//! where it is an `f64`. An engine's own `f64` stands in both.
+//! where it is an `f64`. The certified path gives `toi` like that, and `u` and `v` with its stated error
+//! on both sides. An engine's own `f64` stands in both.
 
 use serde::Serialize;
+use tunnelproof::certified;
 use tunnelproof::contact::{Contact, ContactPoint, Flags, Verdict};
 use tunnelproof::narrow::Report;
 
@@ -92,6 +94,7 @@ impl Fields {
     pub fn new(answer: &Answer) -> Self {
         match answer {
             Answer::Exact(exact) => Self::exact(exact),
+            Answer::Certified(verdict) => Self::certified(verdict),
             Answer::Engine(report) => Self::engine(report),
         }
     }
@@ -124,6 +127,36 @@ impl Fields {
             flags: Some(flags.into()),
             first: Some(first.into()),
             overlap: second.map(Place::from),
+            ..Self::miss()
+        }
+    }
+
+    fn certified(verdict: &certified::Verdict) -> Self {
+        let certified::Verdict::Hit(hit) = verdict else {
+            return Self::miss();
+        };
+        let place = |certified::Parameters { u, v }: certified::Parameters| {
+            let around = |value: f64| Bounds {
+                below: (value - hit.parameter_error).max(0.0),
+                above: (value + hit.parameter_error).min(1.0),
+            };
+            Place {
+                u: around(u),
+                v: around(v),
+            }
+        };
+        Fields {
+            hit: true,
+            toi: Some(Bounds {
+                below: hit.toi,
+                above: hit.toi_above,
+            }),
+            kind_of_contact: Some(hit.kind.name()),
+            side: Some(hit.side),
+            case: Some(hit.case.name()),
+            flags: Some(hit.flags.into()),
+            first: Some(place(hit.first)),
+            overlap: hit.second.map(place),
             ..Self::miss()
         }
     }

@@ -3,12 +3,13 @@
 
 use std::fmt::Write as _;
 
+use tunnelproof::certified;
 use tunnelproof::contact::{Case, ContactKind};
 use tunnelproof::narrow::Unsupported;
 use tunnelproof::query::{EdgeEdge, Query};
 
 use crate::algebraic::Algebraic;
-use crate::answer::{ExactAnswer, ExactHit, Parameters};
+use crate::answer::{Enclosure, ExactAnswer, ExactHit, Parameters};
 use crate::certify::run::{Found, Judged};
 use crate::certify::table;
 use crate::certify::tally::Fault;
@@ -233,6 +234,16 @@ fn claim(found: &Found) -> String {
         Some(Answer::Exact(exact)) => match exact.hit {
             None => format!("miss ({})", exact.case),
             Some(hit) => format!("hit at {} ({})", hit.toi, exact.case),
+        },
+        Some(Answer::Certified(verdict)) => match verdict {
+            certified::Verdict::Miss => "miss".to_owned(),
+            certified::Verdict::Hit(hit) => {
+                let toi = Enclosure {
+                    below: hit.toi,
+                    above: hit.toi_above,
+                };
+                format!("hit at {toi} ({})", hit.case)
+            }
         },
         Some(Answer::Engine(report)) => {
             let case = report

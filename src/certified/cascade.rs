@@ -1,0 +1,173 @@
+//! The cascade: each stage answers only what it can prove, and hands on the rest.
+
+use super::cubic::Cubic;
+use super::exact;
+use super::locate::Place;
+use super::motion::{Motion, Positions};
+use super::refine;
+use super::root::Bracket;
+use super::separate::SweptBoxes;
+use super::verdict::{Hit, Parameters, Verdict};
+use crate::contact::{Case, ContactKind, Flags};
+use crate::narrow::Unsupported;
+use crate::query::EdgeEdge;
+
+/// The stage of the cascade that decided a query.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Stage {
+    /// The swept boxes are disjoint.
+    Boxes,
+    /// A direction separates the edges for the whole step.
+    Direction,
+    /// The Bernstein coefficients of the cubic have one sign.
+    Signs,
+    /// The roots of the cubic, bounded in `f64`.
+    Roots,
+    /// A separating direction, found by search.
+    Search,
+    /// Integers.
+    Exact,
+}
+
+impl Stage {
+    /// Every stage, in the order in which they are tried.
+    pub const ALL: [Stage; 6] = [
+        Stage::Boxes,
+        Stage::Direction,
+        Stage::Signs,
+        Stage::Roots,
+        Stage::Search,
+        Stage::Exact,
+    ];
+
+    /// The name used in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Stage::Boxes => "boxes",
+            Stage::Direction => "direction",
+            Stage::Signs => "signs",
+            Stage::Roots => "roots",
+            Stage::Search => "search",
+            Stage::Exact => "exact",
+        }
+    }
+}
+
+/// Whether and when two moving edges touch: certified, without thresholds.
+///
+/// No hit is false, no contact is missed, and `toi` is the exact time of impact rounded down.
+///
+/// # Errors
+///
+/// [`Unsupported`] for a radius above 0.
+pub fn decide(query: &EdgeEdge) -> Result<Verdict, Unsupported> {
+    decide_observed(query, &mut |_| {})
+}
+
+/// As [`decide`], and says which stage decided.
+///
+/// # Errors
+///
+/// [`Unsupported`] for a radius above 0.
+#[inline]
+pub fn decide_observed(
+    query: &EdgeEdge,
+    observe: &mut impl FnMut(Stage),
+) -> Result<Verdict, Unsupported> {
+    if query.radius() != 0.0 {
+        return Err(Unsupported::Radius(query.radius()));
+    }
+    let positions = Positions::new(query);
+    let boxes = SweptBoxes::new(&positions);
+    if boxes.are_disjoint {
+        observe(Stage::Boxes);
+        return Ok(Verdict::Miss);
+    }
+    let motion = Motion::new(&positions);
+    if motion.is_separated_by_centres(&boxes) {
+        observe(Stage::Direction);
+        return Ok(Verdict::Miss);
+    }
+    let cubic = Cubic::new(&motion);
+    if cubic.is_some_and(|cubic| cubic.has_no_root()) {
+        observe(Stage::Signs);
+        return Ok(Verdict::Miss);
+    }
+    Ok(decide_open(&positions, &boxes, &motion, cubic, observe))
+}
+
+/// The stages after the first three, for a query that those leave open.
+pub(super) fn decide_rest(positions: &Positions, observe: &mut impl FnMut(Stage)) -> Verdict {
+    let motion = Motion::new(positions);
+    decide_open(
+        positions,
+        &SweptBoxes::new(positions),
+        &motion,
+        Cubic::new(&motion),
+        observe,
+    )
+}
+
+fn decide_open(
+    positions: &Positions,
+    boxes: &SweptBoxes,
+    motion: &Motion,
+    cubic: Option<Cubic>,
+    observe: &mut impl FnMut(Stage),
+) -> Verdict {
+    if let Some(verdict) = cubic.and_then(|cubic| decide_by_roots(positions, motion, &cubic)) {
+        observe(Stage::Roots);
+        return verdict;
+    }
+    if motion.is_separated_by_search(boxes) {
+        observe(Stage::Search);
+        return Verdict::Miss;
+    }
+    observe(Stage::Exact);
+    match exact::decide(positions).hit {
+        None => Verdict::Miss,
+        Some(hit) => Verdict::Hit(hit),
+    }
+}
+
+/// Edges that touch are coplanar: the first root of the cubic at which the lines meet inside both
+/// edges is the contact. `None` as soon as one root is not certain.
+fn decide_by_roots(positions: &Positions, motion: &Motion, cubic: &Cubic) -> Option<Verdict> {
+    for bracket in cubic.isolate()?.as_slice() {
+        match motion.place(bracket) {
+            Place::Apart => {}
+            Place::Inside { .. } => {
+                return hit(positions, motion, cubic, bracket).map(Verdict::Hit);
+            }
+            Place::Unclear => return None,
+        }
+    }
+    Some(Verdict::Miss)
+}
+
+/// The contact at a simple root strictly inside the step, strictly inside both edges.
+///
+/// `f` changes sign there and the lines meet at an angle: a crossing of general motion.
+fn hit(positions: &Positions, motion: &Motion, cubic: &Cubic, bracket: &Bracket) -> Option<Hit> {
+    let toi = refine::round_down(positions, cubic, bracket)?;
+    let toi_above = toi.next_up();
+    let at_toi = Bracket {
+        low: toi,
+        high: toi_above,
+        ..*bracket
+    };
+    let Place::Inside { u, v, error } = motion.place(&at_toi) else {
+        return None;
+    };
+    Some(Hit {
+        toi,
+        toi_above,
+        kind: ContactKind::Crossing,
+        side: if bracket.is_rising { -1 } else { 1 },
+        first: Parameters { u, v },
+        second: None,
+        parameter_error: error,
+        case: Case::General,
+        flags: Flags::default(),
+    })
+}

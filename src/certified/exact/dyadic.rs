@@ -1,0 +1,95 @@
+//! Numbers `m / 2^s`: the `f64`s of `[0, 1]` and what lies between them.
+
+use std::cmp::Ordering;
+
+use super::integer::{Integer, scale};
+
+/// `numerator / 2^exponent`, in `[0, 1]`.
+#[derive(Clone, Debug)]
+pub(super) struct Dyadic {
+    pub(super) numerator: Integer,
+    pub(super) exponent: u64,
+}
+
+impl Dyadic {
+    /// `numerator / 2^exponent`.
+    pub(super) fn new(numerator: Integer, exponent: u64) -> Self {
+        Dyadic {
+            numerator,
+            exponent,
+        }
+    }
+
+    /// The value of an `f64` in `[0, 1]`.
+    pub(super) fn from_f64(value: f64) -> Self {
+        let (mantissa, exponent) = decompose(value);
+        debug_assert!((0.0..=1.0).contains(&value) && exponent <= 0);
+        Dyadic::new(
+            Integer::from(i128::from(mantissa)),
+            exponent.unsigned_abs().into(),
+        )
+    }
+
+    /// The largest `f64` that is not above the number.
+    pub(super) fn below(&self) -> f64 {
+        self.floor().0
+    }
+
+    /// The smallest `f64` that is not below the number.
+    pub(super) fn above(&self) -> f64 {
+        let (below, is_exact) = self.floor();
+        if is_exact { below } else { below.next_up() }
+    }
+
+    /// The largest `f64` that is not above the number, and whether it is the number.
+    fn floor(&self) -> (f64, bool) {
+        let own = self.exponent as i64;
+        // The unit in the last place of the result, not below that of the subnormals.
+        let unit = (self.numerator.bits() as i64 - 53 - own).max(-1074);
+        let dropped = unit + own;
+        if dropped <= 0 {
+            // At most 53 bits, and none of them below the unit.
+            let (mantissa, _) = self.numerator.window(0);
+            return (scale(mantissa as f64, -own), true);
+        }
+        let (mantissa, is_exact) = self.numerator.window(dropped.unsigned_abs());
+        (scale(mantissa as f64, unit), is_exact)
+    }
+
+    /// The number in the middle of two.
+    pub(super) fn middle(a: &Dyadic, b: &Dyadic) -> Dyadic {
+        let (low, high) = if a.exponent < b.exponent {
+            (a, b)
+        } else {
+            (b, a)
+        };
+        let mut sum = high.numerator.clone();
+        sum.add_shifted(&low.numerator, high.exponent - low.exponent);
+        Dyadic::new(sum, high.exponent + 1)
+    }
+
+    /// `self` compared with `other`.
+    pub(super) fn compare(&self, other: &Dyadic) -> Ordering {
+        let common = self.exponent.max(other.exponent);
+        let own = self.numerator.shifted(common - self.exponent);
+        own.cmp(&other.numerator.shifted(common - other.exponent))
+    }
+}
+
+/// A finite `f64` as `mantissa 2^exponent`, the mantissa odd or 0.
+pub(super) fn decompose(value: f64) -> (i64, i32) {
+    let bits = value.to_bits();
+    let biased = (bits >> 52 & 0x7ff) as i32;
+    let fraction = (bits & ((1 << 52) - 1)) as i64;
+    let (magnitude, exponent) = match biased {
+        0 => (fraction, -1074),
+        _ => (fraction | 1 << 52, biased - 1075),
+    };
+    if magnitude == 0 {
+        return (0, 0);
+    }
+    let zeros = magnitude.trailing_zeros();
+    let magnitude = magnitude >> zeros;
+    let mantissa = if value < 0.0 { -magnitude } else { magnitude };
+    (mantissa, exponent + zeros as i32)
+}

@@ -1,0 +1,34 @@
+//! The certified path: an edge-edge test without thresholds, fast and never wrong.
+//!
+//! [`decide`] answers one query, [`Batch`] many. No hit is false, no contact is missed, and the time
+//! of impact is the exact one rounded down. A query goes through a cascade ([`Stage`]) of which each
+//! stage answers only what it can prove, in `f64` with an error bound derived beside the code:
+//!
+//! 1. the swept boxes are disjoint (`separate`);
+//! 2. a direction separates the edges for the whole step (`separate`);
+//! 3. the cubic `f = (K x L) . M`, with `K = B - A`, `L = D - C`, `M = C - A`, has no root, by the signs
+//!    of its Bernstein coefficients (`cubic`): edges that touch are coplanar;
+//! 4. its roots are bracketed (`root`), the edges are far enough inside or outside of each other there
+//!    (`locate`), and the last bit of the time is settled in double-double arithmetic (`refine`);
+//! 5. a separating direction is searched for (`separate`);
+//! 6. integers decide what is left ([`decide_exactly`], `exact`): degenerate motion, contact at ends.
+//!
+//! No stage has a threshold: an error bound is a proof, and what it cannot prove it hands on.
+
+mod batch;
+mod cascade;
+mod cubic;
+mod exact;
+mod locate;
+mod motion;
+mod narrow;
+mod refine;
+mod root;
+mod separate;
+mod verdict;
+
+pub use batch::{Batch, BatchError};
+pub use cascade::{Stage, decide, decide_observed};
+pub use exact::{Decision, decide_exactly};
+pub use narrow::Certified;
+pub use verdict::{Hit, Parameters, Verdict};

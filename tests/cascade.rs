@@ -1,0 +1,71 @@
+//! The cascade of the certified path: batches, and the share that each stage decides.
+
+use std::collections::BTreeMap;
+
+use tunnelproof::certified::{self, Batch, Stage};
+use tunnelproof::query::{EdgeEdge, Query};
+use tunnelproof_reference::generate::{FAMILIES, by_name};
+
+fn edge_edge(query: Query) -> Option<EdgeEdge> {
+    match query {
+        Query::EdgeEdge(query) => Some(query),
+        Query::VertexFace(_) => None,
+    }
+}
+
+#[test]
+fn certified_batch_is_certified_one_by_one() {
+    for family in FAMILIES {
+        for count in [0, 1, 63, 64, 65, 5000] {
+            let queries: Vec<EdgeEdge> = (0..count)
+                .filter_map(|index| edge_edge(family.query(3, index)))
+                .collect();
+            let mut batch = Batch::new();
+            queries
+                .iter()
+                .for_each(|query| batch.push(query).expect("radius 0"));
+            let mut seen = 0;
+            batch.decide(|index, verdict| {
+                assert_eq!(index, seen);
+                assert_eq!(
+                    Ok(verdict),
+                    certified::decide(&queries[index]),
+                    "{}",
+                    family.name()
+                );
+                seen += 1;
+            });
+            assert_eq!(seen, queries.len());
+        }
+    }
+}
+
+/// The share of queries that each stage decides, in percent.
+fn shares(queries: impl Iterator<Item = EdgeEdge>) -> BTreeMap<Stage, f64> {
+    let mut counts: BTreeMap<Stage, u64> = BTreeMap::new();
+    let mut total = 0;
+    for query in queries {
+        let mut observe = |stage| *counts.entry(stage).or_default() += 1;
+        let _ = certified::decide_observed(&query, &mut observe).expect("radius 0");
+        total += 1;
+    }
+    assert_eq!(
+        counts.values().sum::<u64>(),
+        total,
+        "one stage decides each query"
+    );
+    counts
+        .into_iter()
+        .map(|(stage, n)| (stage, 100.0 * n as f64 / total as f64))
+        .collect()
+}
+
+#[test]
+fn certified_exact_stage_is_reached_no_more_often_than_it_must() {
+    for (family, at_most) in [("uniform", 0.01), ("lattice", 60.0)] {
+        let family = by_name(family).expect("a family");
+        let shares = shares((0..20_000).filter_map(|index| edge_edge(family.query(1, index))));
+        let exact = shares.get(&Stage::Exact).copied().unwrap_or(0.0);
+        assert!(exact <= at_most, "{}: {shares:?}", family.name());
+    }
+}
