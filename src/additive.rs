@@ -166,7 +166,7 @@ mod tests {
     #[test]
     fn additive_stops_before_contact_by_less_than_a_tenth_of_the_way() {
         let toi = toi(&falling(1.0, -1.0)).unwrap();
-        assert!(toi <= 0.5 && toi >= 0.45, "{toi}");
+        assert!((0.45..=0.5).contains(&toi), "{toi}");
     }
 
     #[test]

@@ -15,6 +15,11 @@
 //!
 //! No stage has a threshold: an error bound is a proof, and what it cannot prove it hands on.
 
+#![allow(
+    clippy::neg_cmp_op_on_partial_ord,
+    reason = "a comparison with NaN must mean: not proved"
+)]
+
 mod batch;
 mod cascade;
 mod cubic;

@@ -20,6 +20,15 @@
 //! used. There is no tolerance and no limit on iterations: every loop ends by a reason that is stated
 //! beside it.
 
+#![allow(
+    clippy::large_enum_variant,
+    reason = "a box would allocate, which this stage does not"
+)]
+#![allow(
+    clippy::needless_range_loop,
+    reason = "limbs and coefficients are indexed as in the formulas"
+)]
+
 use std::cmp::Ordering;
 
 use super::motion::Positions;
