@@ -39,29 +39,6 @@ fn integer_operations<Z: Integer>() {
     }
 }
 
-/// The promise of `approximate`, on which proofs rest.
-fn approximation_error<Z: Integer>() {
-    let z = Z::from_i64;
-    for k in 0..2000 {
-        let digits = z(0x4f1b_bcdc_bfa5_3e0b)
-            .mul(&z(k))
-            .add(&z(1))
-            .shl(k as u64 / 8);
-        for value in [
-            digits.clone(),
-            digits.neg(),
-            digits.shr_floor(k as u64 % 80).add(&z(1)),
-        ] {
-            let (mantissa, exponent) = value.approximate();
-            assert!((2f64.powi(63)..=2f64.powi(64)).contains(&mantissa.abs()));
-            let mantissa = Z::from_decimal(&format!("{mantissa:.0}")).unwrap();
-            let (own, other) = ((-exponent).max(0) as u64, exponent.max(0) as u64);
-            let error = value.shl(own).sub(&mantissa.shl(other)).abs();
-            assert!(error.shl(52) <= value.shl(own).abs(), "{value}");
-        }
-    }
-}
-
 fn ratio_operations<Z: Integer>() {
     let ratio = |n, d| Z::Ratio::new(Z::from_i64(n), Z::from_i64(d));
     assert_eq!(ratio(6, -4).numerator(), Z::from_i64(-3));
@@ -75,7 +52,6 @@ fn ratio_operations<Z: Integer>() {
 #[test]
 fn integer_operations_num_bigint() {
     integer_operations::<BigInt>();
-    approximation_error::<BigInt>();
     ratio_operations::<BigInt>();
 }
 
@@ -83,6 +59,5 @@ fn integer_operations_num_bigint() {
 #[test]
 fn integer_operations_gmp() {
     integer_operations::<rug::Integer>();
-    approximation_error::<rug::Integer>();
     ratio_operations::<rug::Integer>();
 }
