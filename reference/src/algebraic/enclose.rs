@@ -6,7 +6,7 @@ use crate::answer::Enclosure;
 use crate::field::Integer;
 use crate::poly::Poly;
 
-use super::{Algebraic, FloatPoly, Interval};
+use super::{Algebraic, Interval};
 
 /// How narrow an interval is before numbers are rounded: by so much narrower than an ulp of `f64`
 /// that hardly ever one lies inside.
@@ -103,20 +103,17 @@ impl<Z: Integer> Algebraic<Z> {
     }
 
     /// Narrows the interval to about an `f64` ulp: a root in floating point is a guess, and exact
-    /// signs around it make it a proof. A bad guess costs time only. Returns bounds in `f64`.
-    pub(super) fn narrow_to_f64(&self) -> (f64, f64) {
-        *self.float_bounds.get_or_init(|| {
-            self.narrow_by_guess();
-            self.interval.borrow().float_bounds()
-        })
-    }
-
-    fn narrow_by_guess(&self) {
+    /// signs around it make it a proof. A bad guess costs time only.
+    pub(super) fn narrow_to_f64(&self) {
         let mut interval = self.interval.borrow_mut();
-        let (below, above) = interval.float_bounds();
-        if interval.is_point() || between(below, above).is_none() {
+        if interval.is_point() {
             return;
         }
+        let below = round_down(&interval.low, interval.exponent);
+        let above = round_up(&interval.high, interval.exponent);
+        let Some(_) = between(below, above) else {
+            return;
+        };
         let before = self
             .poly
             .evaluate_dyadic(&interval.low, interval.exponent)
@@ -158,16 +155,6 @@ impl<Z: Integer> Algebraic<Z> {
     }
 }
 
-impl<Z: Integer> Interval<Z> {
-    /// The largest `f64` not above the low end and the smallest not below the high end.
-    fn float_bounds(&self) -> (f64, f64) {
-        (
-            round_down(&self.low, self.exponent),
-            round_up(&self.high, self.exponent),
-        )
-    }
-}
-
 fn cut_at_f64<Z: Integer>(interval: &mut Interval<Z>, poly: &Poly<Z>, cut: f64, before: Ordering) {
     let (numerator, exponent) = dyadic::<Z>(cut);
     interval.widen_exponent(exponent);
@@ -179,10 +166,10 @@ fn cut_at_f64<Z: Integer>(interval: &mut Interval<Z>, poly: &Poly<Z>, cut: f64, 
 /// A root of `poly` between `below` and `above` in floating point and how far off it may be: bisection
 /// and Newton steps. `before` is the sign of `poly` at the low end. Only a guess.
 fn guess_root<Z: Integer>(poly: &Poly<Z>, below: f64, above: f64, before: Ordering) -> (f64, f64) {
-    let poly = FloatPoly::multiple_of(poly);
+    let coefficients = scaled_coefficients(poly);
     let evaluate = |t: f64| {
         let (mut value, mut slope, mut size) = (0.0, 0.0, 0.0);
-        for c in poly.descending() {
+        for &c in coefficients.iter().rev() {
             slope = slope * t + value;
             value = value * t + c;
             size = size * t + c.abs();
@@ -215,6 +202,21 @@ fn guess_root<Z: Integer>(poly: &Poly<Z>, below: f64, above: f64, before: Orderi
     (t.clamp(below, above), error)
 }
 
+/// The coefficients divided by one power of two such that none overflows.
+fn scaled_coefficients<Z: Integer>(poly: &Poly<Z>) -> Vec<f64> {
+    let parts: Vec<(f64, i64)> = poly.coefficients().iter().map(Z::approximate).collect();
+    let top = parts
+        .iter()
+        .filter(|part| part.0 != 0.0)
+        .map(|part| part.1)
+        .max()
+        .unwrap_or(0);
+    parts
+        .iter()
+        .map(|&(m, e)| m * 2f64.powi((e - top).max(-1100) as i32))
+        .collect()
+}
+
 /// An `f64` strictly between two others, about in the middle of the `f64`s between them; `None` if
 /// there is none. Both are at least 0.
 fn between(below: f64, above: f64) -> Option<f64> {
@@ -223,7 +225,7 @@ fn between(below: f64, above: f64) -> Option<f64> {
 }
 
 /// A finite `f64` as `numerator / 2^exponent`.
-pub(super) fn dyadic<Z: Integer>(value: f64) -> (Z, u64) {
+pub(crate) fn dyadic<Z: Integer>(value: f64) -> (Z, u64) {
     let (mantissa, exponent) = decompose(value);
     let numerator = Z::from_i64(mantissa);
     match exponent {

@@ -4,21 +4,19 @@
 //! answered by narrowing the interval until the answer shows; whether something is *equal*, which
 //! narrowing can never show, is decided by a greatest common divisor. Nothing takes a tolerance.
 
-use std::cell::{OnceCell, RefCell};
+use std::cell::RefCell;
 use std::cmp::Ordering;
 
 use crate::field::{Integer, Ratio};
 use crate::poly::Poly;
 
 mod enclose;
-mod floating;
 mod interval;
 mod isolate;
 
 pub(crate) use enclose::decompose;
 pub use isolate::isolate_roots;
 
-use floating::FloatPoly;
 use interval::Interval;
 
 /// A real algebraic number in `[0, 1]`.
@@ -31,8 +29,6 @@ pub struct Algebraic<Z> {
     /// A single point (then the number is this dyadic rational), or an interval that holds the
     /// number strictly inside and whose ends are not roots.
     interval: RefCell<Interval<Z>>,
-    /// Bounds in `f64`, once the interval was narrowed to about an ulp of them.
-    float_bounds: OnceCell<(f64, f64)>,
 }
 
 impl<Z: Integer> Algebraic<Z> {
@@ -44,7 +40,10 @@ impl<Z: Integer> Algebraic<Z> {
     /// The number `numerator / 2^exponent`, in `[0, 1]`.
     pub fn dyadic(numerator: Z, exponent: u64) -> Self {
         let poly = Poly::new(vec![numerator.neg(), Z::one().shl(exponent)]);
-        Self::isolated(poly, Interval::point(numerator, exponent))
+        Algebraic {
+            poly,
+            interval: RefCell::new(Interval::point(numerator, exponent)),
+        }
     }
 
     /// The number `value`, in `[0, 1]`.
@@ -62,7 +61,6 @@ impl<Z: Integer> Algebraic<Z> {
         Algebraic {
             poly,
             interval: RefCell::new(interval),
-            float_bounds: OnceCell::new(),
         }
     }
 
@@ -130,6 +128,10 @@ impl<Z: Integer> Algebraic<Z> {
         if let Some(sign) = self.sign_if_rational(q).or_else(|| self.try_sign_of(q)) {
             return sign;
         }
+        self.narrow_to_f64();
+        if let Some(sign) = self.try_sign_of(q) {
+            return sign;
+        }
         if self.is_root_of(q) {
             return Ordering::Equal;
         }
@@ -143,13 +145,9 @@ impl<Z: Integer> Algebraic<Z> {
         }
     }
 
-    /// The sign of `q` at the number if the interval, narrowed to about an ulp of `f64` at least,
-    /// shows it.
+    /// The sign of `q` at the number if the interval as it now stands shows it.
     pub fn try_sign_of(&self, q: &Poly<Z>) -> Option<Ordering> {
-        let (low, high) = self.narrow_to_f64();
-        FloatPoly::multiple_of(q)
-            .sign_between(low, high)
-            .or_else(|| self.interval.borrow().sign_of(q))
+        self.interval.borrow().sign_of(q)
     }
 
     fn sign_if_rational(&self, q: &Poly<Z>) -> Option<Ordering> {

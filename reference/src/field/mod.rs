@@ -68,8 +68,8 @@ pub trait Integer: Clone + Debug + Display + Ord + Send + Sync + 'static {
     fn div_floor(&self, other: &Self) -> Self;
     /// The greatest common divisor, at least 0.
     fn gcd(&self, other: &Self) -> Self;
-    /// `self` as `m 2^e` with `|m|` in `[2^63, 2^64]`, of a relative error of at most `2^-52`;
-    /// `(0, 0)` for 0.
+    /// `self` as `m 2^e` with `|m|` in `[2^63, 2^64)` cut to `f64`; `(0, 0)` for 0. Good to about
+    /// 53 bits, for estimates only.
     fn approximate(&self) -> (f64, i64);
     /// The value if it fits.
     fn to_i64(&self) -> Option<i64>;

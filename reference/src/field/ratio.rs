@@ -86,15 +86,18 @@ impl Integer for BigInt {
     }
 
     fn approximate(&self) -> (f64, i64) {
-        let mut digits = self.iter_u64_digits().rev();
-        let Some(first) = digits.next() else {
+        let bits = BigInt::bits(self);
+        if bits == 0 {
             return (0.0, 0);
+        }
+        let magnitude = self.magnitude();
+        let top = if bits > 64 {
+            (magnitude >> (bits - 64)).to_u64().unwrap_or(u64::MAX)
+        } else {
+            magnitude.to_u64().unwrap_or(u64::MAX) << (64 - bits)
         };
-        // The top 64 bits, from the top two digits.
-        let zeros = first.leading_zeros();
-        let second = digits.next().unwrap_or(0);
-        let mantissa = (first << zeros | second.unbounded_shr(64 - zeros)) as f64;
-        let exponent = i64::try_from(BigInt::bits(self)).unwrap_or(i64::MAX) - 64;
+        let mantissa = top as f64;
+        let exponent = i64::try_from(bits).unwrap_or(i64::MAX) - 64;
         (
             if BigInt::sign(self) == Sign::Minus {
                 -mantissa
