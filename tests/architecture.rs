@@ -206,7 +206,10 @@ fn architecture_judges_do_not_know_each_other_and_the_engine_knows_no_judge() {
     };
     assert!(!reaches("reference::oracle", "reference::shadow"));
     assert!(!reaches("reference::shadow", "reference::oracle"));
-    assert!(!reaches("reference::oracle", "engine::thesis"));
+    assert!(!reaches("engine::thesis", "engine::certified"));
+    assert!(!reaches("engine::certified", "engine::thesis"));
+    let oracle = &graph["reference::oracle"];
+    assert!(!oracle.contains("engine::thesis") && !oracle.contains("engine::certified"));
     let engine = graph
         .iter()
         .filter(|(module, _)| module.starts_with("engine"));
