@@ -8,12 +8,13 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use tunnelproof::query::EdgeEdge;
-use tunnelproof_reference::{field, oracle};
+use tunnelproof_reference::field::{self, Integer};
+use tunnelproof_reference::oracle;
 
 mod data;
 
 fn bench(c: &mut Criterion) {
-    let mut group = c.benchmark_group(format!("oracle/{}", data::backend::<field::Default>()));
+    let mut group = c.benchmark_group(format!("oracle/{}", <field::Default as Integer>::BACKEND));
     for (name, queries) in data::sets() {
         group.throughput(Throughput::Elements(queries.len() as u64));
         group.bench_with_input(BenchmarkId::new("toi", &name), &queries, |b, queries| {

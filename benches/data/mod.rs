@@ -5,13 +5,7 @@ use std::path::{Path, PathBuf};
 
 use tunnelproof::query::{EdgeEdge, Point, Query};
 use tunnelproof_reference::corpus::{self, ReadOptions};
-use tunnelproof_reference::field::Integer;
 use tunnelproof_reference::generate;
-
-/// The name of the arithmetic.
-pub(crate) fn backend<Z: Integer>() -> &'static str {
-    Z::BACKEND
-}
 
 /// Named sets: generated ones, then the public ones that are there.
 pub(crate) fn sets() -> Vec<(String, Vec<EdgeEdge>)> {

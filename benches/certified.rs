@@ -1,0 +1,97 @@
+//! The narrow phases side by side, in one run: reading the input alone, the thesis path, additive
+//! CCD, the certified path one by one and in batch. Before each set, the share of its queries that
+//! each stage of the certified path decides.
+//!
+//! `cargo bench --bench certified`. The public sets are measured where `../shared/data` is present;
+//! the generated families always. The mean of a query is the time of a set over its queries.
+
+use std::collections::BTreeMap;
+use std::hint::black_box;
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use tunnelproof::additive::Additive;
+use tunnelproof::certified::{self, Batch, Stage};
+use tunnelproof::narrow::NarrowPhase;
+use tunnelproof::query::EdgeEdge;
+use tunnelproof::thesis::Thesis;
+
+mod data;
+
+fn bench(c: &mut Criterion) {
+    for (name, queries) in data::sets() {
+        println!(
+            "\n{name}: {} queries, decided by {}",
+            queries.len(),
+            shares(&queries)
+        );
+        let mut batch = Batch::new();
+        for query in &queries {
+            batch.push(query).expect("radius 0");
+        }
+        let mut group = c.benchmark_group(format!("narrow/{name}"));
+        group.throughput(Throughput::Elements(queries.len() as u64));
+        let each =
+            |work: fn(&EdgeEdge)| move |queries: &Vec<EdgeEdge>| queries.iter().for_each(work);
+        for (method, work) in [
+            ("read", each(read)),
+            ("thesis", each(|query| answer(&Thesis::default(), query))),
+            (
+                "additive",
+                each(|query| answer(&Additive::default(), query)),
+            ),
+            (
+                "certified",
+                each(|query| consume(certified::decide(black_box(query)))),
+            ),
+        ] {
+            group.bench_with_input(
+                BenchmarkId::from_parameter(method),
+                &queries,
+                |b, queries| {
+                    b.iter(|| work(queries));
+                },
+            );
+        }
+        group.bench_function("certified-batch", |b| {
+            b.iter(|| batch.decide(|_, verdict| consume(verdict)));
+        });
+        group.finish();
+    }
+}
+
+/// The floor: every coordinate is read, nothing is decided.
+fn read(query: &EdgeEdge) {
+    let points = query.start().iter().chain(query.end());
+    black_box(points.map(|point| point.x + point.y + point.z).sum::<f64>());
+}
+
+fn answer(method: &impl NarrowPhase, query: &EdgeEdge) {
+    consume(method.edge_edge(black_box(query)));
+}
+
+fn consume<T>(value: T) {
+    black_box(value);
+}
+
+fn shares(queries: &[EdgeEdge]) -> String {
+    let mut counts: BTreeMap<Stage, usize> = BTreeMap::new();
+    for query in queries {
+        let mut observe = |stage| *counts.entry(stage).or_default() += 1;
+        consume(certified::decide_observed(query, &mut observe));
+    }
+    let share = |(stage, count): (Stage, usize)| {
+        format!(
+            "{} {:.2}%",
+            stage.name(),
+            100.0 * count as f64 / queries.len() as f64
+        )
+    };
+    counts.into_iter().map(share).collect::<Vec<_>>().join(", ")
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default().sample_size(20);
+    targets = bench
+}
+criterion_main!(benches);
