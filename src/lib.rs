@@ -13,3 +13,8 @@ pub mod narrow;
 pub mod query;
 pub mod scenario;
 pub mod thesis;
+
+/// The example of the README, as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

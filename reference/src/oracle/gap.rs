@@ -2,12 +2,13 @@
 //!
 //! Whether the distance is at most `R` at some time of the step is decided exactly, by evaluating
 //! its description at every candidate, as in [`super::literal`]; the least distance follows by
-//! bisection on `R`. With `E = Z - Y`, `w = X - Y` and `e2 = E.E`, the edges are within `R` when
+//! bisection on `R`, from a guess in floating point, which can cost time only. With `E = Z - Y`, `w = X - Y` and `e2 = E.E`, the edges are within `R` when
 //!
 //! - `N.N > 0`, `f^2 <= R^2 N.N`, and the lines are nearest inside both edges, or
 //! - an end `X` is within `R` of an end of the other edge `YZ`, or
 //! - `e2 > 0`, `0 <= w.E <= e2` and `|w x E|^2 <= R^2 e2` for an end `X` and the other edge `YZ`.
 
+use nalgebra::Vector3;
 use tunnelproof::query::{EdgeEdge, Query};
 
 use crate::algebraic::{Algebraic, decompose, isolate_roots};
@@ -34,17 +35,68 @@ pub fn least_distance(query: &EdgeEdge) -> Enclosure {
     }
     // The bits of an f64 above 0 are in the order of the values.
     let (mut below, mut above) = (0, f64::MAX.to_bits());
+    let guess = guess_distance(query);
+    let mut cuts = [guess * 0.9996, guess * 1.0004].into_iter();
     while above - below > 1 && f64::from_bits(below) * 1.001 < f64::from_bits(above) {
-        let middle = below + (above - below) / 2;
-        if proximity.is_within(f64::from_bits(middle)) {
-            above = middle
+        let guessed = cuts
+            .next()
+            .map(f64::to_bits)
+            .filter(|cut| (below + 1..above).contains(cut));
+        let cut = guessed.unwrap_or(below + (above - below) / 2);
+        if proximity.is_within(f64::from_bits(cut)) {
+            above = cut
         } else {
-            below = middle
+            below = cut
         }
     }
     Enclosure {
         below: f64::from_bits(below),
         above: f64::from_bits(above),
+    }
+}
+
+/// The least distance in floating point, by sampling and ternary search. Only a guess.
+fn guess_distance(query: &EdgeEdge) -> f64 {
+    let distance = |t: f64| {
+        let at = |i: usize| query.start()[i].coords * (1.0 - t) + query.end()[i].coords * t;
+        distance_of_segments(&[at(0), at(1), at(2), at(3)])
+    };
+    const SAMPLES: u32 = 64;
+    let time = |i: u32| f64::from(i) / f64::from(SAMPLES);
+    let nearest = (0..=SAMPLES).min_by(|&i, &j| distance(time(i)).total_cmp(&distance(time(j))));
+    let nearest = nearest.unwrap_or(0);
+    let (mut low, mut high) = (
+        time(nearest.saturating_sub(1)),
+        time((nearest + 1).min(SAMPLES)),
+    );
+    for _ in 0..60 {
+        let (left, right) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+        if distance(left) < distance(right) {
+            high = right
+        } else {
+            low = left
+        }
+    }
+    distance(low).min(distance(time(nearest)))
+}
+
+/// The distance of two segments in floating point: of an end from the other segment, or of the lines.
+fn distance_of_segments([a, b, c, d]: &[Vector3<f64>; 4]) -> f64 {
+    let to_segment = |x: &Vector3<f64>, y: &Vector3<f64>, z: &Vector3<f64>| {
+        let edge = z - y;
+        let s = (x - y).dot(&edge) / edge.dot(&edge);
+        (x - y - edge * if s > 0.0 { s.min(1.0) } else { 0.0 }).norm()
+    };
+    let of_ends = to_segment(a, c, d).min(to_segment(b, c, d));
+    let of_ends = of_ends.min(to_segment(c, a, b)).min(to_segment(d, a, b));
+    let (k, l, m) = (b - a, d - c, c - a);
+    let n = k.cross(&l);
+    let (u, v) = (m.cross(&l).dot(&n), m.cross(&k).dot(&n));
+    let inside = 0.0..=n.norm_squared();
+    if n.norm() > 0.0 && inside.contains(&u) && inside.contains(&v) {
+        of_ends.min(m.dot(&n).abs() / n.norm())
+    } else {
+        of_ends
     }
 }
 
