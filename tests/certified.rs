@@ -81,7 +81,7 @@ fn is_same_place(place: &Parameters, expected: &answer::Parameters, error: f64) 
             && value >= exact.below - error
             && value <= exact.above + error
     };
-    error <= 1e-6 && near(place.u, &expected.u) && near(place.v, &expected.v)
+    error <= Hit::PARAMETER_ERROR && near(place.u, &expected.u) && near(place.v, &expected.v)
 }
 
 /// Small integers, confined to a line or a plane as often as not, with points repeated.

@@ -159,6 +159,9 @@ fn hit(positions: &Positions, motion: &Motion, cubic: &Cubic, bracket: &Bracket)
     let Place::Inside { u, v, error } = motion.place(&at_toi) else {
         return None;
     };
+    if error > Hit::PARAMETER_ERROR {
+        return None;
+    }
     Some(Hit {
         toi,
         toi_above,

@@ -38,7 +38,8 @@ pub struct Hit {
     pub first: Parameters,
     /// The other end of the overlap, if they overlap in more than a point.
     pub second: Option<Parameters>,
-    /// No parameter is farther from the exact one than this.
+    /// No parameter is farther from the exact one than this, which is at most
+    /// [`Hit::PARAMETER_ERROR`].
     pub parameter_error: f64,
     /// The case of the motion (thesis 3.1.1). Exact.
     pub case: Case,
@@ -58,6 +59,10 @@ pub struct Parameters {
 }
 
 impl Hit {
+    /// The largest [`parameter_error`](Hit::parameter_error) that there is, `2^-32`. Where `f64` cannot
+    /// promise so much, integers do.
+    pub const PARAMETER_ERROR: f64 = f64::from_bits((1023 - 32) << 52);
+
     /// The contact in space, from the positions at `toi`.
     ///
     /// With `S` the largest magnitude of a coordinate of A and B, the point is within

@@ -6,6 +6,7 @@
 use std::cmp::Ordering;
 
 use super::dyadic::Dyadic;
+use super::guess::{between, guess_root, slope};
 use super::integer::{Integer, ratio, scale};
 use super::poly::Poly;
 use super::sturm;
@@ -46,6 +47,15 @@ impl<'a> Bracket<'a> {
             high,
             is_low_proved: false,
             is_high_proved: false,
+        }
+    }
+
+    /// The same for ends that are known not to be roots.
+    pub(super) fn proved(poly: &'a Poly, low: Dyadic, high: Dyadic, before: Ordering) -> Self {
+        Bracket {
+            is_low_proved: true,
+            is_high_proved: true,
+            ..Bracket::new(poly, low, high, before)
         }
     }
 
@@ -128,7 +138,7 @@ impl<'a> Bracket<'a> {
         let grid = EXTRA_BITS - ulp_exponent(guess);
         let offset = scale(step, grid);
         // Beyond this the proposal is no better than halving.
-        if !(offset.abs() < 2f64.powi(100)) {
+        if offset.is_nan() || offset.abs() >= 2f64.powi(100) {
             return None;
         }
         let offset = offset as i128;
@@ -207,6 +217,11 @@ impl<'a> Bracket<'a> {
         if value.exceeds(&variation) {
             return value.sign();
         }
+        self.sturm_sign_of(q)
+    }
+
+    /// The same for a polynomial that is likely to be 0 there.
+    pub(super) fn sturm_sign_of(&self, q: Poly) -> Ordering {
         sturm::sign_at_root(self.poly, q, self.before, &self.low, &self.high)
     }
 
@@ -280,44 +295,7 @@ impl<'a> Bracket<'a> {
     }
 }
 
-/// A root between `low` and `high` in floating point, by Newton steps and halving; `before` is the
-/// sign before it. Only a guess.
-fn guess_root(c: &[f64; 4], low: f64, high: f64, before: Ordering) -> f64 {
-    let (mut low, mut high) = (low, high);
-    let mut t = 0.5 * (low + high);
-    for _ in 0..60 {
-        let value = ((c[3] * t + c[2]) * t + c[1]) * t + c[0];
-        if (value < 0.0) == before.is_lt() {
-            low = t;
-        } else {
-            high = t;
-        }
-        let newton = t - value / slope(c, t);
-        let next = if newton > low && newton < high {
-            newton
-        } else {
-            0.5 * (low + high)
-        };
-        if (next - t).abs() <= 2.0 * f64::EPSILON * t {
-            return next;
-        }
-        t = next;
-    }
-    t
-}
-
-fn slope(c: &[f64; 4], t: f64) -> f64 {
-    (3.0 * c[3] * t + 2.0 * c[2]) * t + c[1]
-}
-
 /// The exponent of the unit in the last place of an `f64` above 0.
 fn ulp_exponent(value: f64) -> i64 {
     ((value.to_bits() >> 52 & 0x7ff) as i64).max(1) - 1075
-}
-
-/// An `f64` strictly between two others that are at least 0, about in the middle of all of them;
-/// `None` if there is none.
-fn between(below: f64, above: f64) -> Option<f64> {
-    let (low, high) = (below.to_bits(), above.to_bits());
-    (high > low + 1).then(|| f64::from_bits(low + (high - low) / 2))
 }

@@ -9,21 +9,13 @@ use std::cmp::Ordering;
 
 use crate::contact::ContactKind;
 
-use super::isolate::Roots;
+use super::curve::Curve;
 use super::lane::{Lane, Number};
 use super::locus::Locus;
 use super::motion::{End, Motion, Quadratic};
-use super::poly::Poly;
+use super::roots::Roots;
 use super::time::Time;
 use crate::certified::verdict::Hit;
-
-/// An end of an edge against the other edge; see [`Motion::turn`] and [`Motion::between`].
-struct Approach<L: Lane> {
-    turn: [Quadratic<L>; 3],
-    between: Quadratic<L>,
-    /// The roots of a component of the turn that is not identically 0, else those of `between`.
-    roots: Option<Roots>,
-}
 
 impl<L: Lane> Motion<L> {
     /// The first contact of a motion with `f` identically 0.
@@ -39,11 +31,20 @@ impl<L: Lane> Motion<L> {
                 case,
             ));
         }
-        let approaches = [End::A, End::B, End::C, End::D].map(|end| Approach::new(self, end));
-        let times = approaches.iter().filter_map(Approach::first_contact);
+        let ends = self.ends();
+        let mut roots = [Roots::none(), Roots::none(), Roots::none(), Roots::none()];
+        for (end, roots) in ends.iter().zip(&mut roots) {
+            if let Some(curve) = end.candidates() {
+                roots.find(curve);
+            }
+        }
+        let times = ends
+            .iter()
+            .zip(&roots)
+            .filter_map(|(end, roots)| end.first_contact(roots));
         let toi = times.min_by(Time::compare)?;
         let locus = self.locus(&toi)?;
-        let kind = if toi.is_inside() && crosses(&approaches, &toi, &locus) {
+        let kind = if toi.is_inside() && crosses(ends, &toi, &locus) {
             ContactKind::Crossing
         } else {
             ContactKind::Graze
@@ -59,25 +60,21 @@ impl<L: Lane> Motion<L> {
 }
 
 /// Whether the first contact, strictly inside the step, is a crossing.
-fn crosses<L: Lane>(approaches: &[Approach<L>; 4], toi: &Time, locus: &Locus<L>) -> bool {
+fn crosses<L: Lane>(ends: &[End<L>; 4], toi: &Time<L>, locus: &Locus<L>) -> bool {
     // On a line every contact that was not there before is one.
-    approaches.iter().all(Approach::is_on_line)
-        || approaches
+    ends.iter().all(End::is_on_line)
+        || ends
             .iter()
-            .any(|approach| approach.passes(toi, locus.second.is_some()))
+            .any(|end| end.passes(toi, locus.second.is_some()))
 }
 
-impl<L: Lane> Approach<L> {
-    fn new(motion: &Motion<L>, end: End) -> Self {
-        let (turn, between) = (motion.turn(end), motion.between(end));
+impl<L: Lane> End<L> {
+    /// A polynomial that is 0 where the end comes onto the other edge: a component of the turn that is
+    /// not identically 0, else `between`; `None` if that is identically 0 as well.
+    fn candidates(&self) -> Option<Curve<L>> {
         let moves = |q: &&Quadratic<L>| !q.iter().all(Number::is_zero);
-        let leading = turn.iter().find(moves).or(Some(&between)).filter(moves);
-        let roots = leading.map(|q| Roots::new(Poly::new(q)));
-        Approach {
-            turn,
-            between,
-            roots,
-        }
+        let mut all = self.turn.iter().chain([&self.between]);
+        all.find(moves).map(|q| Curve::Quadratic(q.clone()))
     }
 
     /// Whether the end is on the line of the other edge for the whole step, or that is a point.
@@ -85,16 +82,15 @@ impl<L: Lane> Approach<L> {
         self.turn.iter().flatten().all(Number::is_zero)
     }
 
-    /// The first time at which the end is on the other edge, if it is not at the start.
-    fn first_contact(&self) -> Option<Time<'_>> {
-        let roots = self.roots.as_ref()?;
-        let times = roots.cells().iter().map(|cell| Time::of_root(roots, cell));
+    /// The first of these times at which it does.
+    fn first_contact<'a>(&self, candidates: &'a Roots<L>) -> Option<Time<'a, L>> {
+        let times = candidates.iter().map(|(time, _, _)| time);
         let mut times = times.filter(|time| self.meets_line(time));
         times.find(|time| time.sign_of(&self.between).is_le())
     }
 
     /// Whether the turn is 0 at a time.
-    fn meets_line(&self, time: &Time) -> bool {
+    fn meets_line(&self, time: &Time<L>) -> bool {
         self.turn
             .iter()
             .all(|component| time.sign_of(component).is_eq())
@@ -104,14 +100,15 @@ impl<L: Lane> Approach<L> {
     /// anywhere: inside that edge, or onto an overlap.
     ///
     /// The turn has degree 2: where it is 0 and its derivative is not, it reverses its direction.
-    fn passes(&self, time: &Time, overlap: bool) -> bool {
-        if self.is_on_line() || !self.meets_line(time) {
+    fn passes(&self, time: &Time<L>, overlap: bool) -> bool {
+        let is_inside = overlap || time.sign_of(&self.between).is_lt();
+        if !is_inside || self.is_on_line() || !self.meets_line(time) {
             return false;
         }
         let slope_is_zero = |[_, c1, c2]: &Quadratic<L>| {
             let zero = c1.sub(c1);
             time.sign_of(&[c1.clone(), c2.add(c2), zero]).is_eq()
         };
-        !self.turn.iter().all(slope_is_zero) && (overlap || time.sign_of(&self.between).is_lt())
+        !self.turn.iter().all(slope_is_zero)
     }
 }

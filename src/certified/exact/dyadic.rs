@@ -20,6 +20,16 @@ impl Dyadic {
         }
     }
 
+    /// 0.
+    pub(super) fn zero() -> Self {
+        Dyadic::new(Integer::default(), 0)
+    }
+
+    /// 1.
+    pub(super) fn one() -> Self {
+        Dyadic::new(Integer::from(1), 0)
+    }
+
     /// The value of an `f64` in `[0, 1]`.
     pub(super) fn from_f64(value: f64) -> Self {
         let (mantissa, exponent) = decompose(value);
@@ -76,20 +86,24 @@ impl Dyadic {
     }
 }
 
-/// A finite `f64` as `mantissa 2^exponent`, the mantissa odd or 0.
-pub(super) fn decompose(value: f64) -> (i64, i32) {
+/// A finite `f64` as `mantissa 2^exponent`, the mantissa below `2^53`.
+#[inline]
+pub(super) fn parts(value: f64) -> (i64, i32) {
     let bits = value.to_bits();
     let biased = (bits >> 52 & 0x7ff) as i32;
     let fraction = (bits & ((1 << 52) - 1)) as i64;
-    let (magnitude, exponent) = match biased {
-        0 => (fraction, -1074),
-        _ => (fraction | 1 << 52, biased - 1075),
-    };
-    if magnitude == 0 {
+    let implicit = i64::from(biased != 0) << 52;
+    let magnitude = fraction | implicit;
+    let mantissa = if value < 0.0 { -magnitude } else { magnitude };
+    (mantissa, biased.max(1) - 1075)
+}
+
+/// A finite `f64` as `mantissa 2^exponent`, the mantissa odd; or 0 and 0.
+pub(super) fn decompose(value: f64) -> (i64, i32) {
+    let (mantissa, exponent) = parts(value);
+    if mantissa == 0 {
         return (0, 0);
     }
-    let zeros = magnitude.trailing_zeros();
-    let magnitude = magnitude >> zeros;
-    let mantissa = if value < 0.0 { -magnitude } else { magnitude };
-    (mantissa, exponent + zeros as i32)
+    let zeros = mantissa.trailing_zeros();
+    (mantissa >> zeros, exponent + zeros as i32)
 }

@@ -18,11 +18,13 @@ use smallvec::SmallVec;
 
 use super::dyadic::Dyadic;
 use super::integer::Integer;
+use super::part::Interval;
 use super::poly::Poly;
+use super::tick::Tick;
 
 /// The distinct roots in `[0, 1]` of a polynomial, in ascending order.
 #[derive(Debug)]
-pub(super) struct Roots {
+pub(super) struct Isolated {
     /// The polynomial, and where it has a multiple root the linear factors of both of its roots.
     polys: SmallVec<[Poly; 3]>,
     cells: SmallVec<[Cell; 3]>,
@@ -61,28 +63,24 @@ enum Factors {
     Double(Poly, Option<Poly>, bool),
 }
 
-impl Roots {
+impl Isolated {
     /// The roots of a polynomial that is not identically 0.
     pub(super) fn new(poly: Poly) -> Self {
         let bernstein = bernstein(&poly);
-        let mut roots = Roots {
+        let mut roots = Isolated {
             polys: SmallVec::new(),
             cells: SmallVec::new(),
         };
         // Just after 0; it is not 0 unless all coefficients are.
         let mut sign = first_sign(bernstein.iter());
         if bernstein[0].is_zero() {
-            let place = Place::At(Dyadic::new(Integer::default(), 0));
+            let place = Place::At(Dyadic::zero());
             roots.push(place, Ordering::Equal, sign);
         }
         roots.polys.push(poly);
         roots.add_inside(&bernstein, &mut sign);
         if bernstein[roots.polys[0].degree()].is_zero() {
-            roots.push(
-                Place::At(Dyadic::new(Integer::from(1), 0)),
-                sign,
-                Ordering::Equal,
-            );
+            roots.push(Place::At(Dyadic::one()), sign, Ordering::Equal);
         }
         roots
     }
@@ -90,6 +88,16 @@ impl Roots {
     /// The roots.
     pub(super) fn cells(&self) -> &[Cell] {
         &self.cells
+    }
+
+    /// The interval of a simple root of the polynomial itself, if it is on the grid.
+    pub(super) fn interval(&self, cell: &Cell) -> Option<Interval> {
+        match &cell.place {
+            Place::Between {
+                poly: 0, low, high, ..
+            } => Some((Tick::from_dyadic(low)?, Tick::from_dyadic(high)?)),
+            _ => None,
+        }
     }
 
     /// The polynomial that a [`Place`] names.
@@ -229,10 +237,7 @@ enum Found {
 
 /// The interval from 0 to 1.
 fn unit() -> (Dyadic, Dyadic) {
-    (
-        Dyadic::new(Integer::default(), 0),
-        Dyadic::new(Integer::from(1), 0),
-    )
+    (Dyadic::zero(), Dyadic::one())
 }
 
 /// Positive multiples of the Bernstein coefficients on `[0, 1]`, one more than the degree.

@@ -1,15 +1,20 @@
-//! Integers of fixed widths for the coefficients of a motion.
+//! Integers of fixed widths for the coefficients of a motion and for its values at a time.
 //!
 //! With coordinate differences and their changes over the step below `2^b`, the bits of everything
 //! that is computed are known beforehand, so that nothing can overflow:
 //!
 //! - *linear*: the differences themselves, `b` bits.
-//! - *quadratic*: sums of at most 36 products of two of them (the largest is [`super::motion`]'s
-//!   `between` of an end, whose middle coefficient has 6 times 6 terms), below `2^(2b + 6)`.
-//! - *cubic*: a coefficient of `f = M . N` is a sum of at most 18 products of three, below
-//!   `2^(3b + 5)`, and its Bernstein coefficients times 3 are below 6 times that, `2^(3b + 8)`.
+//! - *quadratic*: `c0 + c1 t + c2 t^2` whose coefficients are sums of at most 18, 36 and 18 products
+//!   of two of them (the largest is [`super::motion`]'s `between` of an end). Any sum of these for `t`
+//!   in `[0, 1]` and the Bernstein coefficients times 2 are at most `72 2^(2b)`, below `2^(2b + 7)`.
+//! - *cubic*: the coefficients of `f = M . N` are sums of at most 6, 18, 18 and 6 products of three,
+//!   together at most `48 2^(3b)`; its Bernstein coefficients times 3 are at most three times that,
+//!   below `2^(3b + 8)`.
 //!
-//! With a bit for the sign: `b + 1`, `2b + 7` and `3b + 9` bits.
+//! With a bit for the sign: `b + 1`, `2b + 8` and `3b + 9` bits. Values at a multiple of `2^-128` are
+//! `2^256` and `2^384` times as large. The discriminant of a quadratic is at most
+//! `(36^2 + 4 18^2) 2^(4b)`, with its sign `4b + 13` bits; that fits into the `2b + 8 + 256` bits of a
+//! value as `b` is at most 124.
 
 use std::cmp::Ordering;
 
@@ -23,7 +28,7 @@ pub(super) trait Number: Clone {
     fn sub(&self, other: &Self) -> Self;
     /// Compared with 0.
     fn sign(&self) -> Ordering;
-    /// An approximation with a relative error below 2^-51; infinite where it is too large.
+    /// An approximation with a relative error below `2^-53 + 2^-63`; infinite where it is too large.
     fn to_f64(&self) -> f64;
     /// The same number.
     fn to_integer(&self) -> Integer;
@@ -42,24 +47,43 @@ pub(super) trait Lane {
     type Quadratic: Number;
     /// Coefficients of degree 3.
     type Cubic: Number;
+    /// Values of polynomials of degree 2.
+    type QuadraticValue: Number;
+    /// Values of polynomials of degree 3.
+    type CubicValue: Number;
 
     /// `a b`.
     fn times(a: &Self::Linear, b: &Self::Linear) -> Self::Quadratic;
     /// `a b`.
     fn times_quadratic(a: &Self::Quadratic, b: &Self::Linear) -> Self::Cubic;
+    /// `a b`, for coefficients of degree 2.
+    fn times_quadratics(a: &Self::Quadratic, b: &Self::Quadratic) -> Self::QuadraticValue;
+    /// `2^256` times the value of `c[0] + c[1] t + c[2] t^2` at `t = tick / 2^128`.
+    fn quadratic_at(c: &[Self::Quadratic; 3], tick: u128) -> Self::QuadraticValue;
+    /// `2^384` times the value of `c[0] + c[1] t + c[2] t^2 + c[3] t^3` at `t = tick / 2^128`.
+    fn cubic_at(c: &[Self::Cubic; 4], tick: u128) -> Self::CubicValue;
 }
 
-/// Widths of `L`, `Q` and `C` limbs.
-pub(super) struct Fixed<const L: usize, const Q: usize, const C: usize>;
+/// Widths of `L`, `Q` and `C` limbs for the coefficients, `Q + 4` and `C + 6` for the values.
+pub(super) struct Fixed<
+    const L: usize,
+    const Q: usize,
+    const C: usize,
+    const QV: usize,
+    const CV: usize,
+>;
 
 /// Any width, on the heap where it must be.
 pub(super) struct Unlimited;
 
-impl<const L: usize, const Q: usize, const C: usize> Fixed<L, Q, C> {
+impl<const L: usize, const Q: usize, const C: usize, const QV: usize, const CV: usize>
+    Fixed<L, Q, C, QV, CV>
+{
     /// The largest `b` that the widths are enough for.
     pub(super) const BITS: u32 = {
+        assert!(QV == Q + 4 && CV == C + 6);
         let linear = 64 * L as u32 - 1;
-        let quadratic = (64 * Q as u32 - 7) / 2;
+        let quadratic = (64 * Q as u32 - 8) / 2;
         let cubic = (64 * C as u32 - 9) / 3;
         let least = if linear < quadratic {
             linear
@@ -70,17 +94,35 @@ impl<const L: usize, const Q: usize, const C: usize> Fixed<L, Q, C> {
     };
 }
 
-impl<const L: usize, const Q: usize, const C: usize> Lane for Fixed<L, Q, C> {
+impl<const L: usize, const Q: usize, const C: usize, const QV: usize, const CV: usize> Lane
+    for Fixed<L, Q, C, QV, CV>
+{
     type Linear = Wide<L>;
     type Quadratic = Wide<Q>;
     type Cubic = Wide<C>;
+    type QuadraticValue = Wide<QV>;
+    type CubicValue = Wide<CV>;
 
+    #[inline]
     fn times(a: &Wide<L>, b: &Wide<L>) -> Wide<Q> {
         product(a, b)
     }
 
+    #[inline]
     fn times_quadratic(a: &Wide<Q>, b: &Wide<L>) -> Wide<C> {
         product(a, b)
+    }
+
+    fn times_quadratics(a: &Wide<Q>, b: &Wide<Q>) -> Wide<QV> {
+        product(a, b)
+    }
+
+    fn quadratic_at(c: &[Wide<Q>; 3], tick: u128) -> Wide<QV> {
+        horner(c, tick)
+    }
+
+    fn cubic_at(c: &[Wide<C>; 4], tick: u128) -> Wide<CV> {
+        horner(c, tick)
     }
 }
 
@@ -88,6 +130,8 @@ impl Lane for Unlimited {
     type Linear = Integer;
     type Quadratic = Integer;
     type Cubic = Integer;
+    type QuadraticValue = Integer;
+    type CubicValue = Integer;
 
     fn times(a: &Integer, b: &Integer) -> Integer {
         Integer::product(a, b)
@@ -95,6 +139,18 @@ impl Lane for Unlimited {
 
     fn times_quadratic(a: &Integer, b: &Integer) -> Integer {
         Integer::product(a, b)
+    }
+
+    fn times_quadratics(a: &Integer, b: &Integer) -> Integer {
+        Integer::product(a, b)
+    }
+
+    fn quadratic_at(c: &[Integer; 3], tick: u128) -> Integer {
+        horner_unlimited(c, tick)
+    }
+
+    fn cubic_at(c: &[Integer; 4], tick: u128) -> Integer {
+        horner_unlimited(c, tick)
     }
 }
 
@@ -182,19 +238,13 @@ impl<const N: usize> Number for Wide<N> {
     }
 
     fn to_f64(&self) -> f64 {
-        // The highest limb that is not 0 and the one below it hold at least 64 bits of the number;
-        // each is rounded and so is their sum: 2^-53 three times, and 2^-64 for what is left out.
+        // The highest limb that is not 0 and the one below it hold at least 65 bits of the number.
         let limbs = self.magnitude();
-        let mut value = 0.0;
         let mut unit = 1.0;
-        for i in 0..N {
+        let mut value = limbs[0] as f64;
+        for i in 1..N {
             if limbs[i] != 0 {
-                let below = if i > 0 {
-                    limbs[i - 1] as f64 / TWO_64
-                } else {
-                    0.0
-                };
-                value = (limbs[i] as f64 + below) * unit;
+                value = (u128::from(limbs[i]) << 64 | u128::from(limbs[i - 1])) as f64 * unit;
             }
             unit *= TWO_64;
         }
@@ -206,10 +256,9 @@ impl<const N: usize> Number for Wide<N> {
     }
 }
 
-/// `a b`, which fits into `C <= A + B` limbs.
+/// `a b`, which fits into `C` limbs.
 #[inline]
 fn product<const A: usize, const B: usize, const C: usize>(a: &Wide<A>, b: &Wide<B>) -> Wide<C> {
-    const { assert!(C <= A + B) };
     let mut limbs = [0; C];
     for i in 0..A {
         let mut carry = 0;
@@ -230,14 +279,62 @@ fn product<const A: usize, const B: usize, const C: usize>(a: &Wide<A>, b: &Wide
     if b.is_negative() {
         subtract_high(&mut limbs, B, &a.0);
     }
+    // Limbs that neither factor reaches hold the sign alone.
+    if C > A + B && limbs[A + B - 1] >> 63 == 1 {
+        limbs[A + B..].fill(u64::MAX);
+    }
     Wide(limbs)
+}
+
+/// Horner's rule for a polynomial of degree `D - 1` at `tick / 2^128`: the value times
+/// `2^(128 (D - 1))`, with the product modulo `2^(64 V)`, which is exact because it is known to fit.
+#[inline]
+fn horner<const N: usize, const V: usize, const D: usize>(
+    coefficients: &[Wide<N>; D],
+    tick: u128,
+) -> Wide<V> {
+    const { assert!(N + 2 * (D - 1) <= V) };
+    let (low, high) = (tick as u64, (tick >> 64) as u64);
+    let mut value = shifted_limbs(&coefficients[D - 1], 0);
+    for step in 1..D {
+        // value * tick + coefficient 2^(128 step)
+        let mut next: [u64; V] = shifted_limbs(&coefficients[D - 1 - step], 2 * step);
+        let (mut carry_low, mut carry_high) = (0, 0);
+        for i in 0..V {
+            (next[i], carry_low) = multiply_add(value[i], low, next[i], carry_low);
+            if i > 0 {
+                (next[i], carry_high) = multiply_add(value[i - 1], high, next[i], carry_high);
+            }
+        }
+        value = next;
+    }
+    Wide(value)
+}
+
+/// The limbs of `number 2^(64 by)`, with its sign extended.
+#[inline]
+fn shifted_limbs<const N: usize, const V: usize>(number: &Wide<N>, by: usize) -> [u64; V] {
+    let mut limbs = [if number.is_negative() { u64::MAX } else { 0 }; V];
+    limbs[..by].fill(0);
+    limbs[by..by + N].copy_from_slice(&number.0);
+    limbs
+}
+
+fn horner_unlimited(coefficients: &[Integer], tick: u128) -> Integer {
+    let tick = Integer::from_magnitude(false, &[tick as u64, (tick >> 64) as u64]);
+    let mut value = Integer::default();
+    for (coefficient, step) in coefficients.iter().rev().zip(0..) {
+        value.mul_assign(&tick);
+        value.add_shifted(coefficient, 128 * step);
+    }
+    value
 }
 
 /// `limbs -= other 2^(64 from)`, wrapping around.
 #[inline]
 fn subtract_high(limbs: &mut [u64], from: usize, other: &[u64]) {
     let mut borrow = false;
-    for (limb, &own) in limbs[from..].iter_mut().zip(other) {
+    for (limb, &own) in limbs.iter_mut().skip(from).zip(other) {
         let (difference, first) = limb.overflowing_sub(own);
         let (difference, second) = difference.overflowing_sub(u64::from(borrow));
         (*limb, borrow) = (difference, first | second);

@@ -5,8 +5,8 @@ use std::cmp::Ordering;
 use crate::contact::Flags;
 
 use super::lane::{Lane, Number};
-use super::motion::{End, Motion, Quadratic, add, negate, subtract};
-use super::time::Time;
+use super::motion::{Motion, Quadratic, add, negate, subtract};
+use super::time::{Time, sign};
 
 /// The points that two touching edges share at one time.
 pub(super) struct Locus<L: Lane> {
@@ -34,9 +34,13 @@ pub(super) enum Parameter<L: Lane> {
     Quotient(Quadratic<L>, Quadratic<L>),
 }
 
+/// The indices of the ends A and C.
+const A: usize = 0;
+const C: usize = 2;
+
 impl<L: Lane> Parameter<L> {
     /// `n / d`, if it is in `[0, 1]`, for a denominator of the given sign, which is not 0.
-    fn new(time: &Time, n: Quadratic<L>, d: Quadratic<L>, sign_of_d: Ordering) -> Option<Self> {
+    fn new(time: &Time<L>, n: Quadratic<L>, d: Quadratic<L>, sign_of_d: Ordering) -> Option<Self> {
         let from_start = time.sign_of(&n);
         if from_start.is_eq() {
             return Some(Parameter::Start);
@@ -52,7 +56,7 @@ impl<L: Lane> Parameter<L> {
     }
 
     /// Its value, with an error of at most [`PARAMETER_ERROR`](super::PARAMETER_ERROR).
-    pub(super) fn value(&self, time: &Time) -> f64 {
+    pub(super) fn value(&self, time: &Time<L>) -> f64 {
         match self {
             Parameter::Start => 0.0,
             Parameter::End => 1.0,
@@ -67,34 +71,37 @@ impl<L: Lane> Parameter<L> {
 
 impl<L: Lane> Motion<L> {
     /// Where the edges touch at a time at which `f` is 0; `None` if they do not.
-    pub(super) fn locus(&self, time: &Time) -> Option<Locus<L>> {
+    pub(super) fn locus(&self, time: &Time<L>) -> Option<Locus<L>> {
         match self.transversal_axis(time) {
             Some((axis, sign)) => self.locus_transversal(time, axis, sign),
             None => self.locus_parallel(time),
         }
     }
 
-    /// A component of `N` that is not 0 at the time, and its sign. Those come first for which
-    /// floating point shows it.
-    fn transversal_axis(&self, time: &Time) -> Option<(usize, Ordering)> {
-        let quick = self
-            .n
-            .each_ref()
-            .map(|component| time.quick_sign_of(component));
-        let shown = (0..3).find_map(|h| Some((h, quick[h]?)).filter(|(_, sign)| sign.is_ne()));
-        let open = |h: &usize| quick[*h].is_none();
-        let exact = |h: usize| (h, time.sign_of(&self.n[h]));
-        shown.or_else(|| {
-            (0..3)
-                .filter(open)
-                .map(exact)
-                .find(|(_, sign)| sign.is_ne())
+    /// A component of `N` that is not 0 at the time, and its sign: the largest of those for which
+    /// floating point shows it, else any.
+    fn transversal_axis(&self, time: &Time<L>) -> Option<(usize, Ordering)> {
+        let mut largest = (0, 0.0);
+        let mut open = [true; 3];
+        for h in 0..3 {
+            if let Some(value) = time.quick_value_of(&self.n[h]) {
+                open[h] = false;
+                if value.abs() > f64::abs(largest.1) {
+                    largest = (h, value);
+                }
+            }
+        }
+        let shown = sign(largest.1).filter(|sign| sign.is_ne());
+        shown.map(|sign| (largest.0, sign)).or_else(|| {
+            let open = (0..3).filter(|&h| open[h]);
+            let exact = open.map(|h| (h, time.sign_of(&self.n[h])));
+            exact.into_iter().find(|(_, sign)| sign.is_ne())
         })
     }
 
     /// The lines meet in one point. From `A + u K = C + v L`: `M x L = u N` and `M x K = v N`, which
     /// one component of `N` that is not 0 solves.
-    fn locus_transversal(&self, time: &Time, axis: usize, sign: Ordering) -> Option<Locus<L>> {
+    fn locus_transversal(&self, time: &Time<L>, axis: usize, sign: Ordering) -> Option<Locus<L>> {
         let n = &self.n[axis];
         let u = Parameter::new(time, self.m.cross_component(&self.l, axis), n.clone(), sign)?;
         let v = Parameter::new(time, self.m.cross_component(&self.k, axis), n.clone(), sign)?;
@@ -107,14 +114,13 @@ impl<L: Lane> Motion<L> {
     }
 
     /// The edges are parallel, or one of them is a point, or both are.
-    fn locus_parallel(&self, time: &Time) -> Option<Locus<L>> {
+    fn locus_parallel(&self, time: &Time<L>) -> Option<Locus<L>> {
         let (kk, ll) = (self.k.dot(&self.k), self.l.dot(&self.l));
         let first_is_point = time.sign_of(&kk).is_eq();
         let second_is_point = time.sign_of(&ll).is_eq();
-        let vanishes = |end| {
-            self.turn(end)
-                .iter()
-                .all(|component| time.sign_of(component).is_eq())
+        let vanishes = |end: usize| {
+            let turn = &self.ends()[end].turn;
+            turn.iter().all(|component| time.sign_of(component).is_eq())
         };
         let flags = Flags {
             temporarily_parallel: !first_is_point && !second_is_point && !self.is_parallel(),
@@ -122,8 +128,8 @@ impl<L: Lane> Motion<L> {
                 || second_is_point && !self.l.is_zero(),
         };
         let (first, second) = match (first_is_point, second_is_point) {
-            (false, false) if vanishes(End::C) => self.overlap(time, &kk, &ll)?,
-            (true, false) if vanishes(End::A) => {
+            (false, false) if vanishes(C) => self.overlap(time, &kk, &ll)?,
+            (true, false) if vanishes(A) => {
                 // v = (A - C) . L / L . L
                 let n = negate::<L>(&self.m.dot(&self.l));
                 let v = Parameter::new(time, n, ll, Ordering::Greater)?;
@@ -135,7 +141,7 @@ impl<L: Lane> Motion<L> {
                     None,
                 )
             }
-            (false, true) if vanishes(End::C) => {
+            (false, true) if vanishes(C) => {
                 // u = (C - A) . K / K . K
                 let u = Parameter::new(time, self.m.dot(&self.k), kk, Ordering::Greater)?;
                 (
@@ -170,15 +176,15 @@ impl<L: Lane> Motion<L> {
 
     /// Both edges are on one line and neither is a point: the ends of what they share are ends of the
     /// edges that are on the other edge. Whether it is more than a point follows from the signs of
-    /// [`between`](Motion::between): an end is strictly inside the other edge, or A and B are both
+    /// [`between`](super::motion::End::between): an end is strictly inside the other edge, or A and B are both
     /// ends of the other edge.
     fn overlap(
         &self,
-        time: &Time,
+        time: &Time<L>,
         kk: &Quadratic<L>,
         ll: &Quadratic<L>,
     ) -> Option<(Place<L>, Option<Place<L>>)> {
-        let signs = [End::A, End::B, End::C, End::D].map(|end| time.sign_of(&self.between(end)));
+        let signs = self.ends().each_ref().map(|end| time.sign_of(&end.between));
         if signs.iter().all(|sign| sign.is_gt()) {
             return None;
         }

@@ -39,16 +39,22 @@ use crate::query::EdgeEdge;
 
 mod bracket;
 mod confined;
+mod curve;
 mod dyadic;
 mod general;
+mod guess;
 mod integer;
 mod isolate;
 mod lane;
 mod locus;
 mod motion;
+mod part;
+mod pin;
 mod poly;
+mod roots;
 mod scaled;
 mod sturm;
+mod tick;
 mod time;
 
 use self::motion::Motion;
@@ -104,10 +110,10 @@ pub(super) fn decide(positions: &Positions) -> Decision {
     }
 }
 
-type Small = Fixed<1, 2, 2>;
-type Medium = Fixed<1, 2, 3>;
-type Large = Fixed<2, 3, 5>;
-type Huge = Fixed<2, 4, 6>;
+type Small = Fixed<1, 2, 2, 6, 8>;
+type Medium = Fixed<1, 2, 3, 6, 9>;
+type Large = Fixed<2, 3, 5, 7, 11>;
+type Huge = Fixed<2, 4, 6, 8, 12>;
 
 fn decide_in<L: Lane>(component: impl Fn(usize) -> L::Linear) -> Decision {
     let motion = Motion::<L>::new(component);
@@ -143,7 +149,7 @@ impl<L: Lane> Motion<L> {
 
 impl Hit {
     fn exact<L: Lane>(
-        time: &Time,
+        time: &Time<L>,
         locus: &Locus<L>,
         kind: ContactKind,
         side: Ordering,

@@ -3,7 +3,7 @@
 //! `K = B - A`, `L = D - C`, `M = C - A`, all linear; `N = K x L`, quadratic; `f = M . N`, cubic. A
 //! polynomial is the array of its coefficients, the constant one first.
 
-use std::cmp::Ordering;
+use std::cell::OnceCell;
 
 use super::lane::{Lane, Number};
 
@@ -27,15 +27,17 @@ pub(super) struct Motion<L: Lane> {
     pub(super) n: [Quadratic<L>; 3],
     /// The edges can touch only where it is 0.
     pub(super) f: Cubic<L>,
+    ends: OnceCell<[End<L>; 4]>,
 }
 
-/// An end of an edge.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum End {
-    A,
-    B,
-    C,
-    D,
+/// An end `X` of an edge against the other edge `YZ`.
+pub(super) struct End<L: Lane> {
+    /// `(Y - X) x (Z - X)`, up to sign. It is 0 where `X` is on the line `YZ`, or where `Y` and `Z`
+    /// are the same.
+    pub(super) turn: [Quadratic<L>; 3],
+    /// `(Y - X) . (Z - X)`. Where the turn is 0 and `X` is on the line `YZ`, it is below 0 between
+    /// `Y` and `Z`, 0 at these, above 0 beyond them.
+    pub(super) between: Quadratic<L>,
 }
 
 impl<L: Lane> Vector<L> {
@@ -61,13 +63,13 @@ impl<L: Lane> Vector<L> {
     /// The cross product.
     #[inline]
     pub(super) fn cross(&self, other: &Self) -> [Quadratic<L>; 3] {
-        [0, 1, 2].map(|h| self.cross_component(other, h))
+        each(|h| self.cross_component(other, h))
     }
 
     /// The dot product.
     pub(super) fn dot(&self, other: &Self) -> Quadratic<L> {
         let sum = |a: &[L::Linear; 3], b: &[L::Linear; 3]| {
-            let [x, y, z] = [0, 1, 2].map(|h| L::times(&a[h], &b[h]));
+            let [x, y, z] = each(|h| L::times(&a[h], &b[h]));
             x.add(&y).add(&z)
         };
         [
@@ -83,13 +85,13 @@ impl<L: Lane> Motion<L> {
     /// `component(i)`.
     #[inline]
     pub(super) fn new(component: impl Fn(usize) -> L::Linear) -> Self {
-        let [k, l, m] = [0, 6, 12].map(|first| Vector {
-            start: [0, 1, 2].map(|h| component(first + h)),
-            change: [0, 1, 2].map(|h| component(first + 3 + h)),
+        let [k, l, m] = each(|i| Vector {
+            start: each(|h| component(6 * i + h)),
+            change: each(|h| component(6 * i + 3 + h)),
         });
         let n: [Quadratic<L>; 3] = k.cross(&l);
         let sum = |m: &[L::Linear; 3], i: usize| {
-            let [x, y, z] = [0, 1, 2].map(|h| L::times_quadratic(&n[h][i], &m[h]));
+            let [x, y, z] = each(|h| L::times_quadratic(&n[h][i], &m[h]));
             x.add(&y).add(&z)
         };
         let f = [
@@ -98,78 +100,70 @@ impl<L: Lane> Motion<L> {
             sum(&m.start, 2).add(&sum(&m.change, 1)),
             sum(&m.change, 2),
         ];
-        Motion { k, l, m, n, f }
-    }
-
-    /// For an end `X` and the other edge `YZ`: `(Y - X) x (Z - X)`, up to sign. It is 0 where `X` is
-    /// on the line `YZ`, or where `Y` and `Z` are the same.
-    pub(super) fn turn(&self, end: End) -> [Quadratic<L>; 3] {
-        match end {
-            End::A => self.m.cross(&self.l),
-            End::B => subtract_vector::<L>(&self.m.cross(&self.l), &self.n),
-            End::C => self.m.cross(&self.k),
-            End::D => subtract_vector::<L>(&self.m.cross(&self.k), &self.n),
+        Motion {
+            k,
+            l,
+            m,
+            n,
+            f,
+            ends: OnceCell::new(),
         }
     }
 
-    /// For an end `X` and the other edge `YZ`: `(Y - X) . (Z - X)`. Where the [`turn`](Self::turn)
-    /// is 0 and `X` is on the line `YZ`, it is below 0 between `Y` and `Z`, 0 at these, above 0
-    /// beyond them.
-    pub(super) fn between(&self, end: End) -> Quadratic<L> {
-        let (mm, ml, mk) = (
-            self.m.dot(&self.m),
-            self.m.dot(&self.l),
-            self.m.dot(&self.k),
-        );
-        match end {
-            End::A => add::<L>(&mm, &ml),
-            End::C => subtract::<L>(&mm, &mk),
-            // (M - K) . (M + L - K)
-            End::B => {
-                let (kl, kk) = (self.k.dot(&self.l), self.k.dot(&self.k));
-                let both = subtract::<L>(&add::<L>(&mm, &ml), &add::<L>(&mk, &mk));
-                subtract::<L>(&add::<L>(&both, &kk), &kl)
-            }
-            // (M + L) . (M + L - K)
-            End::D => {
-                let (kl, ll) = (self.k.dot(&self.l), self.l.dot(&self.l));
-                let both = subtract::<L>(&add::<L>(&mm, &add::<L>(&ml, &ml)), &mk);
-                subtract::<L>(&add::<L>(&both, &ll), &kl)
-            }
-        }
+    /// Every end against the other edge, in the order A, B, C, D; computed once.
+    pub(super) fn ends(&self) -> &[End<L>; 4] {
+        self.ends.get_or_init(|| self.compute_ends())
     }
 
-    /// The signs of the Bernstein coefficients of `f` on `[0, 1]`.
-    pub(super) fn bernstein_signs(&self) -> [Ordering; 4] {
-        // Times 3: 3 f0, 3 f0 + f1, 3 f0 + 2 f1 + f2, 3 (f0 + f1 + f2 + f3).
-        let [f0, f1, f2, f3] = &self.f;
-        let two = f0.add(f1);
-        let both = two.add(f0).add(f0);
-        let third = both.add(f1).add(f2);
+    fn compute_ends(&self) -> [End<L>; 4] {
+        let Motion { k, l, m, n, .. } = self;
+        let (ml_turn, mk_turn) = (m.cross(l), m.cross(k));
+        let (mm, ml, mk) = (m.dot(m), m.dot(l), m.dot(k));
+        let (kk, kl, ll) = (k.dot(k), k.dot(l), l.dot(l));
+        // (M - K) . (M + L - K) and (M + L) . (M + L - K)
+        let common = subtract::<L>(&add::<L>(&mm, &ml), &add::<L>(&mk, &kl));
         [
-            f0.sign(),
-            both.sign(),
-            third.sign(),
-            two.add(f2).add(f3).sign(),
+            End {
+                turn: ml_turn.clone(),
+                between: add::<L>(&mm, &ml),
+            },
+            End {
+                turn: subtract_vector::<L>(&ml_turn, n),
+                between: add::<L>(&subtract::<L>(&common, &mk), &kk),
+            },
+            End {
+                turn: mk_turn.clone(),
+                between: subtract::<L>(&mm, &mk),
+            },
+            End {
+                turn: subtract_vector::<L>(&mk_turn, n),
+                between: add::<L>(&add::<L>(&common, &ml), &ll),
+            },
         ]
     }
 }
 
 /// `a + b`.
 pub(super) fn add<L: Lane>(a: &Quadratic<L>, b: &Quadratic<L>) -> Quadratic<L> {
-    std::array::from_fn(|i| a[i].add(&b[i]))
+    each(|i| a[i].add(&b[i]))
 }
 
 /// `a - b`.
 pub(super) fn subtract<L: Lane>(a: &Quadratic<L>, b: &Quadratic<L>) -> Quadratic<L> {
-    std::array::from_fn(|i| a[i].sub(&b[i]))
+    each(|i| a[i].sub(&b[i]))
 }
 
 fn subtract_vector<L: Lane>(a: &[Quadratic<L>; 3], b: &[Quadratic<L>; 3]) -> [Quadratic<L>; 3] {
-    std::array::from_fn(|h| subtract::<L>(&a[h], &b[h]))
+    each(|h| subtract::<L>(&a[h], &b[h]))
 }
 
 /// `-a`.
 pub(super) fn negate<L: Lane>(a: &Quadratic<L>) -> Quadratic<L> {
-    a.each_ref().map(|c| c.sub(c).sub(c))
+    each(|i| a[i].sub(&a[i]).sub(&a[i]))
+}
+
+/// The three results; unlike `map` of an array it is always compiled into its caller.
+#[inline(always)]
+fn each<T>(of: impl Fn(usize) -> T) -> [T; 3] {
+    [of(0), of(1), of(2)]
 }

@@ -6,7 +6,7 @@
 
 use crate::certified::motion::Positions;
 
-use super::dyadic::decompose;
+use super::dyadic::{decompose, parts};
 use super::integer::Integer;
 
 /// How many numbers describe the motion: three vectors, each at the start and its change.
@@ -32,26 +32,44 @@ const NARROW: i32 = 125;
 impl Scaled {
     /// The motion of four points, exactly.
     pub(super) fn new(positions: &Positions) -> Self {
-        let mut parts = [(0, 0); 24];
+        let coordinates = coordinates(positions);
+        // 0 has the least exponent of all, which does not count.
         let (mut lowest, mut highest) = (i32::MAX, i32::MIN);
-        let values = positions.start.iter().chain(&positions.end).flatten();
-        for (part, &value) in parts.iter_mut().zip(values) {
-            *part = decompose(value);
-            let (mantissa, exponent) = *part;
-            if mantissa != 0 {
-                let length = 64 - mantissa.unsigned_abs().leading_zeros() as i32;
-                lowest = lowest.min(exponent);
-                highest = highest.max(exponent + length);
+        for &value in &coordinates {
+            let (_, exponent) = parts(value);
+            lowest = lowest.min(if value == 0.0 { i32::MAX } else { exponent });
+            highest = highest.max(exponent);
+        }
+        let lowest = lowest.min(highest);
+        if highest + 53 - lowest <= NARROW {
+            let mut integers = [0; 24];
+            for (integer, &value) in integers.iter_mut().zip(&coordinates) {
+                let (mantissa, exponent) = parts(value);
+                // 0 has an exponent of its own.
+                *integer = i128::from(mantissa) << (exponent - lowest).max(0);
             }
+            return Scaled::narrow(&integers);
         }
-        if highest.saturating_sub(lowest) > NARROW {
-            return Scaled::broad(&parts, lowest);
+        Scaled::reduced(&coordinates)
+    }
+
+    /// The same without the zeros at the ends of the mantissas.
+    fn reduced(coordinates: &[f64; 24]) -> Self {
+        let parts = coordinates.map(decompose);
+        let used = parts.iter().filter(|(mantissa, _)| *mantissa != 0);
+        let lengths = used.clone().map(|(mantissa, exponent)| {
+            exponent + 64 - mantissa.unsigned_abs().leading_zeros() as i32
+        });
+        let lowest = used.map(|(_, exponent)| *exponent).min().unwrap_or(0);
+        if lengths.max().unwrap_or(0) - lowest <= NARROW {
+            let integer = |(mantissa, exponent): (i64, i32)| match mantissa {
+                0 => 0,
+                _ => i128::from(mantissa) << (exponent - lowest),
+            };
+            Scaled::narrow(&parts.map(integer))
+        } else {
+            Scaled::broad(&parts, lowest)
         }
-        let integer = |(mantissa, exponent): (i64, i32)| match mantissa {
-            0 => 0,
-            _ => i128::from(mantissa) << (exponent - lowest),
-        };
-        Scaled::narrow(&parts.map(integer))
     }
 
     /// From coordinates below `2^125`: their differences are below `2^126` and the changes of those
@@ -83,21 +101,32 @@ impl Scaled {
     }
 }
 
+/// The coordinates of the points at `t = 0` and then at `t = 1`.
+fn coordinates(positions: &Positions) -> [f64; 24] {
+    let mut coordinates = [0.0; 24];
+    let points = positions.start.iter().chain(&positions.end);
+    for (own, point) in coordinates.chunks_exact_mut(3).zip(points) {
+        own.copy_from_slice(point);
+    }
+    coordinates
+}
+
 /// The components of `K`, `L` and `M` at the start and their changes, from the coordinates of the
 /// points at `t = 0` and `t = 1`.
-fn differences<Z>(coordinates: &[Z; 24], difference: impl Fn(&Z, &Z) -> Z) -> [Z; COUNT] {
+#[inline]
+fn differences<Z: Default>(coordinates: &[Z; 24], difference: impl Fn(&Z, &Z) -> Z) -> [Z; COUNT] {
     const ENDS: [(usize, usize); 3] = [(1, 0), (3, 2), (2, 0)];
-    std::array::from_fn(|i| {
-        let (to, from) = ENDS[i / 6];
-        let axis = i % 3;
-        let at = |time: usize| {
-            let point = |point: usize| &coordinates[12 * time + 3 * point + axis];
-            difference(point(to), point(from))
-        };
-        if i % 6 < 3 {
-            at(0)
-        } else {
-            difference(&at(1), &at(0))
+    let mut components: [Z; COUNT] = Default::default();
+    for (six, (to, from)) in components.chunks_exact_mut(6).zip(ENDS) {
+        for axis in 0..3 {
+            let at = |time: usize| {
+                let point = |point: usize| &coordinates[12 * time + 3 * point + axis];
+                difference(point(to), point(from))
+            };
+            let start = at(0);
+            six[3 + axis] = difference(&at(1), &start);
+            six[axis] = start;
         }
-    })
+    }
+    components
 }

@@ -1,68 +1,130 @@
-//! Times of the step: exact dyadic numbers, and simple roots of polynomials.
+//! Times of the step and the signs of polynomials at them.
+//!
+//! A sign is taken from the cheapest source that shows it: floating point, whole numbers of fixed
+//! width, integers of any size ([`super::sturm`]), of which the last one always does.
 
 use std::cmp::Ordering;
 
 use super::bracket::{Bracket, Settled};
 use super::dyadic::Dyadic;
-use super::integer::{Integer, ratio};
-use super::isolate::{Cell, Place, Roots};
-use super::lane::Number;
+use super::integer::{Integer, TWO_64, ratio};
+use super::isolate::{Isolated, Place};
+use super::lane::{Lane, Number};
+use super::motion::Quadratic;
+use super::pin::{Pin, pin, tighten};
 use super::poly::Poly;
+use super::roots::Source;
+use super::tick::Tick;
 
 /// An exact time, between its neighbours in `f64`.
-#[derive(Clone, Debug)]
-pub(super) struct Time<'a> {
+pub(super) struct Time<'a, L: Lane> {
     /// The largest `f64` that is not above the time.
     pub(super) below: f64,
     /// The smallest `f64` that is not below the time.
     pub(super) above: f64,
-    exact: Exact<'a>,
+    exact: Exact<'a, L>,
 }
 
-#[derive(Clone, Debug)]
-enum Exact<'a> {
-    At(Dyadic),
-    Root(Bracket<'a>),
+enum Exact<'a, L: Lane> {
+    Start,
+    End,
+    At(Tick),
+    /// The only root strictly between two times, neither of which is a root.
+    Root {
+        of: Source<'a, L>,
+        before: Ordering,
+        low: Tick,
+        high: Tick,
+    },
+    /// Off the grid.
+    Dyadic(Dyadic),
+    /// Not pinned down on the grid.
+    Bracket(Bracket<'a>),
 }
 
-impl<'a> Time<'a> {
+impl<'a, L: Lane> Time<'a, L> {
     /// The start of the step.
     pub(super) fn start() -> Self {
-        Time::at(Dyadic::new(Integer::default(), 0))
-    }
-
-    /// A time that is a dyadic number.
-    pub(super) fn at(at: Dyadic) -> Self {
         Time {
-            below: at.below(),
-            above: at.above(),
-            exact: Exact::At(at),
+            below: 0.0,
+            above: 0.0,
+            exact: Exact::Start,
         }
     }
 
-    /// The time of a root.
-    pub(super) fn of_root(roots: &'a Roots, cell: &Cell) -> Self {
-        match &cell.place {
+    /// The end of the step.
+    pub(super) fn end() -> Self {
+        Time {
+            below: 1.0,
+            above: 1.0,
+            exact: Exact::End,
+        }
+    }
+
+    /// The only root strictly between two times (`None` is the start or the end of the step), a
+    /// simple one with the sign `before` before it.
+    pub(super) fn of_root(
+        of: Source<'a, L>,
+        before: Ordering,
+        low: Option<Tick>,
+        high: Option<Tick>,
+    ) -> Self {
+        match pin(of.curve, before, low, high) {
+            Some(Pin::At(at)) => Time {
+                below: at.below(),
+                above: at.above(),
+                exact: Exact::At(at),
+            },
+            Some(Pin::Between(low, high)) => Time {
+                below: low.below(),
+                above: high.above(),
+                exact: Exact::Root {
+                    of,
+                    before,
+                    low,
+                    high,
+                },
+            },
+            None => {
+                let low = low.map_or(Dyadic::zero(), Tick::to_dyadic);
+                let high = high.map_or(Dyadic::one(), Tick::to_dyadic);
+                Time::settled(Bracket::new(of.poly(), low, high, before))
+            }
+        }
+    }
+
+    /// The time of an isolated root.
+    pub(super) fn of_isolated(isolated: &'a Isolated, index: usize) -> Self {
+        match &isolated.cells()[index].place {
             Place::At(at) => Time::at(at.clone()),
             Place::Between {
                 poly,
                 low,
                 high,
                 before,
-            } => Time::between(roots.poly(*poly), low.clone(), high.clone(), *before),
+            } => {
+                let poly = isolated.poly(*poly);
+                Time::settled(Bracket::new(poly, low.clone(), high.clone(), *before))
+            }
         }
     }
 
-    /// The only root of a polynomial strictly between two numbers, a simple one.
-    pub(super) fn between(poly: &'a Poly, low: Dyadic, high: Dyadic, before: Ordering) -> Self {
-        let mut bracket = Bracket::new(poly, low, high, before);
+    fn settled(mut bracket: Bracket<'a>) -> Self {
         match bracket.settle() {
             Settled::At(at) => Time::at(at),
             Settled::Between(below, above) => Time {
                 below,
                 above,
-                exact: Exact::Root(bracket),
+                exact: Exact::Bracket(bracket),
             },
+        }
+    }
+
+    fn at(at: Dyadic) -> Self {
+        Time {
+            below: at.below(),
+            above: at.above(),
+            exact: Exact::Dyadic(at),
         }
     }
 
@@ -71,75 +133,187 @@ impl<'a> Time<'a> {
         self.above > 0.0 && self.below < 1.0
     }
 
-    /// The sign of a polynomial of degree 2 at the time.
-    pub(super) fn sign_of<Z: Number>(&self, q: &[Z; 3]) -> Ordering {
-        if let Some(sign) = self.quick_sign_of(q) {
+    /// The sign of a polynomial at the time.
+    pub(super) fn sign_of(&self, q: &Quadratic<L>) -> Ordering {
+        if let Some(sign) = self.quick_value_of(q).and_then(sign) {
             return sign;
         }
-        let q = Poly::new(q);
         match &self.exact {
-            Exact::At(at) => q.sign_at(at),
-            Exact::Root(bracket) => bracket.sign_of(q),
+            Exact::At(at) => L::quadratic_at(q, at.0).sign(),
+            Exact::Root {
+                of,
+                before,
+                low,
+                high,
+            } => {
+                let (value, variation) = range::<L>(q, *low, *high);
+                if value > variation {
+                    Ordering::Greater
+                } else if value < -variation {
+                    Ordering::Less
+                } else if of.is_multiple(q) {
+                    Ordering::Equal
+                } else {
+                    of.bracket(*before, *low, *high).sturm_sign_of(Poly::new(q))
+                }
+            }
+            Exact::Bracket(bracket) => bracket.sign_of(Poly::new(q)),
+            Exact::Dyadic(at) => Poly::new(q).sign_at(at),
+            // These are quick.
+            Exact::Start | Exact::End => Ordering::Equal,
         }
     }
 
-    /// The sign of a polynomial of degree 2, where floating point shows it or the polynomial is 0.
+    /// About the value of a polynomial, with the right sign, where floating point shows that; 0 for the
+    /// polynomial that is identically 0.
     ///
-    /// With coefficients of a relative error of 2^-51, and `t` off by at most one unit in the last
-    /// place, which is `2^-52 t`: each term is off by 2^-51 of itself for its coefficient, 2 2^-52
+    /// With coefficients of a relative error of 2^-52, and `t` off by at most one unit in the last
+    /// place, which is `2^-52 t`: each term is off by 2^-52 of itself for its coefficient, 2 2^-52
     /// for `t`, and at most 4 2^-53 for the operations of Horner's rule: by less than 2^-49 of the
     /// sum of the terms' magnitudes. That sum is computed with a relative error of the same order.
     /// Coefficients are integers and so 0 or at least 1: with `t` above 2^-400 nothing underflows.
     /// Where something is infinite, the comparison fails.
-    pub(super) fn quick_sign_of<Z: Number>(&self, q: &[Z; 3]) -> Option<Ordering> {
-        let [c0, c1, c2] = q.each_ref().map(Number::to_f64);
+    pub(super) fn quick_value_of(&self, q: &Quadratic<L>) -> Option<f64> {
+        match self.exact {
+            Exact::Start => return Some(q[0].to_f64()),
+            Exact::End => return Some(q[0].add(&q[1]).add(&q[2]).to_f64()),
+            _ => {}
+        }
+        let (c0, c1, c2) = (q[0].to_f64(), q[1].to_f64(), q[2].to_f64());
         if c0 == 0.0 && c1 == 0.0 && c2 == 0.0 {
-            return Some(Ordering::Equal);
+            return Some(0.0);
         }
         let t = self.above;
-        if t == 0.0 {
-            return c0.partial_cmp(&0.0);
-        }
         let value = (c2 * t + c1) * t + c0;
         let size = (c2.abs() * t + c1.abs()) * t + c0.abs();
-        let is_shown = t > SMALLEST && value.abs() > size * TERM_ERROR;
-        if is_shown {
-            value.partial_cmp(&0.0)
-        } else {
-            None
-        }
+        (t > SMALLEST && value.abs() > size * TERM_ERROR).then_some(value)
     }
 
     /// `n / d` at the time, which is in `[0, 1]`, with an error of at most [`PARAMETER_ERROR`].
     ///
     /// [`PARAMETER_ERROR`]: super::PARAMETER_ERROR
-    pub(super) fn quotient<Z: Number>(&self, n: &[Z; 3], d: &[Z; 3]) -> f64 {
-        let (n, d) = (Poly::new(n), Poly::new(d));
-        match &self.exact {
-            Exact::At(at) => ratio(&n.evaluate_as(2, at), &d.evaluate_as(2, at)),
-            Exact::Root(bracket) => bracket.quotient(&n, &d),
-        }
+    pub(super) fn quotient(&self, n: &Quadratic<L>, d: &Quadratic<L>) -> f64 {
+        let quick = self.quick_quotient(n, d);
+        let quick = quick.or_else(|| self.tightened()?.quick_quotient(n, d));
+        quick.unwrap_or_else(|| {
+            let (n, d) = (Poly::new(n), Poly::new(d));
+            match self.view() {
+                View::At(at) => exact_ratio(n.evaluate_as(2, &at), d.evaluate_as(2, &at)),
+                View::Between(bracket) => bracket.quotient(&n, &d),
+            }
+        })
+    }
+
+    /// The time in narrower bounds, if a Newton step finds them.
+    fn tightened(&self) -> Option<Time<'a, L>> {
+        let Exact::Root {
+            of,
+            before,
+            low,
+            high,
+        } = self.exact
+        else {
+            return None;
+        };
+        let (low, high) = tighten(of.curve, before, low, high)?;
+        Some(Time {
+            exact: Exact::Root {
+                of,
+                before,
+                low,
+                high,
+            },
+            ..*self
+        })
+    }
+
+    /// The same, where numbers of fixed width show it.
+    ///
+    /// Numerator and denominator at a time that is near enough are known with a relative error of
+    /// 2^-53 each, as is their quotient, and each may vary up to the time by `2^-53 d`: not more than
+    /// 5 times 2^-53 together, as the quotient is at most 1.
+    fn quick_quotient(&self, n: &Quadratic<L>, d: &Quadratic<L>) -> Option<f64> {
+        let exactly = |value: f64| (value, 0.0);
+        let both = |of: &dyn Fn(&Quadratic<L>) -> (f64, f64)| (of(n), of(d));
+        let ((n, n_variation), (d, d_variation)) = match &self.exact {
+            Exact::Start => both(&|q| exactly(q[0].to_f64())),
+            Exact::End => both(&|q| exactly(q[0].add(&q[1]).add(&q[2]).to_f64())),
+            Exact::At(at) => both(&|q| exactly(L::quadratic_at(q, at.0).to_f64())),
+            Exact::Root { low, high, .. } => both(&|q| range::<L>(q, *low, *high)),
+            Exact::Dyadic(_) | Exact::Bracket(_) => return None,
+        };
+        let limit = d.abs() * (0.5 * f64::EPSILON);
+        let is_shown = d.is_finite() && n_variation <= limit && d_variation <= limit;
+        is_shown.then(|| (n / d).clamp(0.0, 1.0))
     }
 
     /// `self` compared with `other`.
-    pub(super) fn compare(&self, other: &Time) -> Ordering {
+    pub(super) fn compare(&self, other: &Self) -> Ordering {
         if self.above <= other.below && self.below < other.above {
             return Ordering::Less;
         }
         if other.above <= self.below && other.below < self.above {
             return Ordering::Greater;
         }
-        match (&self.exact, &other.exact) {
-            (Exact::At(a), Exact::At(b)) => a.compare(b),
-            (Exact::Root(a), Exact::At(b)) => a.compare_dyadic(b),
-            (Exact::At(a), Exact::Root(b)) => b.compare_dyadic(a).reverse(),
-            (Exact::Root(a), Exact::Root(b)) => a.compare(b),
+        match (self.view(), other.view()) {
+            (View::At(a), View::At(b)) => a.compare(&b),
+            (View::At(a), View::Between(b)) => b.compare_dyadic(&a).reverse(),
+            (View::Between(a), View::At(b)) => a.compare_dyadic(&b),
+            (View::Between(a), View::Between(b)) => a.compare(&b),
+        }
+    }
+
+    fn view(&self) -> View<'_> {
+        match &self.exact {
+            Exact::Start => View::At(Dyadic::zero()),
+            Exact::End => View::At(Dyadic::one()),
+            Exact::At(at) => View::At(at.to_dyadic()),
+            Exact::Dyadic(at) => View::At(at.clone()),
+            Exact::Root {
+                of,
+                before,
+                low,
+                high,
+            } => View::Between(of.bracket(*before, *low, *high)),
+            Exact::Bracket(bracket) => View::Between(bracket.clone()),
         }
     }
 }
 
-/// See [`Time::quick_sign_of`].
+/// A time in integers of any size.
+enum View<'a> {
+    At(Dyadic),
+    Between(Bracket<'a>),
+}
+
+/// See [`Time::quick_value_of`].
 const TERM_ERROR: f64 = 1.0 / (1u64 << 48) as f64;
 
 /// 2^-400.
 const SMALLEST: f64 = f64::from_bits((1023 - 400) << 52);
+
+/// 2^128, enlarged by more than the rounding of a few operations.
+const GRID: f64 = TWO_64 * TWO_64 * (1.0 + TERM_ERROR);
+
+/// Compared with 0.
+pub(super) fn sign(value: f64) -> Option<Ordering> {
+    value.partial_cmp(&0.0)
+}
+
+/// `2^256` times the value of a polynomial at `low`, with a relative error of 2^-53, and a bound of
+/// how much that changes up to `high`: on `[0, 1]` the derivative of `c0 + c1 t + c2 t^2` is at most
+/// `|c1| + 2 |c2|`.
+fn range<L: Lane>(q: &Quadratic<L>, low: Tick, high: Tick) -> (f64, f64) {
+    let slope = q[1].to_f64().abs() + 2.0 * q[2].to_f64().abs();
+    let value = L::quadratic_at(q, low.0).to_f64();
+    (value, slope * low.distance(high) * GRID)
+}
+
+/// `n / d` of two integers whose quotient is in `[0, 1]`.
+fn exact_ratio(mut n: Integer, mut d: Integer) -> f64 {
+    if d.sign().is_lt() {
+        n.negate();
+        d.negate();
+    }
+    ratio(&n, &d).min(1.0)
+}

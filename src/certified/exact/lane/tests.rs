@@ -24,34 +24,71 @@ fn same<const N: usize>(wide: &Wide<N>, integer: &Integer) -> Result<(), TestCas
     Ok(())
 }
 
-/// Sums and products of the largest numbers that a lane takes.
-fn check<const L: usize, const Q: usize, const C: usize>(
+fn tick() -> impl Strategy<Value = u128> {
+    prop_oneof![any::<u128>(), Just(u128::MAX), Just(1), Just(1 << 127)]
+}
+
+/// Sums, products and values of the largest numbers that a lane takes.
+fn check<const L: usize, const Q: usize, const C: usize, const QV: usize, const CV: usize>(
     [a, b, c]: [i128; 3],
+    tick: u128,
 ) -> Result<(), TestCaseError> {
     let [x, y, z] = [a, b, c].map(Wide::<L>::from);
     let [i, j, k] = [a, b, c].map(Integer::from);
     same(&x, &i)?;
-    let (xy, ij) = (Fixed::<L, Q, C>::times(&x, &y), Integer::product(&i, &j));
+    let (xy, ij) = (
+        Fixed::<L, Q, C, QV, CV>::times(&x, &y),
+        Integer::product(&i, &j),
+    );
     same(&xy, &ij)?;
     // As many terms as the docs of the module count.
-    let (mut quadratic, mut reversed) = (xy, Fixed::<L, Q, C>::times(&y, &z));
+    let (mut quadratic, mut reversed) = (xy, Fixed::<L, Q, C, QV, CV>::times(&y, &z));
     let (mut sum, mut difference) = (ij.clone(), Integer::product(&j, &k));
-    for _ in 1..36 {
+    for _ in 1..18 {
         (quadratic, sum) = (quadratic.add(&xy), Integer::sum(&sum, &ij));
         (reversed, difference) = (reversed.sub(&xy), Integer::difference(&difference, &ij));
     }
     same(&quadratic, &sum)?;
     same(&reversed, &difference)?;
+    let (twice, double) = (quadratic.add(&quadratic), Integer::sum(&sum, &sum));
+    let value = Fixed::<L, Q, C, QV, CV>::quadratic_at(&[quadratic, twice, quadratic], tick);
+    same(
+        &value,
+        &Unlimited::quadratic_at(&[sum.clone(), double, sum], tick),
+    )?;
+    let value = Fixed::<L, Q, C, QV, CV>::quadratic_at(&[reversed, quadratic, reversed], tick);
+    let exact = [difference.clone(), sum_of(&ij, 18), difference];
+    same(&value, &Unlimited::quadratic_at(&exact, tick))?;
     let (xyz, ijk) = (
-        Fixed::<L, Q, C>::times_quadratic(&xy, &z),
+        Fixed::<L, Q, C, QV, CV>::times_quadratic(&xy, &z),
         Integer::product(&ij, &k),
     );
     same(&xyz, &ijk)?;
     let (mut cubic, mut sum) = (xyz, ijk.clone());
-    for _ in 1..6 * 18 {
+    for _ in 1..18 {
         (cubic, sum) = (cubic.add(&xyz), Integer::sum(&sum, &ijk));
     }
+    same(&cubic, &sum)?;
+    let value = Fixed::<L, Q, C, QV, CV>::cubic_at(&[xyz, cubic, cubic, xyz], tick);
+    same(
+        &value,
+        &Unlimited::cubic_at(&[ijk.clone(), sum.clone(), sum.clone(), ijk], tick),
+    )?;
+    for _ in 1..8 {
+        (cubic, sum) = (
+            cubic.add(&sum_wide(&xyz, 18)),
+            Integer::sum(&sum, &sum_of(&xyz.to_integer(), 18)),
+        );
+    }
     same(&cubic, &sum)
+}
+
+fn sum_of(number: &Integer, count: i64) -> Integer {
+    number.times(count)
+}
+
+fn sum_wide<const N: usize>(number: &Wide<N>, count: usize) -> Wide<N> {
+    (1..count).fold(*number, |sum, _| sum.add(number))
 }
 
 proptest! {
@@ -59,40 +96,44 @@ proptest! {
 
     #[test]
     fn lane_of_1_2_2_limbs_takes_all_numbers_of_its_width(
-        abc in prop::array::uniform3(below(Fixed::<1, 2, 2>::BITS)),
+        abc in prop::array::uniform3(below(Fixed::<1, 2, 2, 6, 8>::BITS)),
+        tick in tick(),
     ) {
-        check::<1, 2, 2>(abc)?;
+        check::<1, 2, 2, 6, 8>(abc, tick)?;
     }
 
     #[test]
     fn lane_of_1_2_3_limbs_takes_all_numbers_of_its_width(
-        abc in prop::array::uniform3(below(Fixed::<1, 2, 3>::BITS)),
+        abc in prop::array::uniform3(below(Fixed::<1, 2, 3, 6, 9>::BITS)),
+        tick in tick(),
     ) {
-        check::<1, 2, 3>(abc)?;
+        check::<1, 2, 3, 6, 9>(abc, tick)?;
     }
 
     #[test]
     fn lane_of_2_3_5_limbs_takes_all_numbers_of_its_width(
-        abc in prop::array::uniform3(below(Fixed::<2, 3, 5>::BITS)),
+        abc in prop::array::uniform3(below(Fixed::<2, 3, 5, 7, 11>::BITS)),
+        tick in tick(),
     ) {
-        check::<2, 3, 5>(abc)?;
+        check::<2, 3, 5, 7, 11>(abc, tick)?;
     }
 
     #[test]
     fn lane_of_2_4_6_limbs_takes_all_numbers_of_its_width(
-        abc in prop::array::uniform3(below(Fixed::<2, 4, 6>::BITS)),
+        abc in prop::array::uniform3(below(Fixed::<2, 4, 6, 8, 12>::BITS)),
+        tick in tick(),
     ) {
-        check::<2, 4, 6>(abc)?;
+        check::<2, 4, 6, 8, 12>(abc, tick)?;
     }
 }
 
 #[test]
 fn lane_widths_are_those_of_their_limbs() {
     let bits = [
-        Fixed::<1, 2, 2>::BITS,
-        Fixed::<1, 2, 3>::BITS,
-        Fixed::<2, 3, 5>::BITS,
-        Fixed::<2, 4, 6>::BITS,
+        Fixed::<1, 2, 2, 6, 8>::BITS,
+        Fixed::<1, 2, 3, 6, 9>::BITS,
+        Fixed::<2, 3, 5, 7, 11>::BITS,
+        Fixed::<2, 4, 6, 8, 12>::BITS,
     ];
     assert_eq!(bits, [39, 60, 92, 124]);
 }

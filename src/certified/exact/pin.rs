@@ -1,0 +1,144 @@
+//! A simple root narrowed to the last bit with numbers of fixed width.
+//!
+//! Floating point proposes where the root is, a Newton step from the exact value there corrects the
+//! proposal far beyond the last bit, and exact signs on both sides of it are the proof. Where that
+//! does not succeed, or the root is below 2^-75, the caller goes on with [`super::bracket`].
+
+use std::cmp::Ordering;
+
+use super::curve::Curve;
+use super::guess::{between, guess_root, slope};
+use super::lane::Lane;
+use super::tick::Tick;
+
+/// A root on the grid, or between two numbers of it that are between neighbours in `f64`.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Pin {
+    At(Tick),
+    Between(Tick, Tick),
+}
+
+/// Numbers on both sides of the only root between them.
+struct Sides<'a, L: Lane> {
+    curve: &'a Curve<L>,
+    before: Ordering,
+    /// Just before and just after the root, as far as is proved.
+    low: Option<Tick>,
+    high: Option<Tick>,
+}
+
+/// Pins down the only root of a polynomial strictly between `low` and `high` (the start and the end
+/// of the step where there is none), a simple one. `before` is the sign between `low` and the root.
+pub(super) fn pin<L: Lane>(
+    curve: &Curve<L>,
+    before: Ordering,
+    low: Option<Tick>,
+    high: Option<Tick>,
+) -> Option<Pin> {
+    let coefficients = curve.approximate();
+    let from = low.map_or(0.0, Tick::to_f64);
+    let to = high.map_or(1.0, Tick::to_f64);
+    let guess = guess_root(&coefficients, from, to, before);
+    let at = Tick::from_f64(guess)?;
+    let mut sides = Sides {
+        curve,
+        before,
+        low,
+        high,
+    };
+    let (sign, value) = curve.sample(at);
+    if sides.is_strictly_between(at) && sides.move_to(at, sign).is_eq() {
+        return Some(Pin::At(at));
+    }
+    // The step is right to about half of the bits of an `f64`, or it is of no use.
+    let floor = ulp(at) >> 34;
+    sides.approach(at, -value / slope(&coefficients, guess), floor)?;
+    sides.part_from_f64()
+}
+
+/// Moves both sides of a root nearer to it; neither of them is a root.
+pub(super) fn tighten<L: Lane>(
+    curve: &Curve<L>,
+    before: Ordering,
+    low: Tick,
+    high: Tick,
+) -> Option<(Tick, Tick)> {
+    let mut sides = Sides {
+        curve,
+        before,
+        low: Some(low),
+        high: Some(high),
+    };
+    let (_, value) = curve.sample(low);
+    let slope = slope(&curve.approximate(), low.to_f64());
+    sides.approach(low, -value / slope, 0)?;
+    Some((sides.low?, sides.high?))
+}
+
+/// The unit in the last place of an `f64` near a time, times `2^128`.
+fn ulp(at: Tick) -> u128 {
+    1 << 75u32.saturating_sub(at.0.leading_zeros())
+}
+
+impl<L: Lane> Sides<'_, L> {
+    fn is_strictly_between(&self, at: Tick) -> bool {
+        self.low.is_none_or(|low| low < at) && self.high.is_none_or(|high| at < high)
+    }
+
+    /// The root compared with a number strictly between the sides, given the sign there; moves a side
+    /// unless it is the root.
+    fn move_to(&mut self, at: Tick, sign: Ordering) -> Ordering {
+        if sign.is_eq() {
+            Ordering::Equal
+        } else if sign == self.before {
+            self.low = Some(at);
+            Ordering::Greater
+        } else {
+            self.high = Some(at);
+            Ordering::Less
+        }
+    }
+
+    fn cut(&mut self, at: Tick) -> Ordering {
+        let (sign, _) = self.curve.sample(at);
+        self.move_to(at, sign)
+    }
+
+    /// Moves both sides near `at + step`: by a fraction of the step or `floor`, or more where that is
+    /// too near.
+    fn approach(&mut self, at: Tick, step: f64, floor: u128) -> Option<()> {
+        let offset = step * 2f64.powi(128);
+        let mut reach = (offset.abs() / 2f64.powi(24)) as u128 + floor + 1;
+        let centre = if offset < 0.0 {
+            at.0.checked_sub(offset.abs() as u128)
+        } else {
+            at.0.checked_add(offset as u128)
+        }?;
+        while reach < ulp(at) << 10 {
+            let low = Tick(centre.checked_sub(reach)?);
+            let high = Tick(centre.checked_add(reach)?);
+            let is_above_low = !self.is_strictly_between(low) || self.cut(low).is_gt();
+            let is_below_high = !self.is_strictly_between(high) || self.cut(high).is_lt();
+            if is_above_low && is_below_high {
+                return Some(());
+            }
+            reach <<= 12;
+        }
+        None
+    }
+
+    /// Moves the sides until they are between neighbours in `f64`.
+    fn part_from_f64(mut self) -> Option<Pin> {
+        loop {
+            let (low, high) = (self.low?, self.high?);
+            let (below, above) = (low.below(), high.above());
+            let Some(cut) = between(below, above) else {
+                return Some(Pin::Between(low, high));
+            };
+            let at = Tick::from_f64(cut)?;
+            if self.cut(at).is_eq() {
+                return Some(Pin::At(at));
+            }
+        }
+    }
+}

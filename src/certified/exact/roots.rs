@@ -1,0 +1,221 @@
+//! The times at which a polynomial of the motion is 0.
+//!
+//! One sign change of the Bernstein coefficients means one root, a simple one. More of them are
+//! parted in floating point ([`super::part`]), or by a value of the other sign between two; the rest
+//! is left to [`super::isolate`].
+
+use std::cell::OnceCell;
+use std::cmp::Ordering;
+
+use smallvec::SmallVec;
+
+use super::bracket::Bracket;
+use super::curve::Curve;
+use super::guess;
+use super::isolate::Isolated;
+use super::lane::{Lane, Number};
+use super::motion::Quadratic;
+use super::part::{Interval, part};
+use super::poly::Poly;
+use super::tick::Tick;
+use super::time::Time;
+
+/// The distinct roots in `[0, 1]` of a polynomial that is not identically 0, in ascending order.
+pub(super) struct Roots<L: Lane> {
+    curve: Option<Curve<L>>,
+    cells: SmallVec<[Cell; 4]>,
+    isolated: Option<Isolated>,
+    /// The polynomial in integers of any size, once it is needed.
+    poly: OnceCell<Poly>,
+}
+
+/// A root and the signs of the polynomial around it.
+struct Cell {
+    place: Place,
+    before: Ordering,
+    after: Ordering,
+}
+
+/// Where a root is.
+enum Place {
+    Start,
+    End,
+    /// The only root strictly between these times, a simple one; `None` is the start or the end of
+    /// the step.
+    Between(Option<Tick>, Option<Tick>),
+    /// The isolated root with this index.
+    Isolated(usize),
+}
+
+impl<L: Lane> Roots<L> {
+    /// A place for roots; to find them there is cheaper than to move them there.
+    #[inline]
+    pub(super) fn none() -> Self {
+        Roots {
+            curve: None,
+            cells: SmallVec::new(),
+            isolated: None,
+            poly: OnceCell::new(),
+        }
+    }
+
+    /// Puts the roots of a polynomial into an empty place.
+    pub(super) fn find(&mut self, curve: Curve<L>) {
+        let signs = curve.bernstein_signs();
+        let curve = self.curve.insert(curve);
+        let mut others = signs.iter().copied().filter(|sign| sign.is_ne());
+        // Just after the start.
+        let Some(first) = others.next() else {
+            return;
+        };
+        let (mut last, mut changes) = (first, 0);
+        for sign in others {
+            changes += u32::from(sign != last);
+            last = sign;
+        }
+        let Some(inside) = intervals(curve, first, changes) else {
+            return self.isolate();
+        };
+        if signs[0].is_eq() {
+            self.push(Place::Start, Ordering::Equal, first);
+        }
+        let mut sign = first;
+        for (low, high) in inside {
+            self.push(Place::Between(low, high), sign, sign.reverse());
+            sign = sign.reverse();
+        }
+        if signs.last().is_some_and(|sign| sign.is_eq()) {
+            self.push(Place::End, sign, Ordering::Equal);
+        }
+    }
+
+    /// Takes the roots from [`Isolated`], on the grid where that is possible.
+    fn isolate(&mut self) {
+        let Some(curve) = &self.curve else {
+            return;
+        };
+        let isolated = self.isolated.insert(Isolated::new(curve.to_poly()));
+        for (index, cell) in isolated.cells().iter().enumerate() {
+            let proved =
+                |at: &Option<Tick>, sign: Ordering| at.is_none_or(|at| curve.sample(at).0 == sign);
+            let place = match isolated.interval(cell) {
+                Some((low, high)) if proved(&low, cell.before) && proved(&high, cell.after) => {
+                    Place::Between(low, high)
+                }
+                _ => Place::Isolated(index),
+            };
+            self.cells.push(Cell {
+                place,
+                before: cell.before,
+                after: cell.after,
+            });
+        }
+    }
+
+    fn push(&mut self, place: Place, before: Ordering, after: Ordering) {
+        self.cells.push(Cell {
+            place,
+            before,
+            after,
+        });
+    }
+
+    /// The roots, each with the sign of the polynomial just before it (equal to 0 at the start of the
+    /// step) and just after it (equal to 0 at the end).
+    pub(super) fn iter(&self) -> impl Iterator<Item = (Time<'_, L>, Ordering, Ordering)> {
+        self.cells.iter().filter_map(|cell| {
+            let time = match cell.place {
+                Place::Start => Time::start(),
+                Place::End => Time::end(),
+                Place::Between(low, high) => {
+                    let of = Source {
+                        curve: self.curve.as_ref()?,
+                        poly: &self.poly,
+                    };
+                    Time::of_root(of, cell.before, low, high)
+                }
+                Place::Isolated(index) => Time::of_isolated(self.isolated.as_ref()?, index),
+            };
+            Some((time, cell.before, cell.after))
+        })
+    }
+}
+
+/// A polynomial of which a time is a root.
+pub(super) struct Source<'a, L: Lane> {
+    pub(super) curve: &'a Curve<L>,
+    /// The same in integers of any size, once it is needed.
+    poly: &'a OnceCell<Poly>,
+}
+
+impl<L: Lane> Clone for Source<'_, L> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<L: Lane> Copy for Source<'_, L> {}
+
+impl<'a, L: Lane> Source<'a, L> {
+    /// The polynomial in integers of any size.
+    pub(super) fn poly(self) -> &'a Poly {
+        self.poly.get_or_init(|| self.curve.to_poly())
+    }
+
+    /// The root between two times, neither of which is a root, in integers of any size.
+    pub(super) fn bracket(self, before: Ordering, low: Tick, high: Tick) -> Bracket<'a> {
+        Bracket::proved(self.poly(), low.to_dyadic(), high.to_dyadic(), before)
+    }
+
+    /// Whether `q` is a multiple of the polynomial, which has degree 2.
+    pub(super) fn is_multiple(self, q: &Quadratic<L>) -> bool {
+        match self.curve {
+            Curve::Quadratic(c) => are_multiples::<L>(c, q),
+            Curve::Cubic(_) => false,
+        }
+    }
+}
+
+/// Intervals around each of the roots strictly inside the step, given the sign just after the start
+/// and the number of sign changes of the Bernstein coefficients; `None` where it is not plain.
+fn intervals<L: Lane>(
+    curve: &Curve<L>,
+    first: Ordering,
+    changes: u32,
+) -> Option<SmallVec<[Interval; 3]>> {
+    match changes {
+        0 => return Some(SmallVec::new()),
+        1 => return Some(SmallVec::from_iter([(None, None)])),
+        _ => {}
+    }
+    if changes == 2 && curve.discriminant_sign() == Some(Ordering::Less) {
+        return Some(SmallVec::new());
+    }
+    part(&curve.approximate()).or_else(|| {
+        let cut = if changes == 2 {
+            cut_between(curve, first)
+        } else {
+            None
+        }?;
+        Some(SmallVec::from_iter([(None, Some(cut)), (Some(cut), None)]))
+    })
+}
+
+/// A time at which a polynomial has the other sign than `first`, if a guess finds one.
+fn cut_between<L: Lane>(curve: &Curve<L>, first: Ordering) -> Option<Tick> {
+    let turning = guess::turning_point(&curve.approximate(), first)?;
+    let at = Tick::from_f64(turning)?;
+    let (sign, _) = curve.sample(at);
+    (sign == first.reverse()).then_some(at)
+}
+
+/// Whether two polynomials that are not identically 0 are multiples of each other.
+fn are_multiples<L: Lane>(p: &Quadratic<L>, q: &Quadratic<L>) -> bool {
+    [(0, 1), (0, 2), (1, 2)].into_iter().all(|(i, j)| {
+        let (a, b) = (
+            L::times_quadratics(&p[i], &q[j]),
+            L::times_quadratics(&p[j], &q[i]),
+        );
+        a.sub(&b).is_zero()
+    })
+}
