@@ -109,6 +109,7 @@ impl Panel<'_> {
             cases.into_iter().for_each(|case| block.add(case));
             Ok(())
         })?;
+        block.tallies.iter_mut().for_each(measure_gap);
         Ok(block)
     }
 
@@ -162,7 +163,8 @@ pub struct Found {
 }
 
 impl Judged<'_> {
-    /// Asks the subject and compares its answer with the exact one.
+    /// Asks the subject and compares its answer with the exact one. The gap of a false hit is an
+    /// estimate; see [`exact_gap`].
     pub fn judge(&self, query: &Query, truth: &ExactAnswer) -> Found {
         self.compare(query, truth, answer(self.subject, query))
     }
@@ -172,7 +174,7 @@ impl Judged<'_> {
         let judgement = judge(truth, answer.as_ref(), || {
             declared > 0.0 && oracle_gap(query, |edges| oracle::comes_within(edges, declared))
         });
-        let gap = || oracle_gap(query, |edges| oracle::least_distance(edges).below);
+        let gap = || oracle_gap(query, oracle::estimate_distance);
         let explain = self.explain.filter(|_| judgement.differs);
         Found {
             answer,
@@ -234,6 +236,22 @@ impl Block {
             tally.merge(later);
         }
     }
+}
+
+/// Puts the exact gap of the worst false hit in the place of the estimate that it was chosen by.
+fn measure_gap(tally: &mut Tally) {
+    let worst = tally
+        .faults
+        .get_mut(&Fault::FalseHit)
+        .and_then(|finding| finding.worst.as_mut());
+    if let Some(witness) = worst {
+        witness.severity = exact_gap(&witness.query);
+    }
+}
+
+/// The least distance of a query during its step, rounded down to about three digits.
+pub fn exact_gap(query: &Query) -> f64 {
+    oracle_gap(query, |edges| oracle::least_distance(edges).below)
 }
 
 /// What `decide` says of an edge-edge query, the only kind that the oracle takes.

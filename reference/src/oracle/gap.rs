@@ -35,7 +35,7 @@ pub fn least_distance(query: &EdgeEdge) -> Enclosure {
     }
     // The bits of an f64 above 0 are in the order of the values.
     let (mut below, mut above) = (0, f64::MAX.to_bits());
-    let guess = guess_distance(query);
+    let guess = estimate_distance(query);
     let mut cuts = [guess * 0.9996, guess * 1.0004].into_iter();
     while above - below > 1 && f64::from_bits(below) * 1.001 < f64::from_bits(above) {
         let guessed = cuts
@@ -55,8 +55,9 @@ pub fn least_distance(query: &EdgeEdge) -> Enclosure {
     }
 }
 
-/// The least distance in floating point, by sampling and ternary search. Only a guess.
-fn guess_distance(query: &EdgeEdge) -> f64 {
+/// The least distance in metres in floating point, by sampling and ternary search. Heuristic: to choose
+/// what to measure exactly.
+pub fn estimate_distance(query: &EdgeEdge) -> f64 {
     let distance = |t: f64| {
         let at = |i: usize| query.start()[i].coords * (1.0 - t) + query.end()[i].coords * t;
         distance_of_segments(&[at(0), at(1), at(2), at(3)])

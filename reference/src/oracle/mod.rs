@@ -37,7 +37,7 @@ mod steps;
 mod tests;
 mod vector;
 
-pub use gap::{comes_within, least_distance};
+pub use gap::{comes_within, estimate_distance, least_distance};
 pub use steps::{Event, Step};
 
 use locus::Locus;

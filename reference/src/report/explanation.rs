@@ -10,7 +10,7 @@ use tunnelproof::query::{EdgeEdge, Query};
 
 use crate::algebraic::Algebraic;
 use crate::answer::{Enclosure, ExactAnswer, ExactHit, Parameters};
-use crate::certify::run::{Found, Judged};
+use crate::certify::run::{Found, Judged, exact_gap};
 use crate::certify::table;
 use crate::certify::tally::Fault;
 use crate::field::{self, Integer};
@@ -218,7 +218,7 @@ fn kind(hit: &ExactHit) -> String {
 fn verdicts(text: &mut String, subjects: &[Judged], query: &Query, truth: &ExactAnswer) {
     let rows = subjects.iter().map(|judged| {
         let found = judged.judge(query, truth);
-        (judged.subject.name(), claim(&found), worth(&found))
+        (judged.subject.name(), claim(&found), worth(query, &found))
     });
     let rows: Vec<_> = rows.collect();
     let width = rows.iter().map(|row| row.1.len()).max().unwrap_or(0);
@@ -258,7 +258,7 @@ fn claim(found: &Found) -> String {
 }
 
 /// The verdict, and what else is wrong.
-fn worth(found: &Found) -> String {
+fn worth(query: &Query, found: &Found) -> String {
     let is_verdict = |fault| {
         !matches!(
             fault,
@@ -267,7 +267,7 @@ fn worth(found: &Found) -> String {
     };
     let is_right = !found.faults.iter().any(|&(fault, _)| is_verdict(fault));
     let faults = found.faults.iter().map(|&(fault, severity)| match fault {
-        Fault::FalseHit => format!("false hit (gap {} m)", table::short(severity)),
+        Fault::FalseHit => format!("false hit (gap {} m)", table::short(exact_gap(query))),
         Fault::Late | Fault::Early => format!("{} by {}", fault.name(), table::short(severity)),
         _ => fault.name().to_owned(),
     });
