@@ -46,6 +46,17 @@ impl<L: Lane> Curve<L> {
         Some(L::times_quadratics(c1, c1).sub(&twice).sub(&twice).sign())
     }
 
+    /// The derivative of a polynomial of degree 2.
+    pub(super) fn derivative(&self) -> Option<Self> {
+        match self {
+            Curve::Quadratic([_, c1, c2]) => {
+                let zero = c1.sub(c1);
+                Some(Curve::Quadratic([c1.clone(), c2.add(c2), zero]))
+            }
+            Curve::Cubic(_) => None,
+        }
+    }
+
     /// The coefficients in floating point.
     pub(super) fn approximate(&self) -> [f64; 4] {
         match self {

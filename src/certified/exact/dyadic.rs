@@ -107,3 +107,6 @@ pub(super) fn decompose(value: f64) -> (i64, i32) {
     let zeros = mantissa.trailing_zeros();
     (mantissa >> zeros, exponent + zeros as i32)
 }
+
+#[cfg(test)]
+mod tests;

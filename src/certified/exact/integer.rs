@@ -133,11 +133,11 @@ impl Integer {
         self.limbs.resize(length, 0);
         if same_way {
             self.negative = negative;
-            let carry = for_shifted(&mut self.limbs, &other.limbs, whole, bits, u64::carrying);
+            let carry = for_shifted(&mut self.limbs, &other.limbs, whole, bits, add_limbs);
             if carry {
                 self.limbs.push(1);
             }
-        } else if for_shifted(&mut self.limbs, &other.limbs, whole, bits, u64::borrowing) {
+        } else if for_shifted(&mut self.limbs, &other.limbs, whole, bits, subtract_limbs) {
             // The difference wrapped around: it is minus its two's complement.
             negate_wrapping(&mut self.limbs);
             self.negative = negative;
@@ -293,24 +293,18 @@ fn power(exponent: i32) -> f64 {
     f64::from_bits(((1023 + i64::from(exponent)) as u64) << 52)
 }
 
-/// One step of an addition or subtraction of long numbers: limb, limb and carry to limb and carry.
-trait Step: Sized {
-    fn carrying(self, other: Self, carry: bool) -> (Self, bool);
-    fn borrowing(self, other: Self, borrow: bool) -> (Self, bool);
+/// A limb of a sum, and the carry.
+pub(super) fn add_limbs(a: u64, b: u64, carry: bool) -> (u64, bool) {
+    let (sum, first) = a.overflowing_add(b);
+    let (sum, second) = sum.overflowing_add(u64::from(carry));
+    (sum, first | second)
 }
 
-impl Step for u64 {
-    fn carrying(self, other: u64, carry: bool) -> (u64, bool) {
-        let (sum, first) = self.overflowing_add(other);
-        let (sum, second) = sum.overflowing_add(u64::from(carry));
-        (sum, first | second)
-    }
-
-    fn borrowing(self, other: u64, borrow: bool) -> (u64, bool) {
-        let (difference, first) = self.overflowing_sub(other);
-        let (difference, second) = difference.overflowing_sub(u64::from(borrow));
-        (difference, first | second)
-    }
+/// A limb of a difference, and the borrow.
+pub(super) fn subtract_limbs(a: u64, b: u64, borrow: bool) -> (u64, bool) {
+    let (difference, first) = a.overflowing_sub(b);
+    let (difference, second) = difference.overflowing_sub(u64::from(borrow));
+    (difference, first | second)
 }
 
 /// Applies a step to every limb of `to` with the limbs of `from 2^(64 whole + bits)`; what remains is

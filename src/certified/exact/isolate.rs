@@ -409,3 +409,6 @@ impl Hessian {
         Factors::Double(double, Some(other), other_is_below)
     }
 }
+
+#[cfg(test)]
+pub(super) mod tests;

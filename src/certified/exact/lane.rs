@@ -18,7 +18,7 @@
 
 use std::cmp::Ordering;
 
-use super::integer::{Integer, TWO_64, multiply_add};
+use super::integer::{Integer, TWO_64, add_limbs, multiply_add, subtract_limbs};
 
 /// Exact numbers of one width.
 pub(super) trait Number: Clone {
@@ -195,14 +195,11 @@ impl<const N: usize> From<i128> for Wide<N> {
 impl<const N: usize> Number for Wide<N> {
     #[inline]
     fn add(&self, other: &Self) -> Self {
-        let mut limbs = [0; N];
+        let mut sum = *self;
         let mut carry = false;
-        for i in 0..N {
-            let (sum, first) = self.0[i].overflowing_add(other.0[i]);
-            let (sum, second) = sum.overflowing_add(u64::from(carry));
-            (limbs[i], carry) = (sum, first | second);
+        for (limb, &own) in sum.0.iter_mut().zip(&other.0) {
+            (*limb, carry) = add_limbs(*limb, own, carry);
         }
-        let sum = Wide(limbs);
         debug_assert!(
             self.is_negative() != other.is_negative() || sum.is_negative() == self.is_negative()
         );
@@ -211,14 +208,8 @@ impl<const N: usize> Number for Wide<N> {
 
     #[inline]
     fn sub(&self, other: &Self) -> Self {
-        let mut limbs = [0; N];
-        let mut borrow = false;
-        for i in 0..N {
-            let (difference, first) = self.0[i].overflowing_sub(other.0[i]);
-            let (difference, second) = difference.overflowing_sub(u64::from(borrow));
-            (limbs[i], borrow) = (difference, first | second);
-        }
-        let difference = Wide(limbs);
+        let mut difference = *self;
+        subtract_high(&mut difference.0, 0, &other.0);
         debug_assert!(
             self.is_negative() == other.is_negative()
                 || difference.is_negative() == self.is_negative()
@@ -242,9 +233,9 @@ impl<const N: usize> Number for Wide<N> {
         let limbs = self.magnitude();
         let mut unit = 1.0;
         let mut value = limbs[0] as f64;
-        for i in 1..N {
-            if limbs[i] != 0 {
-                value = (u128::from(limbs[i]) << 64 | u128::from(limbs[i - 1])) as f64 * unit;
+        for pair in limbs.windows(2) {
+            if pair[1] != 0 {
+                value = (u128::from(pair[1]) << 64 | u128::from(pair[0])) as f64 * unit;
             }
             unit *= TWO_64;
         }
@@ -335,9 +326,7 @@ fn horner_unlimited(coefficients: &[Integer], tick: u128) -> Integer {
 fn subtract_high(limbs: &mut [u64], from: usize, other: &[u64]) {
     let mut borrow = false;
     for (limb, &own) in limbs.iter_mut().skip(from).zip(other) {
-        let (difference, first) = limb.overflowing_sub(own);
-        let (difference, second) = difference.overflowing_sub(u64::from(borrow));
-        (*limb, borrow) = (difference, first | second);
+        (*limb, borrow) = subtract_limbs(*limb, own, borrow);
     }
 }
 

@@ -81,19 +81,15 @@ impl<L: Lane> Motion<L> {
     /// A component of `N` that is not 0 at the time, and its sign: the largest of those for which
     /// floating point shows it, else any.
     fn transversal_axis(&self, time: &Time<L>) -> Option<(usize, Ordering)> {
-        let mut largest = (0, 0.0);
-        let mut open = [true; 3];
-        for h in 0..3 {
-            if let Some(value) = time.quick_value_of(&self.n[h]) {
-                open[h] = false;
-                if value.abs() > f64::abs(largest.1) {
-                    largest = (h, value);
-                }
-            }
-        }
+        let quick = self
+            .n
+            .each_ref()
+            .map(|component| time.quick_value_of(component));
+        let values = quick.iter().map(|value| value.unwrap_or(0.0)).enumerate();
+        let largest = values.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()))?;
         let shown = sign(largest.1).filter(|sign| sign.is_ne());
         shown.map(|sign| (largest.0, sign)).or_else(|| {
-            let open = (0..3).filter(|&h| open[h]);
+            let open = (0..3).filter(|&h| quick[h].is_none());
             let exact = open.map(|h| (h, time.sign_of(&self.n[h])));
             exact.into_iter().find(|(_, sign)| sign.is_ne())
         })

@@ -75,3 +75,6 @@ fn halves(b: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
     let centre = middle(left, right);
     ([b[0], first, left, centre], [centre, right, third, b[3]])
 }
+
+#[cfg(test)]
+mod tests;

@@ -108,6 +108,11 @@ impl<L: Lane> Sides<'_, L> {
     /// too near.
     fn approach(&mut self, at: Tick, step: f64, floor: u128) -> Option<()> {
         let offset = step * 2f64.powi(128);
+        // False for NaN as well.
+        let is_inside = offset.abs() < 2f64.powi(127);
+        if !is_inside {
+            return None;
+        }
         let mut reach = (offset.abs() / 2f64.powi(24)) as u128 + floor + 1;
         let centre = if offset < 0.0 {
             at.0.checked_sub(offset.abs() as u128)

@@ -127,3 +127,6 @@ impl Poly {
         )
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -22,6 +22,7 @@ use super::time::Time;
 
 /// The distinct roots in `[0, 1]` of a polynomial that is not identically 0, in ascending order.
 pub(super) struct Roots<L: Lane> {
+    /// The polynomial, or its derivative in place of one with a double root.
     curve: Option<Curve<L>>,
     cells: SmallVec<[Cell; 4]>,
     isolated: Option<Isolated>,
@@ -40,9 +41,9 @@ struct Cell {
 enum Place {
     Start,
     End,
-    /// The only root strictly between these times, a simple one; `None` is the start or the end of
-    /// the step.
-    Between(Option<Tick>, Option<Tick>),
+    /// The only root of the curve strictly between these times, a simple one, and the sign of the
+    /// curve before it; `None` is the start or the end of the step.
+    Between(Option<Tick>, Option<Tick>, Ordering),
     /// The isolated root with this index.
     Isolated(usize),
 }
@@ -73,6 +74,18 @@ impl<L: Lane> Roots<L> {
             changes += u32::from(sign != last);
             last = sign;
         }
+        if changes == 2 {
+            match curve.discriminant_sign() {
+                Some(Ordering::Less) => changes = 0,
+                Some(Ordering::Equal) => {
+                    // The double root is the root of the derivative, which is -first before it.
+                    self.curve = curve.derivative();
+                    let place = Place::Between(None, None, first.reverse());
+                    return self.push(place, first, first);
+                }
+                Some(Ordering::Greater) | None => {}
+            }
+        }
         let Some(inside) = intervals(curve, first, changes) else {
             return self.isolate();
         };
@@ -81,7 +94,8 @@ impl<L: Lane> Roots<L> {
         }
         let mut sign = first;
         for (low, high) in inside {
-            self.push(Place::Between(low, high), sign, sign.reverse());
+            let place = Place::Between(low, high, sign);
+            self.push(place, sign, sign.reverse());
             sign = sign.reverse();
         }
         if signs.last().is_some_and(|sign| sign.is_eq()) {
@@ -100,7 +114,7 @@ impl<L: Lane> Roots<L> {
                 |at: &Option<Tick>, sign: Ordering| at.is_none_or(|at| curve.sample(at).0 == sign);
             let place = match isolated.interval(cell) {
                 Some((low, high)) if proved(&low, cell.before) && proved(&high, cell.after) => {
-                    Place::Between(low, high)
+                    Place::Between(low, high, cell.before)
                 }
                 _ => Place::Isolated(index),
             };
@@ -127,12 +141,9 @@ impl<L: Lane> Roots<L> {
             let time = match cell.place {
                 Place::Start => Time::start(),
                 Place::End => Time::end(),
-                Place::Between(low, high) => {
-                    let of = Source {
-                        curve: self.curve.as_ref()?,
-                        poly: &self.poly,
-                    };
-                    Time::of_root(of, cell.before, low, high)
+                Place::Between(low, high, before) => {
+                    let of = Source::new(self.curve.as_ref()?, &self.poly);
+                    Time::of_root(of, before, low, high)
                 }
                 Place::Isolated(index) => Time::of_isolated(self.isolated.as_ref()?, index),
             };
@@ -157,6 +168,11 @@ impl<L: Lane> Clone for Source<'_, L> {
 impl<L: Lane> Copy for Source<'_, L> {}
 
 impl<'a, L: Lane> Source<'a, L> {
+    /// A polynomial, with a place for the same in integers of any size.
+    pub(super) fn new(curve: &'a Curve<L>, poly: &'a OnceCell<Poly>) -> Self {
+        Source { curve, poly }
+    }
+
     /// The polynomial in integers of any size.
     pub(super) fn poly(self) -> &'a Poly {
         self.poly.get_or_init(|| self.curve.to_poly())
@@ -187,9 +203,6 @@ fn intervals<L: Lane>(
         0 => return Some(SmallVec::new()),
         1 => return Some(SmallVec::from_iter([(None, None)])),
         _ => {}
-    }
-    if changes == 2 && curve.discriminant_sign() == Some(Ordering::Less) {
-        return Some(SmallVec::new());
     }
     part(&curve.approximate()).or_else(|| {
         let cut = if changes == 2 {

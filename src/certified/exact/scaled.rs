@@ -130,3 +130,6 @@ fn differences<Z: Default>(coordinates: &[Z; 24], difference: impl Fn(&Z, &Z) ->
     }
     components
 }
+
+#[cfg(test)]
+mod tests;

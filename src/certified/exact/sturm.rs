@@ -63,3 +63,6 @@ fn change(last: &mut Ordering, sign: Ordering) -> i32 {
     *last = sign;
     i32::from(changes)
 }
+
+#[cfg(test)]
+mod tests;

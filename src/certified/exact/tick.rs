@@ -65,3 +65,6 @@ impl Tick {
 
 /// 2^-128.
 const UNIT: f64 = f64::from_bits((1023 - 128) << 52);
+
+#[cfg(test)]
+mod tests;

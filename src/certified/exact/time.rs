@@ -6,6 +6,7 @@
 use std::cmp::Ordering;
 
 use super::bracket::{Bracket, Settled};
+use super::curve::Curve;
 use super::dyadic::Dyadic;
 use super::integer::{Integer, TWO_64, ratio};
 use super::isolate::{Isolated, Place};
@@ -88,7 +89,7 @@ impl<'a, L: Lane> Time<'a, L> {
             None => {
                 let low = low.map_or(Dyadic::zero(), Tick::to_dyadic);
                 let high = high.map_or(Dyadic::one(), Tick::to_dyadic);
-                Time::settled(Bracket::new(of.poly(), low, high, before))
+                Time::between(Bracket::new(of.poly(), low, high, before))
             }
         }
     }
@@ -104,12 +105,13 @@ impl<'a, L: Lane> Time<'a, L> {
                 before,
             } => {
                 let poly = isolated.poly(*poly);
-                Time::settled(Bracket::new(poly, low.clone(), high.clone(), *before))
+                Time::between(Bracket::new(poly, low.clone(), high.clone(), *before))
             }
         }
     }
 
-    fn settled(mut bracket: Bracket<'a>) -> Self {
+    /// The only root strictly between the ends of a bracket.
+    pub(super) fn between(mut bracket: Bracket<'a>) -> Self {
         match bracket.settle() {
             Settled::At(at) => Time::at(at),
             Settled::Between(below, above) => Time {
@@ -193,8 +195,11 @@ impl<'a, L: Lane> Time<'a, L> {
     ///
     /// [`PARAMETER_ERROR`]: super::PARAMETER_ERROR
     pub(super) fn quotient(&self, n: &Quadratic<L>, d: &Quadratic<L>) -> f64 {
-        let quick = self.quick_quotient(n, d);
-        let quick = quick.or_else(|| self.tightened()?.quick_quotient(n, d));
+        let quick = self.quick_quotient(n, d).or_else(|| {
+            let nearer = self.tightened()?;
+            let quick = nearer.quick_quotient(n, d);
+            quick.or_else(|| nearer.tightened()?.quick_quotient(n, d))
+        });
         quick.unwrap_or_else(|| {
             let (n, d) = (Poly::new(n), Poly::new(d));
             match self.view() {
@@ -255,12 +260,69 @@ impl<'a, L: Lane> Time<'a, L> {
         if other.above <= self.below && other.below < self.above {
             return Ordering::Greater;
         }
+        if let Some(order) = self.quick_compare(other) {
+            return order;
+        }
         match (self.view(), other.view()) {
             (View::At(a), View::At(b)) => a.compare(&b),
             (View::At(a), View::Between(b)) => b.compare_dyadic(&a).reverse(),
             (View::Between(a), View::At(b)) => a.compare_dyadic(&b),
             (View::Between(a), View::Between(b)) => a.compare(&b),
         }
+    }
+
+    /// The same for two roots on the grid, the other one of a polynomial of degree 2.
+    fn quick_compare(&self, other: &Self) -> Option<Ordering> {
+        let Exact::Root {
+            of:
+                Source {
+                    curve: Curve::Quadratic(q),
+                    ..
+                },
+            before,
+            low,
+            high,
+        } = &other.exact
+        else {
+            return None;
+        };
+        if self.compare_tick(*low)?.is_le() {
+            return Some(Ordering::Less);
+        }
+        if self.compare_tick(*high)?.is_ge() {
+            return Some(Ordering::Greater);
+        }
+        // Between these, the other polynomial changes its sign at the other root alone.
+        Some(match self.sign_of(q) {
+            Ordering::Equal => Ordering::Equal,
+            sign if sign == *before => Ordering::Less,
+            _ => Ordering::Greater,
+        })
+    }
+
+    /// A root on the grid compared with a time on it.
+    fn compare_tick(&self, at: Tick) -> Option<Ordering> {
+        let Exact::Root {
+            of,
+            before,
+            low,
+            high,
+        } = &self.exact
+        else {
+            return None;
+        };
+        if at <= *low {
+            return Some(Ordering::Greater);
+        }
+        if at >= *high {
+            return Some(Ordering::Less);
+        }
+        let (sign, _) = of.curve.sample(at);
+        Some(match sign {
+            Ordering::Equal => Ordering::Equal,
+            sign if sign == *before => Ordering::Greater,
+            _ => Ordering::Less,
+        })
     }
 
     fn view(&self) -> View<'_> {
@@ -317,3 +379,6 @@ fn exact_ratio(mut n: Integer, mut d: Integer) -> f64 {
     }
     ratio(&n, &d).min(1.0)
 }
+
+#[cfg(test)]
+mod tests;
