@@ -10,7 +10,8 @@
 //! 3. Edges that touch are coplanar, so that a contact time is a root of `f` ([`general`]). Where `f`
 //!    is identically 0, it is the start or a time at which an end comes onto the other edge
 //!    ([`confined`]).
-//! 4. [`isolate`] parts the roots, [`bracket`] narrows one to the last bit, and [`time`] tells the
+//! 4. [`roots`] finds the roots: parted in floating point where its error bound allows ([`part`]), else
+//!    exactly ([`isolate`]), and narrowed to the last bit ([`pin`], [`bracket`]). [`time`] tells the
 //!    signs of other polynomials there: by floating point where its error bound shows them, else
 //!    exactly ([`sturm`]).
 //! 5. [`locus`] is where the edges touch at such a time, if they do.
