@@ -13,8 +13,7 @@
 //! Each of the six cases is met by more than a tenth of the queries; coordinates are at most 5.
 
 use nalgebra::Vector3;
-use rand::RngExt;
-use rand_chacha::ChaCha8Rng;
+use rand::{Rng, RngExt};
 use tunnelproof::query::Query;
 
 use super::{Family, edge_edge};
@@ -28,7 +27,7 @@ pub(super) const FAMILY: Family = Family {
 /// The positions of A, B, C and D at one end of the step.
 type Positions = [Vector3<i32>; 4];
 
-fn draw(rng: &mut ChaCha8Rng) -> Query {
+fn draw(rng: &mut dyn Rng) -> Query {
     let mut ends = match rng.random_range(0..16) {
         0..6 => free(rng),
         6..10 => confined::<2>(rng, [0, 0, 0, 0]),
@@ -51,7 +50,7 @@ fn draw(rng: &mut ChaCha8Rng) -> Query {
 }
 
 /// Points anywhere.
-fn free(rng: &mut ChaCha8Rng) -> [Positions; 2] {
+fn free(rng: &mut dyn Rng) -> [Positions; 2] {
     let reach = rng.random_range(1..=3);
     [(); 2].map(|()| [(); 4].map(|()| vector(rng, reach)))
 }
@@ -61,7 +60,7 @@ fn free(rng: &mut ChaCha8Rng) -> [Positions; 2] {
 ///
 /// Either the directions keep still and the coefficients `k` differ between the ends of the step, or
 /// the other way round.
-fn confined<const DIMENSION: usize>(rng: &mut ChaCha8Rng, origins: [usize; 4]) -> [Positions; 2] {
+fn confined<const DIMENSION: usize>(rng: &mut dyn Rng, origins: [usize; 4]) -> [Positions; 2] {
     let is_carried = rng.random();
     let directions = ends(rng, is_carried, |rng| {
         [(); DIMENSION].map(|()| vector(rng, 1))
@@ -79,15 +78,11 @@ fn confined<const DIMENSION: usize>(rng: &mut ChaCha8Rng, origins: [usize; 4]) -
 }
 
 /// What is drawn for the start and the end of the step: twice if it changes, else once for both.
-fn ends<T: Copy>(
-    rng: &mut ChaCha8Rng,
-    changes: bool,
-    draw: impl Fn(&mut ChaCha8Rng) -> T,
-) -> [T; 2] {
+fn ends<T: Copy>(rng: &mut dyn Rng, changes: bool, draw: impl Fn(&mut dyn Rng) -> T) -> [T; 2] {
     let start = draw(rng);
     [start, if changes { draw(rng) } else { start }]
 }
 
-fn vector(rng: &mut ChaCha8Rng, reach: i32) -> Vector3<i32> {
+fn vector(rng: &mut dyn Rng, reach: i32) -> Vector3<i32> {
     Vector3::from_fn(|_, _| rng.random_range(-reach..=reach))
 }

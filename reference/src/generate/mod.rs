@@ -8,6 +8,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use nalgebra::Vector3;
+use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tunnelproof::query::{EdgeEdge, Point, Query};
@@ -23,7 +24,7 @@ pub const FAMILIES: &[Family] = &[uniform::FAMILY, lattice::FAMILY];
 pub struct Family {
     name: &'static str,
     description: &'static str,
-    draw: fn(&mut ChaCha8Rng) -> Query,
+    draw: fn(&mut dyn Rng) -> Query,
 }
 
 impl Family {
@@ -46,7 +47,12 @@ impl Family {
         }
         let mut rng = ChaCha8Rng::from_seed(key);
         rng.set_stream(index);
-        (self.draw)(&mut rng)
+        self.draw(&mut rng)
+    }
+
+    /// A query made of any random numbers, such as the bytes that a fuzzer chooses.
+    pub fn draw(&self, rng: &mut dyn Rng) -> Query {
+        (self.draw)(rng)
     }
 }
 

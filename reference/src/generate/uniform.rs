@@ -6,8 +6,7 @@
 //! one query in five a hit.
 
 use nalgebra::Vector3;
-use rand::RngExt;
-use rand_chacha::ChaCha8Rng;
+use rand::{Rng, RngExt};
 use tunnelproof::query::Query;
 
 use super::{Family, edge_edge};
@@ -18,7 +17,7 @@ pub(super) const FAMILY: Family = Family {
     draw,
 };
 
-fn draw(rng: &mut ChaCha8Rng) -> Query {
+fn draw(rng: &mut dyn Rng) -> Query {
     let mut positions = || [(); 4].map(|()| Vector3::from_fn(|_, _| rng.random_range(-1.0..1.0)));
     let start = positions();
     edge_edge(start, positions())
