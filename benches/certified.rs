@@ -53,7 +53,7 @@ fn bench(c: &mut Criterion) {
             );
         }
         group.bench_function("certified-batch", |b| {
-            b.iter(|| batch.decide(|_, verdict| consume(verdict)));
+            b.iter(|| batch.decide(|_, hit| consume(hit)));
         });
         group.finish();
     }

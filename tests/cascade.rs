@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use tunnelproof::certified::{self, Batch, Stage};
+use tunnelproof::certified::{self, Batch, Stage, Verdict};
 use tunnelproof::query::{EdgeEdge, Query};
 use tunnelproof_reference::generate::{FAMILIES, by_name};
 
@@ -16,7 +16,7 @@ fn edge_edge(query: Query) -> Option<EdgeEdge> {
 #[test]
 fn certified_batch_is_certified_one_by_one() {
     for family in FAMILIES {
-        for count in [0, 1, 63, 64, 65, 5000] {
+        for count in [0, 1, 7, 8, 9, 255, 256, 257, 5000] {
             let queries: Vec<EdgeEdge> = (0..count)
                 .filter_map(|index| edge_edge(family.query(3, index)))
                 .collect();
@@ -24,19 +24,38 @@ fn certified_batch_is_certified_one_by_one() {
             queries
                 .iter()
                 .for_each(|query| batch.push(query).expect("radius 0"));
-            let mut seen = 0;
-            batch.decide(|index, verdict| {
-                assert_eq!(index, seen);
-                assert_eq!(
-                    Ok(verdict),
-                    certified::decide(&queries[index]),
-                    "{}",
-                    family.name()
-                );
-                seen += 1;
+            let mut verdicts = vec![Verdict::Miss; queries.len()];
+            let mut last = None;
+            batch.decide(|index, hit| {
+                assert!(last < Some(index), "in order");
+                last = Some(index);
+                verdicts[index] = Verdict::Hit(hit);
             });
-            assert_eq!(seen, queries.len());
+            #[cfg(feature = "rayon")]
+            {
+                let mut in_order = Vec::new();
+                batch.decide(|index, hit| in_order.push((index, hit)));
+                assert_eq!(batch.par_hits(), in_order, "{}", family.name());
+            }
+            for (query, verdict) in queries.iter().zip(verdicts) {
+                assert_eq!(Ok(verdict), certified::decide(query), "{}", family.name());
+            }
         }
+    }
+}
+
+#[test]
+fn certified_batch_names_one_stage_for_each_query() {
+    for family in FAMILIES {
+        let mut batch = Batch::new();
+        for index in 0..1000 {
+            if let Some(query) = edge_edge(family.query(3, index)) {
+                batch.push(&query).expect("radius 0");
+            }
+        }
+        let mut named = 0;
+        batch.decide_observed(|_, _| {}, |_| named += 1);
+        assert_eq!(named, batch.len(), "{}", family.name());
     }
 }
 

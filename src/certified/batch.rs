@@ -1,13 +1,14 @@
 //! Many queries at once, coordinates in separate arrays.
 //!
-//! The first stages of the cascade are arithmetic without branches, so over arrays the compiler does
-//! several queries in one instruction. What they leave goes through the rest one by one.
+//! The first stages of the cascade are taken for a block of queries at once (`block`); what they leave
+//! goes through the rest one by one.
 
+use std::ops::Range;
+
+use super::block::{BLOCK, Block};
 use super::cascade::{self, Stage};
-use super::cubic::Cubic;
-use super::motion::{Motion, Positions};
-use super::separate::SweptBoxes;
-use super::verdict::Verdict;
+use super::motion::Positions;
+use super::verdict::{Hit, Verdict};
 use crate::narrow::Unsupported;
 use crate::query::{EdgeEdge, Point, QueryError};
 
@@ -17,9 +18,6 @@ pub struct Batch {
     /// Coordinate `3 p + i` is axis `i` of point `p`: A, B, C, D at `t = 0`, then at `t = 1`.
     coordinates: [Vec<f64>; 24],
 }
-
-/// How many queries go through a stage together: their coordinates fit in the first-level cache.
-const BLOCK: usize = 64;
 
 impl Batch {
     /// No queries.
@@ -88,96 +86,67 @@ impl Batch {
         Ok(batch)
     }
 
-    /// Decides every query, in order; see [`decide`](super::decide).
-    pub fn decide(&self, mut verdict: impl FnMut(usize, Verdict)) {
-        self.decide_observed(&mut verdict, &mut |_| {});
+    /// Decides every query and calls `hit` for each that is one, in order; see
+    /// [`decide`](super::decide).
+    pub fn decide(&self, hit: impl FnMut(usize, Hit)) {
+        self.decide_observed(hit, |_| {});
     }
 
-    /// As [`decide`](Self::decide), and says which stage decided each query.
-    pub fn decide_observed(
-        &self,
-        verdict: &mut impl FnMut(usize, Verdict),
-        observe: &mut impl FnMut(Stage),
-    ) {
-        for start in (0..self.len()).step_by(BLOCK) {
-            let end = (start + BLOCK).min(self.len());
-            self.decide_block(start, end, verdict, observe);
-        }
+    /// As [`decide`](Self::decide), and says for each query, in any order, which stage decided it.
+    pub fn decide_observed(&self, hit: impl FnMut(usize, Hit), observe: impl FnMut(Stage)) {
+        self.decide_range(0..self.len(), hit, observe);
     }
 
-    fn decide_block(
+    /// All hits, in order, decided by all threads of the current pool.
+    #[cfg(feature = "rayon")]
+    pub fn par_hits(&self) -> Vec<(usize, Hit)> {
+        use rayon::prelude::*;
+
+        const SHARE: usize = 16 * BLOCK;
+        let starts = (0..self.len()).into_par_iter().step_by(SHARE);
+        let hits = starts.flat_map_iter(|start| {
+            let mut hits = Vec::new();
+            let end = self.len().min(start + SHARE);
+            self.decide_range(start..end, |index, hit| hits.push((index, hit)), |_| {});
+            hits
+        });
+        hits.collect()
+    }
+
+    fn decide_range(
         &self,
-        start: usize,
-        end: usize,
-        verdict: &mut impl FnMut(usize, Verdict),
-        observe: &mut impl FnMut(Stage),
+        range: Range<usize>,
+        mut hit: impl FnMut(usize, Hit),
+        mut observe: impl FnMut(Stage),
     ) {
-        // A copy, which the compiler knows not to overlap with anything; what is beyond the end is 0.
-        let mut block = [[0.0; BLOCK]; 24];
-        for (copy, array) in block.iter_mut().zip(&self.coordinates) {
-            copy[..end - start].copy_from_slice(&array[start..end]);
-        }
-        let mut decided_by = [OPEN; BLOCK];
-        screen(&block, &mut decided_by);
-        for (index, &stage) in (start..end).zip(&decided_by) {
-            match SCREENS.get(usize::from(stage)) {
-                Some(&stage) => {
-                    observe(stage);
-                    verdict(index, Verdict::Miss);
+        let mut block = Block::new();
+        for start in range.clone().step_by(BLOCK) {
+            let end = range.end.min(start + BLOCK);
+            block.fill(self.coordinates.each_ref().map(|array| &array[start..end]));
+            block.screen(&mut observe);
+            for &i in block.open() {
+                let index = start + usize::from(i);
+                let positions = || self.positions(index);
+                if let Verdict::Hit(found) = cascade::decide_rest(positions, &mut observe) {
+                    hit(index, found);
                 }
-                None => verdict(index, cascade::decide_rest(&self.positions(index), observe)),
             }
         }
     }
 
     #[inline(always)]
     fn positions(&self, index: usize) -> Positions {
-        let at = |p: usize| [0, 1, 2].map(|i| self.coordinates[3 * p + i][index]);
+        let of = |i: usize| self.coordinates[i][index];
+        let at = |i: usize| [of(i), of(i + 1), of(i + 2)];
         Positions {
-            start: [0, 1, 2, 3].map(at),
-            end: [4, 5, 6, 7].map(at),
+            start: [at(0), at(3), at(6), at(9)],
+            end: [at(12), at(15), at(18), at(21)],
         }
     }
 
     fn query(&self, index: usize) -> Result<EdgeEdge, QueryError> {
         let Positions { start, end } = self.positions(index);
         EdgeEdge::new(start.map(Point::from), end.map(Point::from), 0.0)
-    }
-}
-
-/// The stages that [`screen`] runs, by the number it gives them.
-const SCREENS: [Stage; 3] = [Stage::Boxes, Stage::Direction, Stage::Signs];
-
-/// What [`screen`] leaves.
-const OPEN: u8 = SCREENS.len() as u8;
-
-/// The first stages for all queries of a block, without a branch.
-#[inline(never)]
-fn screen(block: &[[f64; BLOCK]; 24], decided_by: &mut [u8; BLOCK]) {
-    let mut masks = [[false; BLOCK]; 3];
-    for i in 0..BLOCK {
-        let at = |p: usize| [block[3 * p][i], block[3 * p + 1][i], block[3 * p + 2][i]];
-        let positions = Positions {
-            start: [at(0), at(1), at(2), at(3)],
-            end: [at(4), at(5), at(6), at(7)],
-        };
-        let boxes = SweptBoxes::new(&positions);
-        let motion = Motion::new(&positions);
-        masks[0][i] = boxes.are_disjoint;
-        masks[1][i] = motion.is_separated_by_centres(&boxes);
-    }
-    for i in 0..BLOCK {
-        let at = |p: usize| [block[3 * p][i], block[3 * p + 1][i], block[3 * p + 2][i]];
-        let positions = Positions {
-            start: [at(0), at(1), at(2), at(3)],
-            end: [at(4), at(5), at(6), at(7)],
-        };
-        let cubic = Cubic::unchecked(&Motion::new(&positions));
-        masks[2][i] = cubic.is_valid() & cubic.has_no_root();
-    }
-    for (i, stage) in decided_by.iter_mut().enumerate() {
-        let first = (0..OPEN).find(|&mask| masks[usize::from(mask)][i]);
-        *stage = first.unwrap_or(OPEN);
     }
 }
 

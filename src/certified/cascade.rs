@@ -1,6 +1,9 @@
 //! The cascade: each stage answers only what it can prove, and hands on the rest.
 
+use wide::f64x2;
+
 use super::cubic::Cubic;
+use super::ends::Ends;
 use super::exact;
 use super::locate::Place;
 use super::motion::{Motion, Positions};
@@ -77,45 +80,44 @@ pub fn decide_observed(
     if query.radius() != 0.0 {
         return Err(Unsupported::Radius(query.radius()));
     }
-    let positions = Positions::new(query);
-    let boxes = SweptBoxes::new(&positions);
+    let positions = || Positions::new(query);
+    let points = positions().points::<f64x2>();
+    let boxes = SweptBoxes::new(&points);
     if boxes.are_disjoint {
         observe(Stage::Boxes);
         return Ok(Verdict::Miss);
     }
-    let motion = Motion::new(&positions);
+    let motion = Motion::new(&points);
     if motion.is_separated_by_centres(&boxes) {
         observe(Stage::Direction);
         return Ok(Verdict::Miss);
     }
-    let cubic = Cubic::new(&motion);
-    if cubic.is_some_and(|cubic| cubic.has_no_root()) {
-        observe(Stage::Signs);
-        return Ok(Verdict::Miss);
-    }
-    Ok(decide_open(&positions, &boxes, &motion, cubic, observe))
+    Ok(decide_open(positions, &boxes, &motion, observe))
 }
 
-/// The stages after the first three, for a query that those leave open.
-pub(super) fn decide_rest(positions: &Positions, observe: &mut impl FnMut(Stage)) -> Verdict {
-    let motion = Motion::new(positions);
-    decide_open(
-        positions,
-        &SweptBoxes::new(positions),
-        &motion,
-        Cubic::new(&motion),
-        observe,
-    )
-}
-
-fn decide_open(
-    positions: &Positions,
-    boxes: &SweptBoxes,
-    motion: &Motion,
-    cubic: Option<Cubic>,
+/// The stages after the first two, for a query that those leave open.
+pub(super) fn decide_rest(
+    positions: impl Fn() -> Positions,
     observe: &mut impl FnMut(Stage),
 ) -> Verdict {
-    if let Some(verdict) = cubic.and_then(|cubic| decide_by_roots(positions, motion, &cubic)) {
+    let points = positions().points::<f64x2>();
+    let (boxes, motion) = (SweptBoxes::new(&points), Motion::new(&points));
+    decide_open(positions, &boxes, &motion, observe)
+}
+
+#[inline(always)]
+fn decide_open<E: Ends>(
+    positions: impl Fn() -> Positions,
+    boxes: &SweptBoxes,
+    motion: &Motion<E>,
+    observe: &mut impl FnMut(Stage),
+) -> Verdict {
+    let cubic = Cubic::new(motion);
+    if cubic.is_some_and(|cubic| cubic.has_no_root()) {
+        observe(Stage::Signs);
+        return Verdict::Miss;
+    }
+    if let Some(verdict) = cubic.and_then(|cubic| decide_by_roots(&positions, motion, &cubic)) {
         observe(Stage::Roots);
         return verdict;
     }
@@ -124,7 +126,7 @@ fn decide_open(
         return Verdict::Miss;
     }
     observe(Stage::Exact);
-    match exact::decide(positions).hit {
+    match exact::decide(&positions()).hit {
         None => Verdict::Miss,
         Some(hit) => Verdict::Hit(hit),
     }
@@ -132,9 +134,20 @@ fn decide_open(
 
 /// Edges that touch are coplanar: the first root of the cubic at which the lines meet inside both
 /// edges is the contact. `None` as soon as one root is not certain.
-fn decide_by_roots(positions: &Positions, motion: &Motion, cubic: &Cubic) -> Option<Verdict> {
+fn decide_by_roots<E: Ends>(
+    positions: &impl Fn() -> Positions,
+    motion: &Motion<E>,
+    cubic: &Cubic,
+) -> Option<Verdict> {
     for bracket in cubic.isolate()?.as_slice() {
-        match motion.place(bracket) {
+        let place = match motion.meeting(cubic, bracket).place() {
+            Place::Unclear => {
+                let (sharp, _) = cubic.sharpen(bracket)?;
+                motion.meeting(cubic, &sharp).place()
+            }
+            place => place,
+        };
+        match place {
             Place::Apart => {}
             Place::Inside { .. } => {
                 return hit(positions, motion, cubic, bracket).map(Verdict::Hit);
@@ -148,15 +161,20 @@ fn decide_by_roots(positions: &Positions, motion: &Motion, cubic: &Cubic) -> Opt
 /// The contact at a simple root strictly inside the step, strictly inside both edges.
 ///
 /// `f` changes sign there and the lines meet at an angle: a crossing of general motion.
-fn hit(positions: &Positions, motion: &Motion, cubic: &Cubic, bracket: &Bracket) -> Option<Hit> {
-    let toi = refine::round_down(positions, cubic, bracket)?;
+fn hit<E: Ends>(
+    positions: &impl Fn() -> Positions,
+    motion: &Motion<E>,
+    cubic: &Cubic,
+    bracket: &Bracket,
+) -> Option<Hit> {
+    let toi = refine::round_down(&positions(), cubic, bracket)?;
     let toi_above = toi.next_up();
     let at_toi = Bracket {
         low: toi,
         high: toi_above,
         ..*bracket
     };
-    let Place::Inside { u, v, error } = motion.place(&at_toi) else {
+    let Place::Inside { u, v, error } = motion.meeting(cubic, &at_toi).place() else {
         return None;
     };
     if error > Hit::PARAMETER_ERROR {

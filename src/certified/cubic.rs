@@ -1,6 +1,7 @@
 //! Stage 3: the cubic `f = (K x L) . M` in Bernstein form, with a bound on its error.
 
-use super::motion::{Motion, add, cross, dot, larger, largest, reach, smaller};
+use super::ends::Ends;
+use super::motion::{Motion, Vector, both, cross, dot, larger, largest, reach, smaller};
 use super::separate::U;
 
 /// `f` on `[0, 1]`, up to an error.
@@ -9,8 +10,8 @@ pub(super) struct Cubic {
     /// The Bernstein coefficients, each within `error` of the exact one.
     pub(super) bernstein: [f64; 4],
     pub(super) error: f64,
-    /// The largest magnitude among the differences that it is computed from.
-    size: f64,
+    /// Of `K`, `L`, `M`: the larger magnitude of each component at both ends of the step.
+    pub(super) reach: [Vector; 3],
 }
 
 impl Cubic {
@@ -29,54 +30,71 @@ impl Cubic {
     /// below `10 u`. Below, `16 u P`.
     ///
     /// A product that underflows adds at most `2^-1075`, times at most one more factor; [`Cubic::new`]
-    /// returns `None` unless all factors are below `2^300` and `16 u P` is above `2^-700`, so what
-    /// underflow adds (fewer than 40 times `2^-775`) is below `2^-68` of the bound. Overflow cannot
+    /// returns `None` unless all factors are below `2^180` and `16 u P` is above `2^-700`, so what
+    /// underflow adds (fewer than 40 times `2^-895`) is far below the bound. Overflow cannot
     /// happen then. NaN and infinities fail the same test.
     #[inline(always)]
-    pub(super) fn new(motion: &Motion) -> Option<Self> {
+    pub(super) fn new<E: Ends>(motion: &Motion<E>) -> Option<Self> {
         let cubic = Self::unchecked(motion);
         cubic.is_valid().then_some(cubic)
     }
 
-    /// As [`Cubic::new`], which is right only if it [`is_valid`](Cubic::is_valid).
     #[inline(always)]
-    pub(super) fn unchecked(motion: &Motion) -> Self {
-        let (k, l, m) = (reach(&motion.k), reach(&motion.l), reach(&motion.m));
-        let permanent = m[0] * (k[1] * l[2] + k[2] * l[1])
-            + m[1] * (k[2] * l[0] + k[0] * l[2])
-            + m[2] * (k[0] * l[1] + k[1] * l[0]);
-        let ([k0, k1], [l0, l1], [m0, m1]) = (&motion.k, &motion.l, &motion.m);
-        let (n00, n11) = (cross(k0, l0), cross(k1, l1));
-        let n01 = add(&cross(k0, l1), &cross(k1, l0));
-        let bernstein = [
-            dot(m0, &n00),
-            (dot(m1, &n00) + dot(m0, &n01)) / 3.0,
-            (dot(m0, &n11) + dot(m1, &n01)) / 3.0,
-            dot(m1, &n11),
-        ];
-        let size = larger(larger(largest(&k), largest(&l)), largest(&m));
+    pub(super) fn unchecked<E: Ends>(motion: &Motion<E>) -> Self {
+        let Motion { k, l, m } = motion;
+        let reach = [reach(k), reach(l), reach(m)];
+        let minor = permanents(&reach[0], &reach[1]);
+        let permanent = dot(&reach[2], &minor);
+        let [normal_x, normal_y, normal_z] = cross(k, &l.map(E::swapped));
+        let same = cross(k, l);
+        // K x L of different ends, both of them.
+        let mixed = both(&[normal_x.sum(), normal_y.sum(), normal_z.sum()]);
+        let outer = dot(m, &same);
+        let inner = dot(&m.map(E::swapped), &same) + dot(m, &mixed);
         Cubic {
-            bernstein,
+            bernstein: [
+                outer.start(),
+                inner.start() / 3.0,
+                inner.end() / 3.0,
+                outer.end(),
+            ],
             error: 16.0 * U * permanent,
-            size,
+            reach,
         }
     }
 
     /// Whether neither over- nor underflow spoils the error bound.
     #[inline(always)]
     pub(super) fn is_valid(&self) -> bool {
-        (self.size < LARGEST) & (self.error > SMALLEST)
+        let [k, l, m] = &self.reach;
+        let size = larger(larger(largest(k), largest(l)), largest(m));
+        (size < LARGEST) & (self.error > SMALLEST)
     }
 
     /// Whether `f` has no root in `[0, 1]`, so that the edges are never coplanar: it is a convex
     /// combination of its coefficients.
     #[inline(always)]
     pub(super) fn has_no_root(&self) -> bool {
-        let [b0, b1, b2, b3] = self.bernstein;
-        (smaller(smaller(b0, b1), smaller(b2, b3)) > self.error)
-            | (larger(larger(b0, b1), larger(b2, b3)) < -self.error)
+        have_one_sign(&self.bernstein, self.error)
     }
 }
 
-const LARGEST: f64 = f64::from_bits((1023 + 300) << 52);
+/// Whether all coefficients that are within `error` of these certainly have the same sign.
+#[inline(always)]
+pub(super) fn have_one_sign([b0, b1, b2, b3]: &[f64; 4], error: f64) -> bool {
+    (smaller(smaller(*b0, *b1), smaller(*b2, *b3)) > error)
+        | (larger(larger(*b0, *b1), larger(*b2, *b3)) < -error)
+}
+
+/// The components of `x X y` with every sign positive.
+#[inline(always)]
+pub(super) fn permanents(x: &Vector, y: &Vector) -> Vector {
+    [
+        x[1] * y[2] + x[2] * y[1],
+        x[2] * y[0] + x[0] * y[2],
+        x[0] * y[1] + x[1] * y[0],
+    ]
+}
+
+const LARGEST: f64 = f64::from_bits((1023 + 180) << 52);
 const SMALLEST: f64 = f64::from_bits((1023 - 700) << 52);

@@ -1,7 +1,9 @@
 //! Stage 4, continued: whether the edges touch at a root of `f`.
 
-use super::motion::{Motion, Vector, reach};
-use super::root::Bracket;
+use super::cubic::{Cubic, permanents};
+use super::ends::Ends;
+use super::motion::{Motion, Vector, cross, dot};
+use super::root::{Bracket, Half};
 use super::separate::U;
 
 /// What is certain about the edges at a root of `f`.
@@ -20,78 +22,117 @@ pub(super) enum Place {
     Unclear,
 }
 
-impl Motion {
+/// What shows where the lines meet.
+///
+/// At the root, `M x L = u N` and `M x K = v N` with `N = K x L`. So with any vector `w`, here the
+/// computed `N`: `u` is the ratio of `(M x L) . w` to `N . w`, `v` that of `(M x K) . w`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Meeting {
+    /// `N . w`, `(M x L) . w` and `(M x K) . w`.
+    n: f64,
+    u: f64,
+    v: f64,
+    /// Bounds on their errors.
+    error_n: f64,
+    error_u: f64,
+    error_v: f64,
+}
+
+impl<E: Ends> Motion<E> {
     /// Where the lines meet at the root in the bracket.
     ///
-    /// At the root, `M x L = u N` and `M x K = v N` with `N = K x L`: one component of each, the one
-    /// in which `N` is largest, gives `u` and `v`.
-    ///
-    /// Error bound: let `w` be half the width of the bracket, `t` its middle and `p_ij` the sum
-    /// `k_i l_j + k_j l_i` of larger magnitudes. A component of `K(t)` is within `4 u k_i` of the
-    /// exact one (rounded difference, `1 - t`, a product, a sum), so `N_h(t)` is within
+    /// Error bound: let `w` be half the width of the bracket, `t` its middle and `p` the vector of the
+    /// `k_i l_j + k_j l_i` of larger magnitudes. A component of `K(t)` is within `4 u k_i` of the exact
+    /// one (rounded difference, `1 - t`, a product, a sum), so one of `N(t)` is within
     /// `2 * 4 u p + 2 u p` of the exact one; moving to the root changes each component of `K` by at
-    /// most `2 k_i w`, so `N_h` by at most `4 w p (1 + w)`. Below, `(16 u + 5 w) p`, for `w < 1/8`;
-    /// `p` is computed with a relative error below `3 u`. Products that underflow: `p` is above
-    /// `2^-700`, checked, and underflow adds less than `2^-1070`.
-    pub(super) fn place(&self, bracket: &Bracket) -> Place {
+    /// most `2 k_i w`, so of `N` by at most `4 w p (1 + w)`. The product with `N` adds `3.1 u` of the
+    /// sum of the `|N_i| p_i`. Below, `(20 u + 5 w)` times that sum, for `w < 1/8`, checked by whoever
+    /// reads the result; its computation has a relative error below `9 u`. What underflows is at most
+    /// `2^-1072` a component, times `w`, below `2^361`: `TINY` is more. What overflows makes a bound infinite
+    /// or NaN, so that nothing follows.
+    #[inline(always)]
+    pub(super) fn meeting(&self, cubic: &Cubic, bracket: &Bracket) -> Meeting {
         let t = 0.5 * (bracket.low + bracket.high);
         let half_width = 0.5 * (bracket.high - bracket.low) + U;
-        if half_width > 0.125 {
-            return Place::Unclear;
-        }
-        let s = 1.0 - t;
-        let at = |[start, end]: &[Vector; 2]| {
+        let weights = E::new(1.0 - t, t);
+        let at = |[x, y, z]: &[E; 3]| {
             [
-                s * start[0] + t * end[0],
-                s * start[1] + t * end[1],
-                s * start[2] + t * end[2],
+                (weights * *x).sum(),
+                (weights * *y).sum(),
+                (weights * *z).sum(),
             ]
         };
         let (k, l, m) = (at(&self.k), at(&self.l), at(&self.m));
-        let cross = |x: &Vector, y: &Vector, i: usize, j: usize| x[i] * y[j] - x[j] * y[i];
-        let normal = [
-            cross(&k, &l, 1, 2),
-            cross(&k, &l, 2, 0),
-            cross(&k, &l, 0, 1),
-        ];
-        let [nx, ny, nz] = normal.map(f64::abs);
-        let (i, j, n) = if nx >= ny && nx >= nz {
-            (1, 2, normal[0])
-        } else if ny >= nz {
-            (2, 0, normal[1])
+        let normal = cross(&k, &l);
+        let size = normal.map(f64::abs);
+        let factor = if half_width < 0.125 {
+            20.0 * U + 5.0 * half_width
         } else {
-            (0, 1, normal[2])
+            f64::INFINITY
         };
-        let reach = [reach(&self.k), reach(&self.l), reach(&self.m)];
-        let factor = 16.0 * U + 5.0 * half_width;
-        let bound = |x: usize, y: usize| {
-            factor * (reach[x][i] * reach[y][j] + reach[x][j] * reach[y][i]) + TINY
-        };
-        let (error_n, error_u, error_v) = (bound(0, 1), bound(2, 1), bound(2, 0));
-        let flip = if n < 0.0 { -1.0 } else { 1.0 };
-        let (n, u, v) = (
-            n.abs(),
-            flip * cross(&m, &l, i, j),
-            flip * cross(&m, &k, i, j),
-        );
-        if !(n > error_n) {
-            return Place::Unclear;
+        let bound = |x: &Vector, y: &Vector| factor * dot(&size, &permanents(x, y)) + TINY;
+        let [k_reach, l_reach, m_reach] = &cubic.reach;
+        Meeting {
+            n: dot(&normal, &normal),
+            u: dot(&cross(&m, &l), &normal),
+            v: dot(&cross(&m, &k), &normal),
+            error_n: bound(k_reach, l_reach),
+            error_u: bound(m_reach, l_reach),
+            error_v: bound(m_reach, k_reach),
         }
-        // The differences below are rounded once: 2 u n is less than an eighth of the bounds.
-        let (error_u1, error_v1) = (1.25 * (error_n + error_u), 1.25 * (error_n + error_v));
-        if u < -error_u || v < -error_v || n - u < -error_u1 || n - v < -error_v1 {
+    }
+
+    /// Whether the edges certainly do not touch at a root in a half of the step.
+    #[inline(always)]
+    pub(super) fn is_apart_in(&self, cubic: &Cubic, half: &Half) -> bool {
+        half.has_none | (half.has_one & self.meeting(cubic, &half.bracket).is_apart())
+    }
+}
+
+impl Meeting {
+    /// Whether the lines certainly meet outside an edge.
+    #[inline(always)]
+    pub(super) fn is_apart(&self) -> bool {
+        let (error_u1, error_v1) = self.far_errors();
+        let is_apart = (self.u < -self.error_u)
+            | (self.v < -self.error_v)
+            | (self.n - self.u < -error_u1)
+            | (self.n - self.v < -error_v1);
+        (self.n > self.error_n) & is_apart
+    }
+
+    /// The parameters, if the lines certainly meet strictly inside both edges.
+    pub(super) fn place(&self) -> Place {
+        if self.is_apart() {
             return Place::Apart;
         }
-        if u > error_u && v > error_v && n - u > error_u1 && n - v > error_v1 {
-            // |u~/n~ - u/n| <= (error_u + error_n) / (n~ - error_n) for u in [0, 1], and one rounding.
-            let error = error_u1.max(error_v1) / (n - error_n) + 2.0 * U;
-            return Place::Inside {
-                u: u / n,
-                v: v / n,
-                error,
-            };
+        let (error_u1, error_v1) = self.far_errors();
+        let Meeting { n, u, v, .. } = *self;
+        let is_inside = n > self.error_n
+            && u > self.error_u
+            && v > self.error_v
+            && n - u > error_u1
+            && n - v > error_v1;
+        if !is_inside {
+            return Place::Unclear;
         }
-        Place::Unclear
+        // |u~/n~ - u/n| <= (error_u + error_n) / (n~ - error_n) for u in [0, 1], and one rounding.
+        let error = error_u1.max(error_v1) / (n - self.error_n) + 2.0 * U;
+        Place::Inside {
+            u: u / n,
+            v: v / n,
+            error,
+        }
+    }
+
+    /// Bounds on the errors of `n - u` and `n - v`, which are rounded once: `2 u n` is less than an
+    /// eighth of the bounds.
+    #[inline(always)]
+    fn far_errors(&self) -> (f64, f64) {
+        (
+            1.25 * (self.error_n + self.error_u),
+            1.25 * (self.error_n + self.error_v),
+        )
     }
 }
 

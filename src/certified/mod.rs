@@ -21,8 +21,10 @@
 )]
 
 mod batch;
+mod block;
 mod cascade;
 mod cubic;
+mod ends;
 mod exact;
 mod locate;
 mod motion;

@@ -1,5 +1,6 @@
 //! The differences that everything else is computed from.
 
+use super::ends::{Ends, Scalar};
 use crate::query::{EdgeEdge, Point};
 
 /// A vector in `f64`.
@@ -22,6 +23,20 @@ impl Positions {
             end: plain(query.end()),
         }
     }
+
+    /// Each coordinate at both ends of the step.
+    #[inline(always)]
+    pub(super) fn points<E: Ends>(&self) -> [[E; 3]; 4] {
+        let Positions { start, end } = self;
+        let at = |p: usize| {
+            [
+                E::new(start[p][0], end[p][0]),
+                E::new(start[p][1], end[p][1]),
+                E::new(start[p][2], end[p][2]),
+            ]
+        };
+        [at(0), at(1), at(2), at(3)]
+    }
 }
 
 /// Rounded differences at `t = 0` and `t = 1`, in metres.
@@ -29,35 +44,30 @@ impl Positions {
 /// Each component is the exact difference times `1 + e` with `|e| <= 2^-53` (a difference of two
 /// `f64` does not underflow), or infinite; never NaN.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Motion {
+pub(super) struct Motion<E> {
     /// `K = B - A`.
-    pub(super) k: [Vector; 2],
+    pub(super) k: [E; 3],
     /// `L = D - C`.
-    pub(super) l: [Vector; 2],
+    pub(super) l: [E; 3],
     /// `M = C - A`.
-    pub(super) m: [Vector; 2],
+    pub(super) m: [E; 3],
 }
 
-impl Motion {
+impl<E: Ends> Motion<E> {
     #[inline(always)]
-    pub(super) fn new(positions: &Positions) -> Self {
-        let ([a0, b0, c0, d0], [a1, b1, c1, d1]) = (&positions.start, &positions.end);
+    pub(super) fn new([a, b, c, d]: &[[E; 3]; 4]) -> Self {
         Motion {
-            k: [sub(b0, a0), sub(b1, a1)],
-            l: [sub(d0, c0), sub(d1, c1)],
-            m: [sub(c0, a0), sub(c1, a1)],
+            k: sub(b, a),
+            l: sub(d, c),
+            m: sub(c, a),
         }
     }
 }
 
 /// The larger magnitude of each component at both ends: a bound on it for the whole step.
 #[inline(always)]
-pub(super) fn reach([start, end]: &[Vector; 2]) -> Vector {
-    [
-        larger(start[0].abs(), end[0].abs()),
-        larger(start[1].abs(), end[1].abs()),
-        larger(start[2].abs(), end[2].abs()),
-    ]
+pub(super) fn reach<E: Ends>([x, y, z]: &[E; 3]) -> Vector {
+    [x.abs().largest(), y.abs().largest(), z.abs().largest()]
 }
 
 #[inline(always)]
@@ -66,17 +76,17 @@ pub(super) fn largest(x: &Vector) -> f64 {
 }
 
 #[inline(always)]
-pub(super) fn add(x: &Vector, y: &Vector) -> Vector {
+pub(super) fn add<T: Scalar>(x: &[T; 3], y: &[T; 3]) -> [T; 3] {
     [x[0] + y[0], x[1] + y[1], x[2] + y[2]]
 }
 
 #[inline(always)]
-pub(super) fn sub(x: &Vector, y: &Vector) -> Vector {
+pub(super) fn sub<T: Scalar>(x: &[T; 3], y: &[T; 3]) -> [T; 3] {
     [x[0] - y[0], x[1] - y[1], x[2] - y[2]]
 }
 
 #[inline(always)]
-pub(super) fn cross(x: &Vector, y: &Vector) -> Vector {
+pub(super) fn cross<T: Scalar>(x: &[T; 3], y: &[T; 3]) -> [T; 3] {
     [
         x[1] * y[2] - x[2] * y[1],
         x[2] * y[0] - x[0] * y[2],
@@ -85,8 +95,14 @@ pub(super) fn cross(x: &Vector, y: &Vector) -> Vector {
 }
 
 #[inline(always)]
-pub(super) fn dot(x: &Vector, y: &Vector) -> f64 {
+pub(super) fn dot<T: Scalar>(x: &[T; 3], y: &[T; 3]) -> T {
     x[0] * y[0] + x[1] * y[1] + x[2] * y[2]
+}
+
+/// A vector that is the same at both ends of the step.
+#[inline(always)]
+pub(super) fn both<E: Ends>(x: &Vector) -> [E; 3] {
+    [E::both(x[0]), E::both(x[1]), E::both(x[2])]
 }
 
 /// The larger of two numbers that are not NaN: one instruction, which `f64::max` is not.

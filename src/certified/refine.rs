@@ -4,21 +4,24 @@
 //! root as `t + delta` with an error that is small against an ulp. Nearly always no `f64` lies so
 //! near to the root, and rounding down is certain; else the exact stage decides.
 
+use wide::f64x2;
+
 use super::cubic::Cubic;
+use super::ends::{Ends, Scalar};
 use super::motion::Positions;
 use super::root::Bracket;
 use super::separate::U;
 
-/// An unevaluated sum `high + low`, `|low|` at most half an ulp of `high`.
+/// An unevaluated sum `high + low`, `|low|` at most half an ulp of `high`; in each lane.
 #[derive(Clone, Copy)]
-struct Double {
-    high: f64,
-    low: f64,
+struct Double<T> {
+    high: T,
+    low: T,
 }
 
 /// `a + b` without error (Knuth; Dekker 1971).
 #[inline(always)]
-fn two_sum(a: f64, b: f64) -> Double {
+fn two_sum<T: Scalar>(a: T, b: T) -> Double<T> {
     let high = a + b;
     let part = high - a;
     Double {
@@ -27,12 +30,23 @@ fn two_sum(a: f64, b: f64) -> Double {
     }
 }
 
+/// `a - b` without error.
+#[inline(always)]
+fn two_difference<T: Scalar>(a: T, b: T) -> Double<T> {
+    let high = a - b;
+    let part = high - a;
+    Double {
+        high,
+        low: (a - (high - part)) - (b + part),
+    }
+}
+
 /// `a b` without error, unless something over- or underflows (Veltkamp, Dekker 1971).
 #[inline(always)]
-fn two_product(a: f64, b: f64) -> Double {
+fn two_product<E: Ends>(a: E, b: E) -> Double<E> {
     const SPLIT: f64 = 134_217_729.0; // 2^27 + 1
-    let halves = |x: f64| {
-        let c = SPLIT * x;
+    let halves = |x: E| {
+        let c = E::both(SPLIT) * x;
         let high = c - (c - x);
         (high, x - high)
     };
@@ -44,9 +58,9 @@ fn two_product(a: f64, b: f64) -> Double {
     }
 }
 
-impl Double {
+impl<T: Scalar> Double<T> {
     #[inline(always)]
-    fn sum(a: f64, b: f64) -> Self {
+    fn sum(a: T, b: T) -> Self {
         let high = a + b;
         Double {
             high,
@@ -62,14 +76,15 @@ impl Double {
         Self::sum(s.high, s.low + (self.low + other.low))
     }
 
+    /// `self - other`; an error as that of [`add`](Self::add).
     #[inline(always)]
-    fn neg(self) -> Self {
-        Double {
-            high: -self.high,
-            low: -self.low,
-        }
+    fn sub(self, other: Self) -> Self {
+        let s = two_difference(self.high, other.high);
+        Self::sum(s.high, s.low + (self.low - other.low))
     }
+}
 
+impl<E: Ends> Double<E> {
     /// `self other`; relative error below `8 * 2^-106`.
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
@@ -82,69 +97,108 @@ impl Double {
 
     /// `self t`; relative error below `4 * 2^-106`.
     #[inline(always)]
-    fn scale(self, t: f64) -> Self {
+    fn scale(self, t: E) -> Self {
         let p = two_product(self.high, t);
         Self::sum(p.high, p.low + self.low * t)
     }
+
+    /// The lanes exchanged.
+    #[inline(always)]
+    fn swapped(self) -> Self {
+        Double {
+            high: self.high.swapped(),
+            low: self.low.swapped(),
+        }
+    }
+
+    /// The first lanes of two numbers, and their second ones.
+    #[inline(always)]
+    fn transposed(self, other: Self) -> [Self; 2] {
+        let ([high, end_high], [low, end_low]) = (
+            self.high.transposed(other.high),
+            self.low.transposed(other.low),
+        );
+        [
+            Double { high, low },
+            Double {
+                high: end_high,
+                low: end_low,
+            },
+        ]
+    }
+
+    #[inline(always)]
+    fn lanes(self) -> [Double<f64>; 2] {
+        [
+            Double {
+                high: self.high.start(),
+                low: self.low.start(),
+            },
+            Double {
+                high: self.high.end(),
+                low: self.low.end(),
+            },
+        ]
+    }
 }
 
-/// `f` at `t` in double-double arithmetic.
+/// From two points to two others, on an axis each, at `t`: exact up to what the two operations on
+/// double-doubles add.
+#[inline(always)]
+fn difference<E: Ends>(from: [E; 2], to: [E; 2], t: E) -> Double<E> {
+    let ([from_start, from_end], [to_start, to_end]) =
+        (from[0].transposed(from[1]), to[0].transposed(to[1]));
+    let (first, last) = (
+        two_difference(to_start, from_start),
+        two_difference(to_end, from_end),
+    );
+    first.add(last.sub(first).scale(t))
+}
+
+/// `f` at `t` in double-double arithmetic, two numbers at a time.
 fn evaluate(positions: &Positions, t: f64) -> f64 {
-    let Positions { start, end } = positions;
-    let component = |to: usize, from: usize, i: usize| {
-        let first = two_sum(start[to][i], -start[from][i]);
-        let last = two_sum(end[to][i], -end[from][i]);
-        first.add(last.add(first.neg()).scale(t))
-    };
-    let difference = |to: usize, from: usize| {
-        [
-            component(to, from, 0),
-            component(to, from, 1),
-            component(to, from, 2),
-        ]
-    };
-    let (k, l, m) = (difference(1, 0), difference(3, 2), difference(2, 0));
-    let minor = |i: usize, j: usize| k[i].mul(l[j]).add(k[j].mul(l[i]).neg());
-    let terms = [
-        m[0].mul(minor(1, 2)),
-        m[1].mul(minor(2, 0)),
-        m[2].mul(minor(0, 1)),
-    ];
-    let sum = terms[0].add(terms[1]).add(terms[2]);
+    let [a, b, c, d] = positions.points::<f64x2>();
+    let t = f64x2::both(t);
+    // K and L of an axis; M of two axes.
+    let edges = |i: usize| difference([a[i], c[i]], [b[i], d[i]], t);
+    let (x, y, z) = (edges(0), edges(1), edges(2));
+    let m_xy = difference([a[0], a[1]], [c[0], c[1]], t);
+    let m_z = difference([a[2], a[2]], [c[2], c[2]], t);
+    let products = |i: Double<f64x2>, j: Double<f64x2>| i.mul(j.swapped());
+    let (yz, zx, xy) = (products(y, z), products(z, x), products(x, y));
+    let minor = |[first, second]: [Double<f64x2>; 2]| first.sub(second);
+    let [first, second] = m_xy.mul(minor(yz.transposed(zx))).lanes();
+    let [third, _] = m_z.mul(minor(xy.transposed(xy))).lanes();
+    let sum = first.add(second).add(third);
     sum.high + sum.low
 }
 
 /// The largest `f64` not above the root in the bracket, if that is certain; then the root is not an
 /// `f64` itself.
 ///
-/// Error bound. Let `t` be the middle of the bracket, `W` its width, `P` the permanent of
-/// [`Cubic`] (`error = 16 u P`) and `h = 2^-106`.
+/// Error bound. Let `t` be the middle of the sharpened bracket, `W` its width, `s` the least magnitude
+/// of the slope in it, `P` the permanent of [`Cubic`] (`error = 16 u P`) and `h = 2^-106`.
 ///
 /// - The value of `f` at `t`: differences are exact double-doubles; a component of `K(t)` is within
 ///   `(16 + 8 + 24) h k_i` (difference, product, sum; bounds at the operations), a minor within
 ///   `(8 + 2 * 48 + 8) h p_ij`, a term of the determinant within `(8 + 48 + 112) h`, and the two last
 ///   sums add `16 h`: `184 h P`, below `2^-49 error = 256 h P`. The rounding to `f64` is relative.
-/// - The slope: three times the difference of two values of de Casteljau's scheme, each within
-///   `25 u P` of the exact one: `12 error` covers it. It changes by at most `24 P W` over the bracket,
-///   because `|f''| <= 6 |b0 - 2 b1 + b2| <= 24 P`. Let `s` be the magnitude less both.
-/// - By Taylor the root is `t - f(t) / f'(t)` up to `12 P W^2 / s`.
+/// - By Taylor the root is `t - f(t) / f'(t)` up to `C W^2 / 2 s`, with `C` the bound on `|f''|`.
 ///
-/// So it is `t + delta` up to `(2^-49 error + 12 P W^2) / s` and, for slope, division and rounding,
-/// `|delta| (12 error / s + 8 u)`. Underflow: see [`Cubic::new`]; the errors of products that
-/// underflow are below `2^-765`, the first bound above `2^-750`.
+/// So it is `t + delta` up to `(2^-49 error + C W^2) / s` and, for slope, division and rounding,
+/// `|delta| (slope_error / s + 8 u)`. Underflow: see [`Cubic::new`]; the errors of products that
+/// underflow are below `2^-885`, the first bound above `2^-750`.
 pub(super) fn round_down(positions: &Positions, cubic: &Cubic, bracket: &Bracket) -> Option<f64> {
-    let t = 0.5 * (bracket.low + bracket.high);
-    let width = bracket.high - bracket.low;
-    let permanent = cubic.error / (15.0 * U);
-    let (_, slope) = cubic.evaluate(t);
-    let slope_error = 12.0 * cubic.error;
-    let least = slope.abs() - slope_error - 24.0 * permanent * width;
+    let (sharp, least) = cubic.sharpen(bracket)?;
     if !(least > 0.0) {
         return None;
     }
+    let t = 0.5 * (sharp.low + sharp.high);
+    let width = sharp.high - sharp.low;
+    let (_, slope) = cubic.evaluate(t);
     let delta = -evaluate(positions, t) / slope;
-    let error = (cubic.error * VALUE_ERROR + 12.0 * permanent * width * width) / least
-        + delta.abs() * (slope_error / least + 8.0 * U);
+    let error = (cubic.error * VALUE_ERROR + cubic.curvature() * width * width) / least
+        + delta.abs() * (cubic.slope_error() / least + 8.0 * U);
     let Double { high, low } = two_sum(t, delta);
     let below = if low - error > 0.0 {
         high

@@ -1,6 +1,8 @@
 //! Stage 4: intervals that hold exactly one simple root of `f`, certified in `f64`.
 
-use super::cubic::Cubic;
+use super::cubic::{Cubic, have_one_sign};
+use super::motion::{larger, smaller};
+use super::separate::U;
 
 /// An interval that holds exactly one root of `f`, a simple one, strictly inside.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +26,14 @@ impl Brackets {
     }
 }
 
+/// What is certain about the roots in a half of `[0, 1]`.
+pub(super) struct Half {
+    /// A bracket of the root, if there is one.
+    pub(super) bracket: Bracket,
+    pub(super) has_none: bool,
+    pub(super) has_one: bool,
+}
+
 impl Cubic {
     /// Brackets of all roots in `[0, 1]`; `None` if some cannot be certified.
     pub(super) fn isolate(&self) -> Option<Brackets> {
@@ -36,36 +46,69 @@ impl Cubic {
             brackets: [empty; 3],
             count: 0,
         };
-        let part = Part {
+        self.isolate_in(self.whole(), &mut found)?;
+        Some(found)
+    }
+
+    /// Halves `part` until each piece has no root, or one that can be bracketed.
+    fn isolate_in(&self, part: Part, found: &mut Brackets) -> Option<()> {
+        let error = self.part_error();
+        if have_one_sign(&part.bernstein, error) {
+            return Some(());
+        }
+        let [falls, rises] = part.falls_or_rises(error);
+        if falls || rises {
+            let (bracket, is_certain) = self.bracket(&part, rises);
+            if is_certain {
+                *found.brackets.get_mut(found.count)? = bracket;
+                found.count += 1;
+                return Some(());
+            }
+        }
+        if part.depth == MAX_DEPTH {
+            return None;
+        }
+        let [lower, upper] = part.halves();
+        self.isolate_in(lower, found)?;
+        self.isolate_in(upper, found)
+    }
+
+    /// What is certain about the roots in each half of `[0, 1]`, without a branch.
+    #[inline(always)]
+    pub(super) fn halves(&self) -> [Half; 2] {
+        let [lower, upper] = self.whole().halves();
+        [self.half(&lower), self.half(&upper)]
+    }
+
+    #[inline(always)]
+    fn half(&self, part: &Part) -> Half {
+        let error = self.part_error();
+        let [falls, rises] = part.falls_or_rises(error);
+        let (bracket, is_certain) = self.bracket(part, rises);
+        Half {
+            bracket,
+            has_none: have_one_sign(&part.bernstein, error),
+            has_one: (falls | rises) & is_certain,
+        }
+    }
+
+    #[inline(always)]
+    fn whole(&self) -> Part {
+        Part {
             low: 0.0,
             high: 1.0,
             bernstein: self.bernstein,
             depth: 0,
-        };
-        self.isolate_in(part, &mut found)?;
-        Some(found)
+        }
     }
 
-    /// Halves `part` until each piece has no root or one.
-    fn isolate_in(&self, part: Part, found: &mut Brackets) -> Option<()> {
-        // Subdivision averages neighbours; each level of averages of magnitude B adds at most
-        // 3 u B, and 16 levels of it less than 48 u P, three times the bound that it starts from.
-        let error = self.error * 4.0;
-        match part.variation(error) {
-            Variation::None => Some(()),
-            Variation::One { is_rising } => {
-                let bracket = self.narrow(&part, is_rising)?;
-                *found.brackets.get_mut(found.count)? = bracket;
-                found.count += 1;
-                Some(())
-            }
-            Variation::Unclear if part.depth < MAX_DEPTH => {
-                let [lower, upper] = part.halves();
-                self.isolate_in(lower, found)?;
-                self.isolate_in(upper, found)
-            }
-            Variation::Unclear => None,
-        }
+    /// A bound on the error of the coefficients of parts.
+    ///
+    /// Subdivision averages neighbours; each level of averages of magnitude B adds at most `3 u B`,
+    /// and 16 levels of it less than `48 u P`, three times the bound that it starts from.
+    #[inline(always)]
+    fn part_error(&self) -> f64 {
+        4.0 * self.error
     }
 
     /// `f` and its derivative.
@@ -73,7 +116,10 @@ impl Cubic {
     /// Error bound of the value: `1 - t` is rounded once, a term of de Casteljau's sum passes at most
     /// eleven roundings more, so the value is within `12 u P` of that of the given coefficients and
     /// within `12 u P + error` of the exact one; [`Cubic::value_error`] is `2 error = 32 u P`.
-    #[inline]
+    ///
+    /// Of the derivative: three times the difference of two values, each within `25 u P` of the exact
+    /// one; [`Cubic::slope_error`] is `12 error = 192 u P`.
+    #[inline(always)]
     pub(super) fn evaluate(&self, t: f64) -> (f64, f64) {
         let [b0, b1, b2, b3] = self.bernstein;
         let s = 1.0 - t;
@@ -82,61 +128,123 @@ impl Cubic {
         (s * d0 + t * d1, 3.0 * (d1 - d0))
     }
 
+    #[inline(always)]
     fn value_error(&self) -> f64 {
         2.0 * self.error
     }
 
-    /// Narrows the interval around the one root in it, to what the error bound lets be certain.
-    fn narrow(&self, part: &Part, is_rising: bool) -> Option<Bracket> {
-        let (low, high) = (part.low, part.high);
-        let (mut a, mut b) = (low, high);
-        let mut t = part.chord();
-        let mut slope = 0.0;
+    pub(super) fn slope_error(&self) -> f64 {
+        12.0 * self.error
+    }
+
+    /// A short interval around the one root in a part, and whether it is certain to be one.
+    #[inline(always)]
+    fn bracket(&self, part: &Part, is_rising: bool) -> (Bracket, bool) {
+        let guess = part.guess();
+        let (_, slope) = self.evaluate(guess.t);
+        let distance = guess.distance + 2.0 * self.value_error() / slope.abs() + 2.0 * f64::EPSILON;
+        let part = Bracket {
+            low: part.low,
+            high: part.high,
+            is_rising,
+        };
+        self.within(&part, guess.t, distance)
+    }
+
+    /// The part of a bracket up to some distance from `t`, and whether the root is certain to be there.
+    #[inline(always)]
+    fn within(&self, bracket: &Bracket, t: f64, distance: f64) -> (Bracket, bool) {
+        let (low, high) = (
+            larger(t - distance, bracket.low),
+            smaller(t + distance, bracket.high),
+        );
+        let sign = if bracket.is_rising { 1.0 } else { -1.0 };
+        let (at_low, at_high) = (sign * self.evaluate(low).0, sign * self.evaluate(high).0);
+        let is_certain = (at_low < -self.value_error()) & (at_high > self.value_error());
+        (
+            Bracket {
+                low,
+                high,
+                ..*bracket
+            },
+            is_certain,
+        )
+    }
+
+    /// A bound on the magnitude of the second derivative: `6 (b0 - 2 b1 + b2)` at the start,
+    /// `6 (b1 - 2 b2 + b3)` at the end, linear in between.
+    ///
+    /// Each is computed with an error below `24 error` from the coefficients and `6 * 6 u P`, below
+    /// `3 error`, from its own roundings.
+    pub(super) fn curvature(&self) -> f64 {
+        let [b0, b1, b2, b3] = self.bernstein;
+        let (at_start, at_end) = ((b2 - b1) - (b1 - b0), (b3 - b2) - (b2 - b1));
+        6.0 * larger(at_start.abs(), at_end.abs()) + 32.0 * self.error
+    }
+
+    /// The least magnitude of the derivative in a bracket that holds a point where it is `slope`; 0 or
+    /// less, or NaN, if none is certain.
+    fn least_slope(&self, slope: f64, bracket: &Bracket) -> f64 {
+        let width = bracket.high - bracket.low;
+        (slope.abs() - self.slope_error() - self.curvature() * width) * (1.0 - 8.0 * U)
+    }
+
+    /// A bracket of the same root as small as `f64` can make it, and the least magnitude of the
+    /// derivative in it.
+    ///
+    /// From any `t` in the bracket the root is `f(t) / f'(x)` away, for some `x` in the bracket.
+    pub(super) fn sharpen(&self, bracket: &Bracket) -> Option<(Bracket, f64)> {
+        let mut bracket = *bracket;
+        let mut t = 0.5 * (bracket.low + bracket.high);
         for _ in 0..MAX_NEWTON {
-            let (value, derivative) = self.evaluate(t);
-            slope = derivative;
-            if value.abs() <= self.value_error() {
-                break;
+            let (value, slope) = self.evaluate(t);
+            let is_converged = value.abs() <= self.value_error();
+            if !is_converged {
+                // The sign of f is certain at t.
+                if (value > 0.0) == bracket.is_rising {
+                    bracket.high = t;
+                } else {
+                    bracket.low = t;
+                }
             }
-            if (value > 0.0) == is_rising {
-                b = t;
-            } else {
-                a = t;
+            let least = self.least_slope(slope, &bracket);
+            if least > 0.0 {
+                // The division and the sums below are rounded.
+                let distance = (value.abs() + self.value_error()) / least;
+                let distance = distance * (1.0 + 8.0 * U) + 2.0 * U;
+                bracket.low = larger(t - distance, bracket.low);
+                bracket.high = smaller(t + distance, bracket.high);
+                if is_converged {
+                    return Some((bracket, self.least_slope(slope, &bracket)));
+                }
+            } else if is_converged {
+                // The slope changes too much in the bracket.
+                let width = bracket.high - bracket.low;
+                let (narrower, is_certain) = self.within(&bracket, t, width / 64.0);
+                if !is_certain {
+                    return None;
+                }
+                bracket = narrower;
             }
-            let newton = t - value / derivative;
-            t = if newton > a && newton < b {
+            let newton = t - value / slope;
+            t = if newton > bracket.low && newton < bracket.high {
                 newton
             } else {
-                0.5 * (a + b)
+                0.5 * (bracket.low + bracket.high)
             };
-        }
-        let mut width = 2.0 * self.value_error() / slope.abs() + 2.0 * f64::EPSILON * t;
-        for _ in 0..MAX_WIDENINGS {
-            let (low, high) = ((t - width).max(low), (t + width).min(high));
-            let sign_is = |t: f64, positive: bool| {
-                let (value, _) = self.evaluate(t);
-                if positive {
-                    value > self.value_error()
-                } else {
-                    value < -self.value_error()
-                }
-            };
-            if sign_is(low, !is_rising) && sign_is(high, is_rising) {
-                return Some(Bracket {
-                    low,
-                    high,
-                    is_rising,
-                });
-            }
-            width *= 16.0;
         }
         None
     }
 }
 
+const MAX_NEWTON: u32 = 24;
 const MAX_DEPTH: u32 = 16;
-const MAX_NEWTON: usize = 24;
-const MAX_WIDENINGS: usize = 3;
+
+/// Where a root may be, and about how far away from there at most.
+struct Guess {
+    t: f64,
+    distance: f64,
+}
 
 /// `f` on a part of `[0, 1]`.
 #[derive(Clone, Copy)]
@@ -147,43 +255,45 @@ struct Part {
     depth: u32,
 }
 
-/// What the signs of the Bernstein coefficients say about roots (Descartes' rule).
-enum Variation {
-    None,
-    One { is_rising: bool },
-    Unclear,
-}
-
 impl Part {
-    /// Where the chord from end to end crosses 0: a first guess.
-    fn chord(&self) -> f64 {
-        let [at_low, _, _, at_high] = self.bernstein;
-        let guess = self.low + (self.high - self.low) * (at_low / (at_low - at_high));
-        if guess > self.low && guess < self.high {
-            guess
-        } else {
-            0.5 * (self.low + self.high)
+    /// Two steps of Halley's method from where the chord from end to end crosses 0. Each about triples
+    /// the digits that are right, so the error that is left is far below the last step squared.
+    #[inline(always)]
+    fn guess(&self) -> Guess {
+        let [b0, b1, b2, b3] = self.bernstein;
+        // f = b0 + a1 x + a2 x^2 + a3 x^3 for x from 0 to 1.
+        let (a1, a2) = (3.0 * (b1 - b0), 3.0 * ((b2 - b1) - (b1 - b0)));
+        let a3 = (b3 - b0) - 3.0 * (b2 - b1);
+        let step = |x: f64| {
+            let inner = a2 + x * a3;
+            let f = b0 + x * (a1 + x * inner);
+            let slope = a1 + x * (inner + (inner + x * a3));
+            let half_curvature = inner + 2.0 * x * a3;
+            f * slope / (slope * slope - f * half_curvature)
+        };
+        let inside = |x: f64| smaller(larger(x, 0.0), 1.0);
+        let chord = b0 / (b0 - b3);
+        let first = inside(chord - step(chord));
+        let last = step(first);
+        let length = self.high - self.low;
+        Guess {
+            t: self.low + length * inside(first - last),
+            distance: length * last * last,
         }
     }
 
-    fn variation(&self, error: f64) -> Variation {
+    /// Whether `f` certainly has one root in the part, a simple one, and falls or rises through it
+    /// (Descartes' rule): the signs are `+ ? ? -`, which is one change unless the middle may be `- +`.
+    #[inline(always)]
+    fn falls_or_rises(&self, error: f64) -> [bool; 2] {
         let [b0, b1, b2, b3] = self.bernstein;
-        let positive = [b0, b1, b2, b3].map(|b| b > error);
-        let negative = [b0, b1, b2, b3].map(|b| b < -error);
-        match (positive, negative) {
-            ([true, true, true, true], _) | (_, [true, true, true, true]) => Variation::None,
-            // Signs +, ?, ?, -: one change whatever the middle is, unless it may be -, +.
-            ([true, _, _, false], [false, _, _, true]) if positive[1] || negative[2] => {
-                Variation::One { is_rising: false }
-            }
-            ([false, _, _, true], [true, _, _, false]) if negative[1] || positive[2] => {
-                Variation::One { is_rising: true }
-            }
-            _ => Variation::Unclear,
-        }
+        let falls = (b0 > error) & (b3 < -error) & ((b1 > error) | (b2 < -error));
+        let rises = (b0 < -error) & (b3 > error) & ((b1 < -error) | (b2 > error));
+        [falls, rises]
     }
 
     /// De Casteljau's algorithm at the middle.
+    #[inline(always)]
     fn halves(&self) -> [Part; 2] {
         let [b0, b1, b2, b3] = self.bernstein;
         let (c0, c1, c2) = (0.5 * (b0 + b1), 0.5 * (b1 + b2), 0.5 * (b2 + b3));

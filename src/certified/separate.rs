@@ -1,6 +1,7 @@
 //! Stages 1 and 2: proofs that two moving edges stay apart.
 
-use super::motion::{Motion, Positions, Vector, add, dot, larger, smaller, sub};
+use super::ends::Ends;
+use super::motion::{Motion, Vector, add, both, dot, sub};
 
 /// The boxes around two swept edges.
 #[derive(Clone, Copy, Debug)]
@@ -14,15 +15,14 @@ pub(super) struct SweptBoxes {
 
 impl SweptBoxes {
     #[inline(always)]
-    pub(super) fn new(positions: &Positions) -> Self {
-        let ([a, b, c, d], [e, f, g, h]) = (&positions.start, &positions.end);
+    pub(super) fn new<E: Ends>([a, b, c, d]: &[[E; 3]; 4]) -> Self {
         let axis = |i: usize| {
-            let low = smaller(smaller(a[i], b[i]), smaller(e[i], f[i]));
-            let high = larger(larger(a[i], b[i]), larger(e[i], f[i]));
-            let other_low = smaller(smaller(c[i], d[i]), smaller(g[i], h[i]));
-            let other_high = larger(larger(c[i], d[i]), larger(g[i], h[i]));
-            let is_apart = (high < other_low) | (other_high < low);
-            (is_apart, larger(high, other_high) - smaller(low, other_low))
+            // Of AB and of CD: at both ends of the step, then over the step.
+            let [low, end_low] = a[i].smaller(b[i]).transposed(c[i].smaller(d[i]));
+            let [high, end_high] = a[i].larger(b[i]).transposed(c[i].larger(d[i]));
+            let (low, high) = (low.smaller(end_low), high.larger(end_high));
+            let [x, y] = low.swapped().is_above(high);
+            (x | y, high.largest() - low.least())
         };
         let ((x, x_extent), (y, y_extent), (z, z_extent)) = (axis(0), axis(1), axis(2));
         SweptBoxes {
@@ -32,15 +32,15 @@ impl SweptBoxes {
     }
 }
 
-impl Motion {
+impl<E: Ends> Motion<E> {
     /// Whether the direction from the middle of one edge's motion to the other's separates them.
     #[inline(always)]
     pub(super) fn is_separated_by_centres(&self, boxes: &SweptBoxes) -> bool {
         // C + D - A - B at both ends of the step, up to rounding that does no harm: any direction
         // will do.
-        let m = add(&self.m[0], &self.m[1]);
-        let rest = sub(&add(&self.l[0], &self.l[1]), &add(&self.k[0], &self.k[1]));
-        self.is_separated_by(add(&add(&m, &m), &rest), boxes)
+        let rest = sub(&self.l, &self.k);
+        let [x, y, z] = add(&add(&self.m, &self.m), &rest);
+        self.is_separated_by([x.sum(), y.sum(), z.sum()], boxes)
     }
 
     /// Whether `d` separates the edges for the whole step: `X . d` is larger for C and D than for A
@@ -55,21 +55,17 @@ impl Motion {
     /// Stability of Numerical Algorithms, 3.1), with the rounded difference `5.2 u S`. There are three
     /// of them, and two more sums of values up to `3 S`: below `22 u S`. `S` is computed with a
     /// relative error below `6 u`. A product that underflows is off by at most `2^-1075`, absorbed by
-    /// `TINY`. If something overflows, the bound is infinite or NaN: no claim.
+    /// `TINY`. Nothing overflows while the bound is below `2^960`, so `S` below `2^1009`; else, NaN
+    /// included, there is no claim.
     #[inline(always)]
     fn is_separated_by(&self, d: Vector, boxes: &SweptBoxes) -> bool {
-        const TINY: f64 = 1e-300;
         let size = |i: usize| boxes.extent[i] * d[i].abs();
         let bound = (size(0) + size(1) + size(2)) * (24.0 * U) + TINY;
-        let margin = |end: usize| {
-            let (k, l, m) = (
-                dot(&self.k[end], &d),
-                dot(&self.l[end], &d),
-                dot(&self.m[end], &d),
-            );
-            m + smaller(l, 0.0) - larger(k, 0.0)
-        };
-        (margin(0) > bound) & (margin(1) > bound) & (bound < f64::INFINITY)
+        let d = both(&d);
+        let (k, l, m) = (dot(&self.k, &d), dot(&self.l, &d), dot(&self.m, &d));
+        let margin = m + l.smaller(E::both(0.0)) - k.larger(E::both(0.0));
+        let [at_start, at_end] = margin.is_above(E::both(bound));
+        at_start & at_end & (bound < LARGEST)
     }
 
     /// Looks for a separating direction: a few steps towards the point of the convex hull of the eight
@@ -77,12 +73,24 @@ impl Motion {
     /// for computing the minimum of a quadratic form on a convex set"). Costs more than the cubic, so it
     /// comes last, before the exact stage.
     pub(super) fn is_separated_by_search(&self, boxes: &SweptBoxes) -> bool {
-        let mut corners = [[0.0; 3]; 8];
-        for end in 0..2 {
-            let (k, l, m) = (&self.k[end], &self.l[end], &self.m[end]);
-            let to_d = add(m, l);
-            corners[4 * end..4 * end + 4].copy_from_slice(&[*m, to_d, sub(m, k), sub(&to_d, k)]);
-        }
+        self.search(boxes, SEARCH_STEPS)
+    }
+    pub(super) fn search(&self, boxes: &SweptBoxes, n: usize) -> bool {
+        let (k, l, m) = (&self.k, &self.l, &self.m);
+        let to_d = add(m, l);
+        let [p, q, r, s] = [*m, to_d, sub(m, k), sub(&to_d, k)];
+        let start = |x: [E; 3]| x.map(E::start);
+        let end = |x: [E; 3]| x.map(E::end);
+        let corners = [
+            start(p),
+            start(q),
+            start(r),
+            start(s),
+            end(p),
+            end(q),
+            end(r),
+            end(s),
+        ];
         let mut nearest = [0.0; 3];
         for corner in &corners {
             nearest = add(
@@ -90,7 +98,7 @@ impl Motion {
                 &[corner[0] / 8.0, corner[1] / 8.0, corner[2] / 8.0],
             );
         }
-        for _ in 0..SEARCH_STEPS {
+        for _ in 0..n {
             let support = corners
                 .iter()
                 .min_by(|x, y| dot(x, &nearest).total_cmp(&dot(y, &nearest)));
@@ -115,5 +123,10 @@ impl Motion {
 
 /// Half the distance from 1 to the next `f64`: the largest relative error of one rounding.
 pub(super) const U: f64 = f64::EPSILON / 2.0;
+
+/// Far above what underflow adds.
+const TINY: f64 = 1e-300;
+
+const LARGEST: f64 = f64::from_bits((1023 + 960) << 52);
 
 const SEARCH_STEPS: usize = 6;

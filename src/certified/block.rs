@@ -1,0 +1,133 @@
+//! The first stages of the cascade for many queries at once.
+//!
+//! They are arithmetic without branches, so over arrays the compiler does several queries in one
+//! instruction, as many as the registers of the target hold.
+
+use std::array;
+
+use super::cascade::Stage;
+use super::cubic::Cubic;
+use super::ends::{Ends, Plain};
+use super::motion::Motion;
+use super::separate::SweptBoxes;
+
+/// How many queries go through a stage together: enough that few lanes are idle in the later stages,
+/// few enough that their coordinates stay in the cache.
+pub(super) const BLOCK: usize = 256;
+
+/// How many queries lie side by side: a few registers, whatever the processor.
+const LANES: usize = 8;
+
+/// The coordinates of [`LANES`] queries.
+type Tile = [[f64; LANES]; 24];
+
+/// Queries that go through the first stages together; those that a stage decides are taken out.
+pub(super) struct Block {
+    tiles: [Tile; BLOCK / LANES],
+    /// Which queries are still open, ascending.
+    open: [u16; BLOCK],
+    count: usize,
+}
+
+impl Block {
+    pub(super) fn new() -> Self {
+        Block {
+            tiles: [[[0.0; LANES]; 24]; BLOCK / LANES],
+            open: [0; BLOCK],
+            count: 0,
+        }
+    }
+
+    /// Takes up to [`BLOCK`] queries. Lanes without one keep what they had, which does no harm.
+    pub(super) fn fill(&mut self, coordinates: [&[f64]; 24]) {
+        self.count = coordinates[0].len();
+        self.open = array::from_fn(|i| i as u16);
+        for (row, array) in coordinates.into_iter().enumerate() {
+            let (whole, rest) = array.as_chunks::<LANES>();
+            for (tile, lanes) in self.tiles.iter_mut().zip(whole) {
+                tile[row] = *lanes;
+            }
+            if let Some(tile) = self.tiles.get_mut(whole.len()) {
+                tile[row][..rest.len()].copy_from_slice(rest);
+            }
+        }
+    }
+
+    pub(super) fn open(&self) -> &[u16] {
+        &self.open[..self.count]
+    }
+
+    /// The first three stages, and the fourth as far as it goes without a branch: a miss at the only
+    /// root.
+    #[inline(never)]
+    pub(super) fn screen(&mut self, observe: &mut impl FnMut(Stage)) {
+        let apart = self.each(|points| {
+            let boxes = SweptBoxes::new(points);
+            let is_separated = Motion::new(points).is_separated_by_centres(&boxes);
+            [boxes.are_disjoint, is_separated]
+        });
+        self.take_out([Stage::Boxes, Stage::Direction], &apart, observe);
+        let signs = self.each(|points| {
+            let cubic = Cubic::unchecked(&Motion::new(points));
+            [cubic.is_valid() & cubic.has_no_root()]
+        });
+        self.take_out([Stage::Signs], &signs, observe);
+        let roots = self.each(|points| {
+            let motion = Motion::new(points);
+            let cubic = Cubic::unchecked(&motion);
+            let [lower, upper] = cubic.halves();
+            let is_apart = motion.is_apart_in(&cubic, &lower) & motion.is_apart_in(&cubic, &upper);
+            [cubic.is_valid() & is_apart]
+        });
+        self.take_out([Stage::Roots], &roots, observe);
+    }
+
+    /// What tests say of each open query; beyond these it means nothing. The compiler puts several
+    /// queries into a register, as long as the tests have no branch.
+    #[inline(always)]
+    fn each<const N: usize>(
+        &self,
+        tests: impl Fn(&[[Plain; 3]; 4]) -> [bool; N],
+    ) -> [[[bool; N]; LANES]; BLOCK / LANES] {
+        let mut answers = [[[false; N]; LANES]; BLOCK / LANES];
+        let tiles = self.tiles.iter().take(self.count.div_ceil(LANES));
+        for (tile, answers) in tiles.zip(&mut answers) {
+            for i in 0..LANES {
+                let of = |row: usize| Plain::new(tile[row][i], tile[row + 12][i]);
+                let at = |row: usize| [of(row), of(row + 1), of(row + 2)];
+                answers[i] = tests(&[at(0), at(3), at(6), at(9)]);
+            }
+        }
+        answers
+    }
+
+    /// Takes out the queries that a stage decided.
+    #[inline(always)]
+    fn take_out<const N: usize>(
+        &mut self,
+        stages: [Stage; N],
+        decided: &[[[bool; N]; LANES]; BLOCK / LANES],
+        observe: &mut impl FnMut(Stage),
+    ) {
+        let mut kept = [0; BLOCK];
+        let mut count = 0;
+        for (i, decided) in decided.as_flattened().iter().enumerate().take(self.count) {
+            let stage = stages
+                .iter()
+                .zip(decided)
+                .find(|(_, is_decided)| **is_decided);
+            if let Some((stage, _)) = stage {
+                observe(*stage);
+            }
+            kept[count] = i;
+            count += usize::from(stage.is_none());
+        }
+        for (i, &from) in kept[..count].iter().enumerate() {
+            for row in 0..24 {
+                self.tiles[i / LANES][row][i % LANES] = self.tiles[from / LANES][row][from % LANES];
+            }
+            self.open[i] = self.open[from];
+        }
+        self.count = count;
+    }
+}
