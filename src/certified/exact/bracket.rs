@@ -1,12 +1,14 @@
 //! A simple root between two numbers, narrowed as far as a question about it needs.
 //!
-//! Floating point proposes where the root is; exact signs at both sides of the proposal prove it. A
-//! bad proposal costs time only: halving always goes on.
+//! Quadratic interval refinement (Abbott, "Quadratic interval refinement for real roots", 2006): a chord
+//! says in which of `2^bits` cells the root should be, exact signs at the cell's ends say whether it is.
+//! A cell that is right squares the number of cells, one that is wrong takes its root; two cells are
+//! halving, which always goes on.
 
 use std::cmp::Ordering;
 
 use super::dyadic::Dyadic;
-use super::guess::{between, guess_root, slope};
+use super::guess::between;
 use super::integer::{Integer, ratio, scale};
 use super::poly::Poly;
 use super::sturm;
@@ -23,6 +25,8 @@ pub(super) struct Bracket<'a> {
     is_low_proved: bool,
     /// Whether the polynomial is known not to be 0 at `high`.
     is_high_proved: bool,
+    /// The logarithm of the number of cells that the next step tries.
+    bits: u32,
 }
 
 /// A root compared with the `f64`s.
@@ -33,8 +37,8 @@ pub(super) enum Settled {
     Between(f64, f64),
 }
 
-/// The fraction bits of a proposal beyond the last bit of an `f64`.
-const EXTRA_BITS: i64 = 64;
+/// The most bits that a chord is worth, computed in floating point.
+pub(super) const MOST_BITS: u32 = 48;
 
 impl<'a> Bracket<'a> {
     /// The only root of `poly` strictly between `low` and `high`; `before` is the sign between `low`
@@ -47,6 +51,8 @@ impl<'a> Bracket<'a> {
             high,
             is_low_proved: false,
             is_high_proved: false,
+            // A line is its own chord.
+            bits: if poly.degree() == 1 { MOST_BITS } else { 1 },
         }
     }
 
@@ -61,29 +67,78 @@ impl<'a> Bracket<'a> {
 
     /// Narrows it to between two neighbours in `f64`, and such that neither end is a root.
     pub(super) fn settle(&mut self) -> Settled {
-        if let Some(at) = self.propose() {
-            return Settled::At(at);
-        }
         loop {
             let (below, above) = (self.low.below(), self.high.above());
-            let Some(cut) = between(below, above) else {
-                self.prove_ends();
-                return Settled::Between(below, above);
+            let met = match between(below, above) {
+                None if self.is_low_proved && self.is_high_proved => {
+                    return Settled::Between(below, above);
+                }
+                // The root may be the only one that there is between them.
+                Some(cut) if below.next_up() == cut => self.meet(Dyadic::from_f64(cut)),
+                _ => self.refine(),
             };
-            let cut = Dyadic::from_f64(cut);
-            if self.cut(&cut).is_eq() {
-                return Settled::At(cut);
+            if let Some(at) = met {
+                return Settled::At(at);
             }
         }
+    }
+
+    /// Compares the root with a number strictly between the ends, if it is that; returns the root if
+    /// that is it.
+    fn meet(&mut self, at: Dyadic) -> Option<Dyadic> {
+        let is_inside = at.compare(&self.low).is_gt() && at.compare(&self.high).is_lt();
+        (is_inside && self.cut(&at).is_eq()).then_some(at)
+    }
+
+    /// Narrows it to one of its cells, or to what lies on one side of that. Returns the root if it is
+    /// met.
+    fn refine(&mut self) -> Option<Dyadic> {
+        let own = self.low.exponent.max(self.high.exponent);
+        let exponent = own + u64::from(self.bits);
+        let start = self.low.numerator.shifted(exponent - self.low.exponent);
+        let mut width = self.high.numerator.shifted(own - self.high.exponent);
+        width.sub_shifted(&self.low.numerator, own - self.low.exponent);
+        let cells = 1u64 << self.bits;
+        let index = ((self.chord() * cells as f64) as u64).min(cells - 1);
+        let end = |index: u64| {
+            let mut at = start.clone();
+            at.add_shifted(&Integer::product(&width, &i128::from(index).into()), 0);
+            Dyadic::new(at, exponent)
+        };
+        let mut is_right = true;
+        for (index, side) in [(index, Ordering::Greater), (index + 1, Ordering::Less)] {
+            if is_right && index > 0 && index < cells {
+                let at = end(index);
+                let order = self.cut(&at);
+                if order.is_eq() {
+                    return Some(at);
+                }
+                is_right = order == side;
+            }
+        }
+        self.bits = if is_right {
+            (2 * self.bits).min(MOST_BITS)
+        } else {
+            (self.bits / 2).max(1)
+        };
+        None
+    }
+
+    /// Where between the ends the chord of the polynomial is 0; not a number if it is 0 at both ends.
+    fn chord(&self) -> f64 {
+        let value = |at: &Dyadic| {
+            let (value, exponent) = self.poly.evaluate(at).approximate();
+            let degree = self.poly.degree() as i64;
+            (value.abs(), exponent - at.exponent as i64 * degree)
+        };
+        let ((low, low_exponent), (high, high_exponent)) = (value(&self.low), value(&self.high));
+        1.0 / (1.0 + scale(high / low, high_exponent - low_exponent))
     }
 
     /// Compares the root with a number strictly between the ends, which becomes one of them unless
     /// it is the root.
     fn cut(&mut self, at: &Dyadic) -> Ordering {
-        self.cut_by_sign(at, self.poly.sign_at(at))
-    }
-
-    fn cut_by_sign(&mut self, at: &Dyadic, sign: Ordering) -> Ordering {
+        let sign = self.poly.sign_at(at);
         if sign.is_eq() {
             Ordering::Equal
         } else if sign == self.before {
@@ -94,89 +149,6 @@ impl<'a> Bracket<'a> {
             self.high = at.clone();
             self.is_high_proved = true;
             Ordering::Less
-        }
-    }
-
-    /// [`cut`](Self::cut) where the number is strictly between the ends; what is known without that
-    /// elsewhere.
-    fn cut_or_compare(&mut self, at: &Dyadic) -> Ordering {
-        if at.compare(&self.low).is_le() {
-            Ordering::Greater
-        } else if at.compare(&self.high).is_ge() {
-            Ordering::Less
-        } else {
-            self.cut(at)
-        }
-    }
-
-    /// Narrows it around a root in floating point, corrected by a Newton step from the exact value
-    /// there. Returns the root if it is met.
-    fn propose(&mut self) -> Option<Dyadic> {
-        let (coefficients, bits) = self.poly.approximate();
-        let guess = guess_root(
-            &coefficients,
-            self.low.below(),
-            self.high.above(),
-            self.before,
-        );
-        let at = Dyadic::from_f64(guess);
-        if at.compare(&self.low).is_le() || at.compare(&self.high).is_ge() {
-            return None;
-        }
-        let value = self.poly.evaluate(&at);
-        if self.cut_by_sign(&at, value.sign()).is_eq() {
-            return Some(at);
-        }
-        let (value, exponent) = value.approximate();
-        let own = at.exponent as i64 * self.poly.degree() as i64;
-        let step = -scale(value, exponent - own - bits) / slope(&coefficients, guess);
-        self.propose_around(&at, guess, step)
-    }
-
-    /// Narrows it around `at + step`, in ever wider intervals until one holds the root.
-    fn propose_around(&mut self, at: &Dyadic, guess: f64, step: f64) -> Option<Dyadic> {
-        let grid = EXTRA_BITS - ulp_exponent(guess);
-        let offset = scale(step, grid);
-        // Beyond this the proposal is no better than halving.
-        if offset.is_nan() || offset.abs() >= 2f64.powi(100) {
-            return None;
-        }
-        let offset = offset as i128;
-        let grid = grid.unsigned_abs();
-        let mut centre = at.numerator.shifted(grid - at.exponent);
-        centre.add_shifted(&Integer::from(offset), 0);
-        let mut reach = (offset.abs() >> 24) + (1 << 24);
-        while reach < 1 << 100 {
-            let reached = Integer::from(reach);
-            let low = Dyadic::new(Integer::difference(&centre, &reached), grid);
-            let high = Dyadic::new(Integer::sum(&centre, &reached), grid);
-            let (from_low, from_high) = (self.cut_or_compare(&low), self.cut_or_compare(&high));
-            match (from_low, from_high) {
-                (Ordering::Equal, _) => return Some(low),
-                (_, Ordering::Equal) => return Some(high),
-                (Ordering::Greater, Ordering::Less) => return None,
-                _ => reach <<= 16,
-            }
-        }
-        None
-    }
-
-    /// Narrows it until neither end is a root.
-    fn prove_ends(&mut self) {
-        self.is_low_proved = self.is_low_proved || self.poly.sign_at(&self.low).is_ne();
-        self.is_high_proved = self.is_high_proved || self.poly.sign_at(&self.high).is_ne();
-        while !(self.is_low_proved && self.is_high_proved) {
-            self.halve();
-        }
-    }
-
-    /// Halves it, or takes the middle half where the root is its centre.
-    fn halve(&mut self) {
-        let middle = Dyadic::middle(&self.low, &self.high);
-        if self.cut(&middle).is_eq() {
-            self.low = Dyadic::middle(&self.low, &middle);
-            self.high = Dyadic::middle(&middle, &self.high);
-            (self.is_low_proved, self.is_high_proved) = (true, true);
         }
     }
 
@@ -254,7 +226,7 @@ impl<'a> Bracket<'a> {
     /// is between two numbers, each known up to 3/2 2^-52; the middle of what is known of them is
     /// taken once these are not more than 4 2^-52 apart, which adds 2 2^-52, and is rounded.
     ///
-    /// It ends: the denominator is not 0 at the root, so that halving brings the two numbers together
+    /// It ends: the denominator is not 0 at the root, so that narrowing brings the two numbers together
     /// as near as one likes. What is known of each then differs by a unit in the last place, 2^-52,
     /// in numerator, denominator and quotient: by not more than 3 2^-52.
     pub(super) fn quotient(&self, n: &Poly, d: &Poly) -> f64 {
@@ -263,8 +235,8 @@ impl<'a> Bracket<'a> {
             if let Some(value) = bracket.try_quotient(n, d) {
                 return value;
             }
-            for _ in 0..32 {
-                bracket.halve();
+            if let Some(at) = bracket.refine() {
+                return exact_ratio(n.evaluate_as(2, &at), d.evaluate_as(2, &at));
             }
         }
     }
@@ -295,7 +267,11 @@ impl<'a> Bracket<'a> {
     }
 }
 
-/// The exponent of the unit in the last place of an `f64` above 0.
-fn ulp_exponent(value: f64) -> i64 {
-    ((value.to_bits() >> 52 & 0x7ff) as i64).max(1) - 1075
+/// `n / d` of two integers whose quotient is in `[0, 1]`.
+pub(super) fn exact_ratio(mut n: Integer, mut d: Integer) -> f64 {
+    if d.sign().is_lt() {
+        n.negate();
+        d.negate();
+    }
+    ratio(&n, &d).min(1.0)
 }

@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 
 use crate::contact::ContactKind;
 
-use super::curve::Curve;
+use super::curve::{Curve, bernstein_signs};
 use super::lane::{Lane, Number};
 use super::locus::Locus;
 use super::motion::{End, Motion, Quadratic};
@@ -70,11 +70,23 @@ fn crosses<L: Lane>(ends: &[End<L>; 4], toi: &Time<L>, locus: &Locus<L>) -> bool
 
 impl<L: Lane> End<L> {
     /// A polynomial that is 0 where the end comes onto the other edge: a component of the turn that is
-    /// not identically 0, else `between`; `None` if that is identically 0 as well.
+    /// not identically 0, else `between`; `None` if that is identically 0 as well, or if plainly the end
+    /// never does.
     fn candidates(&self) -> Option<Curve<L>> {
+        if self.stays_away() {
+            return None;
+        }
         let moves = |q: &&Quadratic<L>| !q.iter().all(Number::is_zero);
         let mut all = self.turn.iter().chain([&self.between]);
         all.find(moves).map(|q| Curve::Quadratic(q.clone()))
+    }
+
+    /// Whether Bernstein coefficients of one sign show that the end is never on the other edge: those
+    /// of a component of the turn, or those of `between` if that is above 0.
+    fn stays_away(&self) -> bool {
+        let keeps = |q: &Quadratic<L>, sign| bernstein_signs::<L>(q) == [sign; 3];
+        let is_never_0 = |q| keeps(q, Ordering::Less) || keeps(q, Ordering::Greater);
+        keeps(&self.between, Ordering::Greater) || self.turn.iter().any(is_never_0)
     }
 
     /// Whether the end is on the line of the other edge for the whole step, or that is a point.

@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
+use super::fraction::Fraction;
 use super::lane::{Lane, Number};
 use super::motion::{Cubic, Quadratic};
 use super::poly::Poly;
@@ -19,12 +20,7 @@ impl<L: Lane> Curve<L> {
     /// The signs of the Bernstein coefficients on `[0, 1]`.
     pub(super) fn bernstein_signs(&self) -> SmallVec<[Ordering; 4]> {
         match self {
-            Curve::Quadratic([c0, c1, c2]) => {
-                // 2 c0, 2 c0 + c1, 2 (c0 + c1 + c2)
-                let both = c0.add(c1);
-                let signs = [c0.sign(), both.add(c0).sign(), both.add(c2).sign()];
-                SmallVec::from_slice(&signs)
-            }
+            Curve::Quadratic(c) => SmallVec::from_slice(&bernstein_signs::<L>(c)),
             Curve::Cubic([c0, c1, c2, c3]) => {
                 // 3 c0, 3 c0 + c1, 3 c0 + 2 c1 + c2, 3 (c0 + c1 + c2 + c3)
                 let both = c0.add(c1);
@@ -79,6 +75,14 @@ impl<L: Lane> Curve<L> {
         }
     }
 
+    /// Whether a fraction is a root.
+    pub(super) fn is_root(&self, at: Fraction) -> bool {
+        match self {
+            Curve::Quadratic(c) => L::quadratic_at_fraction(c, at).is_zero(),
+            Curve::Cubic(c) => L::cubic_at_fraction(c, at).is_zero(),
+        }
+    }
+
     /// The same polynomial.
     pub(super) fn to_poly(&self) -> Poly {
         match self {
@@ -86,4 +90,11 @@ impl<L: Lane> Curve<L> {
             Curve::Cubic(c) => Poly::new(c),
         }
     }
+}
+
+/// The signs of the Bernstein coefficients on `[0, 1]`.
+pub(super) fn bernstein_signs<L: Lane>([c0, c1, c2]: &Quadratic<L>) -> [Ordering; 3] {
+    // 2 c0, 2 c0 + c1, 2 (c0 + c1 + c2)
+    let both = c0.add(c1);
+    [c0.sign(), both.add(c0).sign(), both.add(c2).sign()]
 }

@@ -66,18 +66,6 @@ impl Dyadic {
         (scale(mantissa as f64, unit), is_exact)
     }
 
-    /// The number in the middle of two.
-    pub(super) fn middle(a: &Dyadic, b: &Dyadic) -> Dyadic {
-        let (low, high) = if a.exponent < b.exponent {
-            (a, b)
-        } else {
-            (b, a)
-        };
-        let mut sum = high.numerator.clone();
-        sum.add_shifted(&low.numerator, high.exponent - low.exponent);
-        Dyadic::new(sum, high.exponent + 1)
-    }
-
     /// `self` compared with `other`.
     pub(super) fn compare(&self, other: &Dyadic) -> Ordering {
         let common = self.exponent.max(other.exponent);
@@ -109,4 +97,4 @@ pub(super) fn decompose(value: f64) -> (i64, i32) {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -15,7 +15,7 @@ pub(super) fn guess_root(c: &[f64; 4], low: f64, high: f64, before: Ordering) ->
             high = t;
         }
         let newton = t - value / slope(c, t);
-        let next = if newton > low && newton < high {
+        let next = if newton >= low && newton <= high {
             newton
         } else {
             0.5 * (low + high)
@@ -43,14 +43,24 @@ pub(super) fn between(below: f64, above: f64) -> Option<f64> {
 /// Where in `(0, 1)` a polynomial of the sign `first` at both ends comes nearest to the other sign,
 /// or farthest into it.
 pub(super) fn turning_point(c: &[f64; 4], first: Ordering) -> Option<f64> {
-    // The roots of 3 c3 t^2 + 2 c2 t + c1, by the formula that does not cancel.
-    let (a, half_b) = (3.0 * c[3], c[2]);
-    let root = (half_b * half_b - a * c[1]).sqrt();
-    let sum = -(half_b + root.copysign(half_b));
     let value = |t: f64| ((c[3] * t + c[2]) * t + c[1]) * t + c[0];
     let depth = |t: &f64| if first.is_lt() { value(*t) } else { -value(*t) };
-    let inside = [sum / a, c[1] / sum]
+    let inside = turning_points(c)
         .into_iter()
         .filter(|&t| t > 0.0 && t < 1.0);
     inside.max_by(|s, t| depth(s).total_cmp(&depth(t)))
+}
+
+/// Where a multiple root of a cubic would be: the roots of the derivative, and that of the second one.
+pub(super) fn multiple_roots(c: &[f64; 4]) -> [f64; 3] {
+    let [first, second] = turning_points(c);
+    [first, second, -c[2] / (3.0 * c[3])]
+}
+
+/// The roots of the derivative, `3 c3 t^2 + 2 c2 t + c1`, by the formula that does not cancel.
+fn turning_points(c: &[f64; 4]) -> [f64; 2] {
+    let (a, half_b) = (3.0 * c[3], c[2]);
+    let root = (half_b * half_b - a * c[1]).sqrt();
+    let sum = -(half_b + root.copysign(half_b));
+    [sum / a, c[1] / sum]
 }

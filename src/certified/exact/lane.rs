@@ -18,7 +18,8 @@
 
 use std::cmp::Ordering;
 
-use super::integer::{Integer, TWO_64, add_limbs, multiply_add, subtract_limbs};
+use super::fraction::Fraction;
+use super::integer::{Integer, add_limbs, multiply_add, subtract_limbs};
 
 /// Exact numbers of one width.
 pub(super) trait Number: Clone {
@@ -62,7 +63,16 @@ pub(super) trait Lane {
     fn quadratic_at(c: &[Self::Quadratic; 3], tick: u128) -> Self::QuadraticValue;
     /// `2^384` times the value of `c[0] + c[1] t + c[2] t^2 + c[3] t^3` at `t = tick / 2^128`.
     fn cubic_at(c: &[Self::Cubic; 4], tick: u128) -> Self::CubicValue;
+    /// The same number; a value can be doubled [`DOUBLINGS`] times beyond the largest coefficient.
+    fn widened(c: &Self::Cubic) -> Self::CubicValue;
+    /// `d^2` times the value of the same quadratic at `t = n / d`.
+    fn quadratic_at_fraction(c: &[Self::Quadratic; 3], at: Fraction) -> Self::QuadraticValue;
+    /// `d^3` times the value of the same cubic at `t = n / d`.
+    fn cubic_at_fraction(c: &[Self::Cubic; 4], at: Fraction) -> Self::CubicValue;
 }
+
+/// See [`Lane::widened`].
+pub(super) const DOUBLINGS: u32 = 384;
 
 /// Widths of `L`, `Q` and `C` limbs for the coefficients, `Q + 4` and `C + 6` for the values.
 pub(super) struct Fixed<
@@ -124,6 +134,18 @@ impl<const L: usize, const Q: usize, const C: usize, const QV: usize, const CV: 
     fn cubic_at(c: &[Wide<C>; 4], tick: u128) -> Wide<CV> {
         horner(c, tick)
     }
+
+    fn widened(c: &Wide<C>) -> Wide<CV> {
+        Wide(shifted_limbs(c, 0))
+    }
+
+    fn quadratic_at_fraction(c: &[Wide<Q>; 3], at: Fraction) -> Wide<QV> {
+        horner_fraction(c, at)
+    }
+
+    fn cubic_at_fraction(c: &[Wide<C>; 4], at: Fraction) -> Wide<CV> {
+        horner_fraction(c, at)
+    }
 }
 
 impl Lane for Unlimited {
@@ -152,6 +174,18 @@ impl Lane for Unlimited {
     fn cubic_at(c: &[Integer; 4], tick: u128) -> Integer {
         horner_unlimited(c, tick)
     }
+
+    fn widened(c: &Integer) -> Integer {
+        c.clone()
+    }
+
+    fn quadratic_at_fraction(c: &[Integer; 3], at: Fraction) -> Integer {
+        horner_fraction_unlimited(c, at)
+    }
+
+    fn cubic_at_fraction(c: &[Integer; 4], at: Fraction) -> Integer {
+        horner_fraction_unlimited(c, at)
+    }
 }
 
 /// An integer of `N` limbs in two's complement, the least significant limb first.
@@ -176,8 +210,18 @@ impl<const N: usize> Wide<N> {
     }
 }
 
+impl<const N: usize> From<i64> for Wide<N> {
+    #[inline]
+    fn from(value: i64) -> Self {
+        let mut limbs = [(value >> 63) as u64; N];
+        limbs[0] = value as u64;
+        Wide(limbs)
+    }
+}
+
 impl<const N: usize> From<i128> for Wide<N> {
     /// The lowest limbs; the caller knows that they are enough.
+    #[inline]
     fn from(value: i128) -> Self {
         let mut limbs = [(value >> 127) as u64; N];
         limbs[0] = value as u64;
@@ -228,17 +272,20 @@ impl<const N: usize> Number for Wide<N> {
         }
     }
 
+    #[inline]
     fn to_f64(&self) -> f64 {
-        // The highest limb that is not 0 and the one below it hold at least 65 bits of the number.
         let limbs = self.magnitude();
-        let mut unit = 1.0;
-        let mut value = limbs[0] as f64;
-        for pair in limbs.windows(2) {
-            if pair[1] != 0 {
-                value = (u128::from(pair[1]) << 64 | u128::from(pair[0])) as f64 * unit;
-            }
-            unit *= TWO_64;
-        }
+        let Some(top) = (0..N).rev().find(|&i| limbs[i] != 0) else {
+            return 0.0;
+        };
+        // The 64 bits from the highest one on, the last one set where the limbs that they are from
+        // have more: they round as these do.
+        let zeros = limbs[top].leading_zeros();
+        let next = if top > 0 { limbs[top - 1] } else { 0 };
+        let both = (u128::from(limbs[top]) << 64 | u128::from(next)) << zeros;
+        let mantissa = (both >> 65) as i64 | i64::from(both << 63 != 0);
+        let exponent = 64 * top as u64 + 1 - u64::from(zeros);
+        let value = mantissa as f64 * f64::from_bits((1023 + exponent) << 52);
         if self.is_negative() { -value } else { value }
     }
 
@@ -302,6 +349,33 @@ fn horner<const N: usize, const V: usize, const D: usize>(
     Wide(value)
 }
 
+/// Horner's rule for a polynomial of degree `D - 1` at `n / d`: the value times `d^(D - 1)`.
+///
+/// The values are below the sum of the coefficients times `d^3`, which is below `2^36`: one limb more
+/// is enough, and the others hold the sign.
+#[inline]
+fn horner_fraction<const N: usize, const V: usize, const D: usize>(
+    coefficients: &[Wide<N>; D],
+    at: Fraction,
+) -> Wide<V> {
+    const { assert!(N < V && D <= 4) };
+    let mut value: [u64; V] = shifted_limbs(&coefficients[D - 1], 0);
+    let mut power = 1;
+    for step in 1..D {
+        power *= at.denominator;
+        let mut next: [u64; V] = shifted_limbs(&coefficients[D - 1 - step], 0);
+        let (mut carry, mut carry_next) = (0, 0);
+        for i in 0..=N {
+            (value[i], carry) = multiply_add(value[i], at.numerator, 0, carry);
+            (next[i], carry_next) = multiply_add(next[i], power, value[i], carry_next);
+        }
+        value = next;
+    }
+    let sign = (value[N] as i64 >> 63) as u64;
+    value[N + 1..].fill(sign);
+    Wide(value)
+}
+
 /// The limbs of `number 2^(64 by)`, with its sign extended.
 #[inline]
 fn shifted_limbs<const N: usize, const V: usize>(number: &Wide<N>, by: usize) -> [u64; V] {
@@ -317,6 +391,17 @@ fn horner_unlimited(coefficients: &[Integer], tick: u128) -> Integer {
     for (coefficient, step) in coefficients.iter().rev().zip(0..) {
         value.mul_assign(&tick);
         value.add_shifted(coefficient, 128 * step);
+    }
+    value
+}
+
+fn horner_fraction_unlimited(coefficients: &[Integer], at: Fraction) -> Integer {
+    let [numerator, denominator] = [at.numerator, at.denominator].map(|n| i128::from(n).into());
+    let (mut value, mut power) = (Integer::default(), Integer::from(1));
+    for coefficient in coefficients.iter().rev() {
+        value.mul_assign(&numerator);
+        value.add_shifted(&Integer::product(coefficient, &power), 0);
+        power.mul_assign(&denominator);
     }
     value
 }

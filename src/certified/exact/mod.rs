@@ -11,7 +11,8 @@
 //!    is identically 0, it is the start or a time at which an end comes onto the other edge
 //!    ([`confined`]).
 //! 4. [`roots`] finds the roots: parted in floating point where its error bound allows ([`part`]), else
-//!    exactly ([`isolate`]), and narrowed to the last bit ([`pin`], [`bracket`]). [`time`] tells the
+//!    exactly ([`halve`], [`isolate`]), recognised as fractions of small numbers ([`fraction`]) or
+//!    narrowed to the last bit ([`pin`], [`bracket`]). [`time`] tells the
 //!    signs of other polynomials there: by floating point where its error bound shows them, else
 //!    exactly ([`sturm`]).
 //! 5. [`locus`] is where the edges touch at such a time, if they do.
@@ -42,8 +43,10 @@ mod bracket;
 mod confined;
 mod curve;
 mod dyadic;
+mod fraction;
 mod general;
 mod guess;
+mod halve;
 mod integer;
 mod isolate;
 mod lane;
@@ -94,12 +97,19 @@ pub fn decide_exactly(query: &EdgeEdge) -> Result<Decision, Unsupported> {
 /// The exact answer for four points.
 pub(super) fn decide(positions: &Positions) -> Decision {
     match Scaled::new(positions) {
-        Scaled::Narrow { values, bits } => {
-            if bits <= Small::BITS {
+        Scaled::Short { values, bits } => {
+            if bits <= Tiny::BITS {
+                decide_in::<Tiny>(|i| Wide::from(values[i]))
+            } else if bits <= Small::BITS {
                 decide_in::<Small>(|i| Wide::from(values[i]))
             } else if bits <= Medium::BITS {
                 decide_in::<Medium>(|i| Wide::from(values[i]))
-            } else if bits <= Large::BITS {
+            } else {
+                decide_in::<Large>(|i| Wide::from(values[i]))
+            }
+        }
+        Scaled::Narrow { values, bits } => {
+            if bits <= Large::BITS {
                 decide_in::<Large>(|i| Wide::from(values[i]))
             } else if bits <= Huge::BITS {
                 decide_in::<Huge>(|i| Wide::from(values[i]))
@@ -111,10 +121,14 @@ pub(super) fn decide(positions: &Positions) -> Decision {
     }
 }
 
+type Tiny = Fixed<1, 1, 2, 5, 8>;
 type Small = Fixed<1, 2, 2, 6, 8>;
 type Medium = Fixed<1, 2, 3, 6, 9>;
 type Large = Fixed<2, 3, 5, 7, 11>;
 type Huge = Fixed<2, 4, 6, 8, 12>;
+
+/// The differences in one word each fit into all widths from the large ones on.
+const _: () = assert!(Large::BITS >= 63);
 
 fn decide_in<L: Lane>(component: impl Fn(usize) -> L::Linear) -> Decision {
     let motion = Motion::<L>::new(component);

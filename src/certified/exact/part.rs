@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 
 use super::tick::Tick;
 
-/// An interval between multiples of 1/16; `None` is the start or the end of the step.
+/// An interval; `None` is the start or the end of the step.
 pub(super) type Interval = (Option<Tick>, Option<Tick>);
 
 /// How often the step is halved at most.
@@ -63,7 +63,7 @@ fn part_piece(
 }
 
 /// `index / 2^depth`, unless that is 0 or 1.
-fn tick(index: u128, depth: u32) -> Option<Tick> {
+pub(super) fn tick(index: u128, depth: u32) -> Option<Tick> {
     (index > 0 && index < 1 << depth).then(|| Tick(index << (128 - depth)))
 }
 

@@ -6,14 +6,18 @@
 
 use std::cmp::Ordering;
 
+use super::bracket::MOST_BITS;
 use super::curve::Curve;
+use super::fraction::Fraction;
 use super::guess::{between, guess_root, slope};
 use super::lane::Lane;
 use super::tick::Tick;
 
-/// A root on the grid, or between two numbers of it that are between neighbours in `f64`.
+/// A root that is a fraction of small numbers, or on the grid, or between two numbers of it that are
+/// between neighbours in `f64`.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Pin {
+    Fraction(Fraction),
     At(Tick),
     Between(Tick, Tick),
 }
@@ -39,6 +43,14 @@ pub(super) fn pin<L: Lane>(
     let from = low.map_or(0.0, Tick::to_f64);
     let to = high.map_or(1.0, Tick::to_f64);
     let guess = guess_root(&coefficients, from, to, before);
+    let is_the_root = |at: &Fraction| {
+        low.is_none_or(|low| at.compare_tick(low).is_gt())
+            && high.is_none_or(|high| at.compare_tick(high).is_lt())
+            && curve.is_root(*at)
+    };
+    if let Some(at) = Fraction::near(guess).filter(is_the_root) {
+        return Some(Pin::Fraction(at));
+    }
     let at = Tick::from_f64(guess)?;
     let mut sides = Sides {
         curve,
@@ -52,7 +64,12 @@ pub(super) fn pin<L: Lane>(
     }
     // The step is right to about half of the bits of an `f64`, or it is of no use.
     let floor = ulp(at) >> 34;
-    sides.approach(at, -value / slope(&coefficients, guess), floor)?;
+    let is_near = sides.approach(at, -value / slope(&coefficients, guess), floor);
+    if is_near.is_none()
+        && let Some(at) = sides.refine()
+    {
+        return Some(Pin::At(at));
+    }
     sides.part_from_f64()
 }
 
@@ -130,6 +147,50 @@ impl<L: Lane> Sides<'_, L> {
             reach <<= 12;
         }
         None
+    }
+
+    /// Moves both sides to the root as [`Bracket`](super::bracket::Bracket) does, as far as the grid
+    /// goes, without the help of the slope, which floating point does not know near another root.
+    /// Returns the root if it is met.
+    fn refine(&mut self) -> Option<Tick> {
+        let value = |side: Option<Tick>, at_end: f64| {
+            let inside = side.map(|at| self.curve.sample(at).1);
+            inside.unwrap_or(at_end).abs()
+        };
+        let c = self.curve.approximate();
+        let mut low_value = value(self.low, c[0]);
+        let mut high_value = value(self.high, c.iter().sum());
+        let mut bits = 1;
+        loop {
+            // The end of the step is 2^128, wrapped around.
+            let [start, end] = [self.low, self.high].map(|side| side.map_or(0, |at| at.0));
+            let cell = end.wrapping_sub(start) >> bits;
+            if cell == 0 && bits == 1 {
+                return None;
+            }
+            let cells = 1u128 << bits;
+            let index = (cells as f64 / (1.0 + high_value / low_value)) as u128;
+            let index = index.min(cells - 1);
+            let mut is_right = cell > 0;
+            for (index, side) in [(index, Ordering::Greater), (index + 1, Ordering::Less)] {
+                if is_right && index > 0 && index < cells {
+                    let at = Tick(start + index * cell);
+                    let (sign, value) = self.curve.sample(at);
+                    let order = self.move_to(at, sign);
+                    match order {
+                        Ordering::Equal => return Some(at),
+                        Ordering::Greater => low_value = value.abs(),
+                        Ordering::Less => high_value = value.abs(),
+                    }
+                    is_right = order == side;
+                }
+            }
+            bits = if is_right {
+                (2 * bits).min(MOST_BITS)
+            } else {
+                (bits / 2).max(1)
+            };
+        }
     }
 
     /// Moves the sides until they are between neighbours in `f64`.

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use super::dyadic::Dyadic;
-use super::integer::{Integer, scale};
+use super::integer::Integer;
 use super::lane::Number;
 
 /// A polynomial of degree at most 3; the coefficients beyond its degree are 0.
@@ -109,22 +109,6 @@ impl Poly {
     /// Replaces it by its negative.
     pub(super) fn negate(&mut self) {
         self.coefficients.iter_mut().for_each(Integer::negate);
-    }
-
-    /// The coefficients divided by one power of two, `2^exponent`, such that the largest is about 1,
-    /// each with a relative error below 2^-51 unless it is too small to matter; and the exponent.
-    pub(super) fn approximate(&self) -> ([f64; 4], i64) {
-        let parts = self.coefficients.each_ref().map(Integer::approximate);
-        let bits = self
-            .coefficients()
-            .iter()
-            .map(Integer::bits)
-            .max()
-            .unwrap_or(0) as i64;
-        (
-            parts.map(|(value, exponent)| scale(value, exponent - bits)),
-            bits,
-        )
     }
 }
 

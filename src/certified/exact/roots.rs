@@ -1,8 +1,8 @@
 //! The times at which a polynomial of the motion is 0.
 //!
 //! One sign change of the Bernstein coefficients means one root, a simple one. More of them are
-//! parted in floating point ([`super::part`]), or by a value of the other sign between two; the rest
-//! is left to [`super::isolate`].
+//! parted in floating point ([`super::part`]), or exactly: by a value of the other sign between two, or
+//! by halving ([`super::halve`]). The rest is left to [`super::isolate`].
 
 use std::cell::OnceCell;
 use std::cmp::Ordering;
@@ -11,7 +11,10 @@ use smallvec::SmallVec;
 
 use super::bracket::Bracket;
 use super::curve::Curve;
+use super::dyadic::Dyadic;
+use super::fraction::Fraction;
 use super::guess;
+use super::halve::halve;
 use super::isolate::Isolated;
 use super::lane::{Lane, Number};
 use super::motion::Quadratic;
@@ -178,7 +181,20 @@ impl<'a, L: Lane> Source<'a, L> {
         self.poly.get_or_init(|| self.curve.to_poly())
     }
 
-    /// The root between two times, neither of which is a root, in integers of any size.
+    /// The root between two times (`None` is the start or the end of the step), in integers of any
+    /// size.
+    pub(super) fn unproved(
+        self,
+        before: Ordering,
+        low: Option<Tick>,
+        high: Option<Tick>,
+    ) -> Bracket<'a> {
+        let low = low.map_or(Dyadic::zero(), Tick::to_dyadic);
+        let high = high.map_or(Dyadic::one(), Tick::to_dyadic);
+        Bracket::new(self.poly(), low, high, before)
+    }
+
+    /// The same between two times neither of which is a root.
     pub(super) fn bracket(self, before: Ordering, low: Tick, high: Tick) -> Bracket<'a> {
         Bracket::proved(self.poly(), low.to_dyadic(), high.to_dyadic(), before)
     }
@@ -204,22 +220,33 @@ fn intervals<L: Lane>(
         1 => return Some(SmallVec::from_iter([(None, None)])),
         _ => {}
     }
-    part(&curve.approximate()).or_else(|| {
-        let cut = if changes == 2 {
-            cut_between(curve, first)
-        } else {
-            None
-        }?;
-        Some(SmallVec::from_iter([(None, Some(cut)), (Some(cut), None)]))
+    let coefficients = curve.approximate();
+    let plain = part(&coefficients).or_else(|| {
+        let has_two = changes == 2;
+        has_two.then(|| cut_between(curve, first, &coefficients))?
+    });
+    plain.or_else(|| match curve {
+        Curve::Quadratic(_) => None,
+        Curve::Cubic(c) => {
+            // A multiple root is never parted.
+            let multiple = guess::multiple_roots(&coefficients).map(Fraction::near);
+            let is_multiple = multiple.into_iter().flatten().any(|at| curve.is_root(at));
+            if is_multiple { None } else { halve::<L>(c) }
+        }
     })
 }
 
-/// A time at which a polynomial has the other sign than `first`, if a guess finds one.
-fn cut_between<L: Lane>(curve: &Curve<L>, first: Ordering) -> Option<Tick> {
-    let turning = guess::turning_point(&curve.approximate(), first)?;
-    let at = Tick::from_f64(turning)?;
-    let (sign, _) = curve.sample(at);
-    (sign == first.reverse()).then_some(at)
+/// Intervals around both roots of a polynomial with the sign `first` at both ends of the step, cut
+/// where it has the other one, if a guess finds that.
+fn cut_between<L: Lane>(
+    curve: &Curve<L>,
+    first: Ordering,
+    coefficients: &[f64; 4],
+) -> Option<SmallVec<[Interval; 3]>> {
+    let cut = Tick::from_f64(guess::turning_point(coefficients, first)?)?;
+    let (sign, _) = curve.sample(cut);
+    let is_between = sign == first.reverse();
+    is_between.then(|| SmallVec::from_iter([(None, Some(cut)), (Some(cut), None)]))
 }
 
 /// Whether two polynomials that are not identically 0 are multiples of each other.

@@ -15,6 +15,13 @@ pub(super) const COUNT: usize = 18;
 /// `K = B - A`, `L = D - C` and `M = C - A`, each as the three components at `t = 0` and then the
 /// three components of the change from `t = 0` to `t = 1`.
 pub(super) enum Scaled {
+    /// All of them below `2^bits` in magnitude, in one word each.
+    Short {
+        /// The components.
+        values: [i64; COUNT],
+        /// The number of bits, at most 63.
+        bits: u32,
+    },
     /// All of them below `2^bits` in magnitude.
     Narrow {
         /// The components.
@@ -26,34 +33,58 @@ pub(super) enum Scaled {
     Broad([Integer; COUNT]),
 }
 
-/// The widest range of coordinates in bits for which differences of differences fit into `i128`.
+/// The widest range of coordinates in bits for which differences of differences fit into `i64`.
+const SHORT: i32 = 61;
+
+/// The same for `i128`.
 const NARROW: i32 = 125;
 
 impl Scaled {
     /// The motion of four points, exactly.
     pub(super) fn new(positions: &Positions) -> Self {
         let coordinates = coordinates(positions);
-        // 0 has the least exponent of all, which does not count.
-        let (mut lowest, mut highest) = (i32::MAX, i32::MIN);
-        for &value in &coordinates {
-            let (_, exponent) = parts(value);
-            lowest = lowest.min(if value == 0.0 { i32::MAX } else { exponent });
-            highest = highest.max(exponent);
-        }
-        let lowest = lowest.min(highest);
-        if highest + 53 - lowest <= NARROW {
-            let mut integers = [0; 24];
-            for (integer, &value) in integers.iter_mut().zip(&coordinates) {
-                let (mantissa, exponent) = parts(value);
+        let (lowest, width) = span(&coordinates);
+        if width <= SHORT && (-1023..=0).contains(&lowest) {
+            Scaled::short(&coordinates, lowest)
+        } else if width <= NARROW {
+            let integer = |(mantissa, exponent): (i64, i32)| {
                 // 0 has an exponent of its own.
-                *integer = i128::from(mantissa) << (exponent - lowest).max(0);
-            }
-            return Scaled::narrow(&integers);
+                i128::from(mantissa) << (exponent - lowest).max(0)
+            };
+            Scaled::narrow(&coordinates.map(|value| integer(parts(value))))
+        } else {
+            Scaled::reduced(&coordinates)
         }
-        Scaled::reduced(&coordinates)
     }
 
-    /// The same without the zeros at the ends of the mantissas.
+    /// From coordinates below `2^61` after division by `2^lowest`, which is exact: their differences
+    /// are below `2^62` and the changes of those below `2^63`.
+    fn short(coordinates: &[f64; 24], lowest: i32) -> Self {
+        let factor = f64::from_bits(((1023 - lowest) as u64) << 52);
+        let integers = coordinates.map(|value| (value * factor) as i64);
+        let values = differences(&integers, |a, b| a - b);
+        let ones = values.iter().fold(0, |all, value| all | value);
+        let values = values.map(|value| value >> (ones.trailing_zeros() & 63));
+        let magnitudes = values
+            .iter()
+            .fold(0, |all, value| all | value.unsigned_abs());
+        let bits = u64::BITS - magnitudes.leading_zeros();
+        Scaled::Short { values, bits }
+    }
+
+    /// From coordinates below `2^125`: as [`short`](Self::short).
+    fn narrow(coordinates: &[i128; 24]) -> Self {
+        let values = differences(coordinates, |a, b| a - b);
+        let ones = values.iter().fold(0, |all, value| all | value);
+        let values = values.map(|value| value >> (ones.trailing_zeros() & 127));
+        let magnitudes = values
+            .iter()
+            .fold(0, |all, value| all | value.unsigned_abs());
+        let bits = u128::BITS - magnitudes.leading_zeros();
+        Scaled::Narrow { values, bits }
+    }
+
+    /// From the odd parts of the mantissas.
     fn reduced(coordinates: &[f64; 24]) -> Self {
         let parts = coordinates.map(decompose);
         let used = parts.iter().filter(|(mantissa, _)| *mantissa != 0);
@@ -72,22 +103,6 @@ impl Scaled {
         }
     }
 
-    /// From coordinates below `2^125`: their differences are below `2^126` and the changes of those
-    /// below `2^127`.
-    fn narrow(coordinates: &[i128; 24]) -> Self {
-        let mut values = differences(coordinates, |a, b| a - b);
-        let all = values.iter().fold(0, |all, value| all | value);
-        if all != 0 {
-            let zeros = all.trailing_zeros();
-            values = values.map(|value| value >> zeros);
-        }
-        let magnitudes = values
-            .iter()
-            .fold(0, |all, value| all | value.unsigned_abs());
-        let bits = 128 - magnitudes.leading_zeros();
-        Scaled::Narrow { values, bits }
-    }
-
     fn broad(parts: &[(i64, i32); 24], lowest: i32) -> Self {
         let coordinates = parts.map(|(mantissa, exponent)| {
             let shift = if mantissa == 0 {
@@ -99,6 +114,22 @@ impl Scaled {
         });
         Scaled::Broad(differences(&coordinates, Integer::difference))
     }
+}
+
+/// The least exponent of the coordinates' mantissas as integers of 53 bits, and the number of bits from
+/// there to the highest one.
+fn span(coordinates: &[f64; 24]) -> (i32, i32) {
+    let magnitudes = coordinates.map(f64::abs);
+    let largest = magnitudes
+        .iter()
+        .fold(0.0, |a, &b| if b > a { b } else { a });
+    // 0 has the least exponent of all, which does not count.
+    let least = magnitudes.iter().fold(largest, |a, &b| {
+        let counts = if b == 0.0 { largest } else { b };
+        if counts < a { counts } else { a }
+    });
+    let ((_, lowest), (_, highest)) = (parts(least), parts(largest));
+    (lowest, highest + 53 - lowest)
 }
 
 /// The coordinates of the points at `t = 0` and then at `t = 1`.

@@ -5,10 +5,11 @@
 
 use std::cmp::Ordering;
 
-use super::bracket::{Bracket, Settled};
+use super::bracket::{Bracket, Settled, exact_ratio};
 use super::curve::Curve;
 use super::dyadic::Dyadic;
-use super::integer::{Integer, TWO_64, ratio};
+use super::fraction::Fraction;
+use super::integer::TWO_64;
 use super::isolate::{Isolated, Place};
 use super::lane::{Lane, Number};
 use super::motion::Quadratic;
@@ -30,6 +31,14 @@ enum Exact<'a, L: Lane> {
     Start,
     End,
     At(Tick),
+    /// A root that is this number, the only one strictly between two times.
+    Fraction {
+        at: Fraction,
+        of: Source<'a, L>,
+        before: Ordering,
+        low: Option<Tick>,
+        high: Option<Tick>,
+    },
     /// The only root strictly between two times, neither of which is a root.
     Root {
         of: Source<'a, L>,
@@ -71,6 +80,20 @@ impl<'a, L: Lane> Time<'a, L> {
         high: Option<Tick>,
     ) -> Self {
         match pin(of.curve, before, low, high) {
+            Some(Pin::Fraction(at)) => {
+                let (below, above) = at.neighbours();
+                Time {
+                    below,
+                    above,
+                    exact: Exact::Fraction {
+                        at,
+                        of,
+                        before,
+                        low,
+                        high,
+                    },
+                }
+            }
             Some(Pin::At(at)) => Time {
                 below: at.below(),
                 above: at.above(),
@@ -86,11 +109,7 @@ impl<'a, L: Lane> Time<'a, L> {
                     high,
                 },
             },
-            None => {
-                let low = low.map_or(Dyadic::zero(), Tick::to_dyadic);
-                let high = high.map_or(Dyadic::one(), Tick::to_dyadic);
-                Time::between(Bracket::new(of.poly(), low, high, before))
-            }
+            None => Time::between(of.unproved(before, low, high)),
         }
     }
 
@@ -162,7 +181,7 @@ impl<'a, L: Lane> Time<'a, L> {
             Exact::Bracket(bracket) => bracket.sign_of(Poly::new(q)),
             Exact::Dyadic(at) => Poly::new(q).sign_at(at),
             // These are quick.
-            Exact::Start | Exact::End => Ordering::Equal,
+            Exact::Start | Exact::End | Exact::Fraction { .. } => Ordering::Equal,
         }
     }
 
@@ -179,6 +198,7 @@ impl<'a, L: Lane> Time<'a, L> {
         match self.exact {
             Exact::Start => return Some(q[0].to_f64()),
             Exact::End => return Some(q[0].add(&q[1]).add(&q[2]).to_f64()),
+            Exact::Fraction { at, .. } => return Some(L::quadratic_at_fraction(q, at).to_f64()),
             _ => {}
         }
         let (c0, c1, c2) = (q[0].to_f64(), q[1].to_f64(), q[2].to_f64());
@@ -244,6 +264,9 @@ impl<'a, L: Lane> Time<'a, L> {
             Exact::Start => both(&|q| exactly(q[0].to_f64())),
             Exact::End => both(&|q| exactly(q[0].add(&q[1]).add(&q[2]).to_f64())),
             Exact::At(at) => both(&|q| exactly(L::quadratic_at(q, at.0).to_f64())),
+            Exact::Fraction { at, .. } => {
+                both(&|q| exactly(L::quadratic_at_fraction(q, *at).to_f64()))
+            }
             Exact::Root { low, high, .. } => both(&|q| range::<L>(q, *low, *high)),
             Exact::Dyadic(_) | Exact::Bracket(_) => return None,
         };
@@ -259,6 +282,11 @@ impl<'a, L: Lane> Time<'a, L> {
         }
         if other.above <= self.below && other.below < self.above {
             return Ordering::Greater;
+        }
+        if let (Exact::Fraction { at: a, .. }, Exact::Fraction { at: b, .. }) =
+            (&self.exact, &other.exact)
+        {
+            return a.compare(*b);
         }
         if let Some(order) = self.quick_compare(other) {
             return order;
@@ -331,6 +359,19 @@ impl<'a, L: Lane> Time<'a, L> {
             Exact::End => View::At(Dyadic::one()),
             Exact::At(at) => View::At(at.to_dyadic()),
             Exact::Dyadic(at) => View::At(at.clone()),
+            Exact::Fraction {
+                of,
+                before,
+                low,
+                high,
+                ..
+            } => {
+                let mut bracket = of.unproved(*before, *low, *high);
+                match bracket.settle() {
+                    Settled::At(at) => View::At(at),
+                    Settled::Between(..) => View::Between(bracket),
+                }
+            }
             Exact::Root {
                 of,
                 before,
@@ -369,15 +410,6 @@ fn range<L: Lane>(q: &Quadratic<L>, low: Tick, high: Tick) -> (f64, f64) {
     let slope = q[1].to_f64().abs() + 2.0 * q[2].to_f64().abs();
     let value = L::quadratic_at(q, low.0).to_f64();
     (value, slope * low.distance(high) * GRID)
-}
-
-/// `n / d` of two integers whose quotient is in `[0, 1]`.
-fn exact_ratio(mut n: Integer, mut d: Integer) -> f64 {
-    if d.sign().is_lt() {
-        n.negate();
-        d.negate();
-    }
-    ratio(&n, &d).min(1.0)
 }
 
 #[cfg(test)]

@@ -33,6 +33,10 @@ fn check<const L: usize, const Q: usize, const C: usize, const QV: usize, const 
     [a, b, c]: [i128; 3],
     tick: u128,
 ) -> Result<(), TestCaseError> {
+    let at = Fraction {
+        numerator: tick as u64 % Fraction::LIMIT,
+        denominator: Fraction::LIMIT - 1,
+    };
     let [x, y, z] = [a, b, c].map(Wide::<L>::from);
     let [i, j, k] = [a, b, c].map(Integer::from);
     same(&x, &i)?;
@@ -56,9 +60,12 @@ fn check<const L: usize, const Q: usize, const C: usize, const QV: usize, const 
         &value,
         &Unlimited::quadratic_at(&[sum.clone(), double, sum], tick),
     )?;
-    let value = Fixed::<L, Q, C, QV, CV>::quadratic_at(&[reversed, quadratic, reversed], tick);
+    let wide = [reversed, quadratic, reversed];
     let exact = [difference.clone(), sum_of(&ij, 18), difference];
+    let value = Fixed::<L, Q, C, QV, CV>::quadratic_at(&wide, tick);
     same(&value, &Unlimited::quadratic_at(&exact, tick))?;
+    let value = Fixed::<L, Q, C, QV, CV>::quadratic_at_fraction(&wide, at);
+    same(&value, &Unlimited::quadratic_at_fraction(&exact, at))?;
     let (xyz, ijk) = (
         Fixed::<L, Q, C, QV, CV>::times_quadratic(&xy, &z),
         Integer::product(&ij, &k),
@@ -69,11 +76,14 @@ fn check<const L: usize, const Q: usize, const C: usize, const QV: usize, const 
         (cubic, sum) = (cubic.add(&xyz), Integer::sum(&sum, &ijk));
     }
     same(&cubic, &sum)?;
-    let value = Fixed::<L, Q, C, QV, CV>::cubic_at(&[xyz, cubic, cubic, xyz], tick);
-    same(
-        &value,
-        &Unlimited::cubic_at(&[ijk.clone(), sum.clone(), sum.clone(), ijk], tick),
-    )?;
+    let (wide, exact) = (
+        [xyz, cubic, cubic, xyz],
+        [ijk.clone(), sum.clone(), sum.clone(), ijk],
+    );
+    let value = Fixed::<L, Q, C, QV, CV>::cubic_at(&wide, tick);
+    same(&value, &Unlimited::cubic_at(&exact, tick))?;
+    let value = Fixed::<L, Q, C, QV, CV>::cubic_at_fraction(&wide, at);
+    same(&value, &Unlimited::cubic_at_fraction(&exact, at))?;
     for _ in 1..8 {
         (cubic, sum) = (
             cubic.add(&sum_wide(&xyz, 18)),
@@ -93,6 +103,14 @@ fn sum_wide<const N: usize>(number: &Wide<N>, count: usize) -> Wide<N> {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(5000))]
+
+    #[test]
+    fn lane_of_1_1_2_limbs_takes_all_numbers_of_its_width(
+        abc in prop::array::uniform3(below(Fixed::<1, 1, 2, 5, 8>::BITS)),
+        tick in tick(),
+    ) {
+        check::<1, 1, 2, 5, 8>(abc, tick)?;
+    }
 
     #[test]
     fn lane_of_1_2_2_limbs_takes_all_numbers_of_its_width(
@@ -130,10 +148,28 @@ proptest! {
 #[test]
 fn lane_widths_are_those_of_their_limbs() {
     let bits = [
+        Fixed::<1, 1, 2, 5, 8>::BITS,
         Fixed::<1, 2, 2, 6, 8>::BITS,
         Fixed::<1, 2, 3, 6, 9>::BITS,
         Fixed::<2, 3, 5, 7, 11>::BITS,
         Fixed::<2, 4, 6, 8, 12>::BITS,
     ];
-    assert_eq!(bits, [39, 60, 92, 124]);
+    assert_eq!(bits, [28, 39, 60, 92, 124]);
+}
+
+#[test]
+fn lane_values_at_a_fraction_are_those_of_the_polynomial() {
+    let at = Fraction {
+        numerator: 2,
+        denominator: 3,
+    };
+    let c = [5, -7, 11, -13].map(Integer::from);
+    let value = Unlimited::cubic_at_fraction(&c, at);
+    assert_eq!(
+        value,
+        Integer::from(5 * 27 - 7 * 2 * 9 + 11 * 4 * 3 - 13 * 8)
+    );
+    let [c0, c1, c2, _] = c;
+    let value = Unlimited::quadratic_at_fraction(&[c0, c1, c2], at);
+    assert_eq!(value, Integer::from(5 * 9 - 7 * 2 * 3 + 11 * 4));
 }

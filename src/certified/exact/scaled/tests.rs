@@ -50,6 +50,11 @@ fn check(values: [f64; 24]) -> Result<(), TestCaseError> {
     let query = EdgeEdge::new([0, 1, 2, 3].map(point), [4, 5, 6, 7].map(point), 0.0).unwrap();
     let exact = exactly(&query);
     match Scaled::new(&Positions::new(&query)) {
+        Scaled::Short { values, bits } => {
+            let scaled: Vec<BigInt> = values.iter().map(|&v| BigInt::from(v)).collect();
+            prop_assert!(are_scaled(&scaled, &exact));
+            prop_assert_eq!(scaled.iter().map(BigInt::bits).max(), Some(u64::from(bits)));
+        }
         Scaled::Narrow { values, bits } => {
             let scaled: Vec<BigInt> = values.iter().map(|&v| BigInt::from(v)).collect();
             prop_assert!(are_scaled(&scaled, &exact));

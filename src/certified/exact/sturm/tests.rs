@@ -1,5 +1,6 @@
 use proptest::prelude::*;
 
+use super::super::dyadic::tests::middle;
 use super::super::isolate::tests::poly;
 use super::super::isolate::{Isolated, Place};
 use super::*;
@@ -15,7 +16,7 @@ fn sign_by_halving(
 ) -> Option<Ordering> {
     let (mut low, mut high) = (low.clone(), high.clone());
     for _ in 0..80 {
-        let middle = Dyadic::middle(&low, &high);
+        let middle = middle(&low, &high);
         match p.sign_at(&middle) {
             Ordering::Equal => return Some(q.sign_at(&middle)),
             sign if sign == before => low = middle,
@@ -30,7 +31,7 @@ fn sign_by_halving(
 fn proved(p: &Poly, before: Ordering, low: &Dyadic, high: &Dyadic) -> Option<(Dyadic, Dyadic)> {
     let (mut low, mut high) = (low.clone(), high.clone());
     while p.sign_at(&low).is_eq() || p.sign_at(&high).is_eq() {
-        let middle = Dyadic::middle(&low, &high);
+        let middle = middle(&low, &high);
         match p.sign_at(&middle) {
             Ordering::Equal => return None,
             sign if sign == before => low = middle,

@@ -5,6 +5,7 @@ use proptest::prelude::*;
 use super::super::lane::{Fixed, Unlimited, Wide};
 use super::super::roots::Roots;
 use super::*;
+use crate::certified::exact::integer::Integer;
 
 type Narrow = Fixed<1, 2, 3, 6, 9>;
 
