@@ -14,7 +14,7 @@ use rand::{Rng, RngExt};
 use tunnelproof::query::Query;
 
 use super::meeting::{Meeting, end_of_step};
-use super::motion::{metres, not_zero, placed, power_of_two, renamed};
+use super::motion::{metres, not_zero, placed, renamed};
 use super::nudge::nudged;
 use super::{Draw, Family, edge_edge};
 
@@ -43,18 +43,17 @@ fn exact(rng: &mut dyn Rng) -> Meeting {
         _ => Meeting {
             times: end_of_step(rng),
             places: [(); 2].map(|()| rng.random_range(0..=8)),
-            ..Meeting::wide(rng)
+            ..Meeting::steady(rng)
         },
     }
 }
 
 /// `det(p, q, w) = 0`: where they touch, they slide within the plane that both span.
 fn double_root(rng: &mut dyn Rng) -> Meeting {
-    let reach = power_of_two(rng, 2..=8);
-    let mut meeting = Meeting::new(rng, reach, reach / 4);
+    let mut meeting = Meeting::steady(rng);
     let [p, q] = &mut meeting.edges;
-    *p = Vector3::new(not_zero(rng, reach), p.y, 0);
-    *q = Vector3::new(0, not_zero(rng, reach), 0);
+    *p = Vector3::new(not_zero(rng, Meeting::REACH), p.y, 0);
+    *q = Vector3::new(0, not_zero(rng, Meeting::REACH), 0);
     meeting.passing.z = 0;
     meeting.places = [(); 2].map(|()| rng.random_range(1..=7));
     meeting
@@ -64,6 +63,6 @@ fn double_root(rng: &mut dyn Rng) -> Meeting {
 fn end_of_edge(rng: &mut dyn Rng) -> Meeting {
     Meeting {
         places: [8 * rng.random_range(0..=1), rng.random_range(0..=8)],
-        ..Meeting::wide(rng)
+        ..Meeting::steady(rng)
     }
 }

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use rand::{Rng, RngExt};
 
-use super::motion::{Motion, power_of_two, vector};
+use super::motion::{Motion, vector};
 
 /// Two edges at a time of the step and how they move there, in integers.
 ///
@@ -47,10 +47,12 @@ impl Meeting {
         }
     }
 
-    /// The same with a reach and a speed of up to eight bits.
-    pub(super) fn wide(rng: &mut dyn Rng) -> Self {
-        let reach = power_of_two(rng, 2..=8);
-        Self::new(rng, reach, reach / 4)
+    /// The largest coordinate of a [`steady`](Self::steady) meeting.
+    pub(super) const REACH: i32 = 256;
+
+    /// The same with a motion of about the length of the edges, so that they seldom meet twice.
+    pub(super) fn steady(rng: &mut dyn Rng) -> Self {
+        Self::new(rng, Self::REACH, Self::REACH / 16)
     }
 
     /// The points, A at rest.

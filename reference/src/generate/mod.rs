@@ -95,15 +95,15 @@ impl Family {
         for (byte, letter) in key[8..].iter_mut().zip(self.name.bytes()) {
             *byte = letter;
         }
-        let size = self.group_size();
+        let size = self.group_size() as u64;
         let mut rng = ChaCha8Rng::from_seed(key);
         rng.set_stream(index / size);
-        self.draw.member(&mut rng, index % size)
+        self.draw.member(&mut rng, (index % size) as usize)
     }
 
     /// How many consecutive queries, from an index that it divides, are one group: 1, or 2 for the
     /// segments of a wire that another segment passes through, so that a hit is due in one of them.
-    pub fn group_size(&self) -> u64 {
+    pub fn group_size(&self) -> usize {
         match self.draw {
             Draw::Query(_) => 1,
             Draw::Wire(_) => 2,
@@ -119,10 +119,10 @@ impl Family {
 
 impl Draw {
     /// One query of a group.
-    fn member(&self, rng: &mut dyn Rng, member: u64) -> Query {
+    fn member(&self, rng: &mut dyn Rng, member: usize) -> Query {
         match self {
             Draw::Query(draw) => draw(rng),
-            Draw::Wire(draw) => draw(rng)[usize::from(member > 0)],
+            Draw::Wire(draw) => draw(rng)[member],
         }
     }
 }

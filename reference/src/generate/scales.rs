@@ -29,7 +29,7 @@ const EXPONENT: i32 = 996;
 fn draw(rng: &mut dyn Rng) -> Query {
     let kind = rng.random_range(0..8);
     if kind == 0 {
-        let motion = Meeting::wide(rng).motion();
+        let motion = Meeting::steady(rng).motion();
         let motion = placed(rng, motion);
         return edge_edge(in_units(motion, f64::from_bits(1)));
     }

@@ -6,14 +6,14 @@
 //! - 2 have A = C for the whole step, exactly;
 //! - 1 has another pair of ends in one place for the whole step;
 //! - 1 has A = C at one end of the step, and them apart at the other;
-//! - 4 have A = C but for a nudge of 0 to `2^20` ulp.
+//! - 4 have A = C but for a nudge of C by 0 to `2^20` ulp along each axis.
 
 use rand::{Rng, RngExt};
 use tunnelproof::query::Query;
 
 use super::confine::{Reach, confined};
 use super::motion::{metres, real_vector, renamed};
-use super::nudge::nudged;
+use super::nudge::{off_by, ulps};
 use super::{Draw, Family, edge_edge};
 
 pub(super) const FAMILY: Family = Family {
@@ -36,6 +36,9 @@ fn draw(rng: &mut dyn Rng) -> Query {
         2 => renamed(rng, joined),
         3 if rng.random() => [joined[0], apart[1]],
         3 => [apart[0], joined[1]],
-        _ => nudged(rng, joined),
+        _ => off_by(
+            joined,
+            |[_, point, _]| if point == 2 { ulps(rng) } else { 0 },
+        ),
     })
 }
