@@ -27,7 +27,7 @@ const COLUMNS: [Column; 9] = [
 ];
 
 /// The column for sources with joints, after the tunnels.
-const JOINTS: Column = (["joint", "tunnels"], 8, |tally| {
+const JOINTS: Column = (["joint", "tunnels"], 9, |tally| {
     count(tally, Fault::JointTunnel)
 });
 

@@ -47,3 +47,25 @@ fn exact(rng: &mut dyn Rng) -> Motion<f64> {
     let motion = mapped(rng, meeting.motion());
     in_units(motion, 2f64.powi(-26))
 }
+
+#[cfg(test)]
+mod tests {
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::SeedableRng;
+
+    use super::*;
+
+    #[test]
+    fn cancellation_offset_leaves_every_bit_of_an_exact_motion() {
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        for _ in 0..2000 {
+            let [start, end] = exact(&mut rng);
+            for (start, end) in start.iter().zip(&end) {
+                for (x, y) in start.iter().zip(end) {
+                    assert_eq!([x + 1e7 - 1e7, y - 1e7 + 1e7], [*x, *y]);
+                    assert!(x.abs() < 16.0 && (x - y).abs() < 0.1, "{x} to {y}");
+                }
+            }
+        }
+    }
+}

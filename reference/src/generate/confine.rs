@@ -66,3 +66,58 @@ pub(super) fn swing(rng: &mut dyn Rng, motion: &mut Motion<i32>, points: &[usize
         motion[1][point] -= aside * after;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Matrix3;
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::SeedableRng;
+
+    use super::*;
+
+    /// `B - A`, `C - A` and `D - A` at these parts of the step, times their sum.
+    fn differences(motion: &Motion<i32>, parts: [i64; 2]) -> Matrix3<i64> {
+        let at = |i: usize| {
+            let [start, end] = [0, 1].map(|end| motion[end][i].map(i64::from));
+            start * parts[0] + end * parts[1]
+        };
+        Matrix3::from_columns(&[1, 2, 3].map(|i| at(i) - at(0)))
+    }
+
+    #[test]
+    fn confined_motion_stays_in_its_line_or_plane_for_the_whole_step() {
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        for _ in 0..2000 {
+            let reach = Reach::wide(&mut rng);
+            let planar = confined::<2>(&mut rng, [0; 4], &reach);
+            let linear = confined::<1>(&mut rng, [0; 4], &reach);
+            // A polynomial of degree 3 is 0 if it is at four points.
+            for parts in [[1, 0], [0, 1], [1, 1], [2, -1]] {
+                assert_eq!(det(&differences(&planar, parts)), 0);
+                let [b, c, d] =
+                    [0, 1, 2].map(|i| differences(&linear, parts).column(i).into_owned());
+                for cross in [b.cross(&c), c.cross(&d), d.cross(&b)] {
+                    assert_eq!(cross, Vector3::zeros());
+                }
+            }
+        }
+    }
+
+    fn det(m: &Matrix3<i64>) -> i128 {
+        let [x, y, z] = [0, 1, 2].map(|i| m.column(i).map(i128::from));
+        x.cross(&y).dot(&z)
+    }
+
+    #[test]
+    fn swing_leaves_points_in_their_place_at_one_time_of_the_step() {
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        for _ in 0..200 {
+            let mut motion = [[Vector3::zeros(); 4]; 2];
+            swing(&mut rng, &mut motion, &[1, 3], 100);
+            let [start, end] = motion;
+            assert_eq!([start[0], start[2], end[0], end[2]], [Vector3::zeros(); 4]);
+            assert_eq!((start[1], end[1]), (start[3], end[3]));
+            assert!(start[1].dot(&end[1]) < 0 && start[1].cross(&end[1]) == Vector3::zeros());
+        }
+    }
+}

@@ -36,7 +36,7 @@ fn draw(rng: &mut dyn Rng) -> Query {
 }
 
 /// Edges that graze each other at the time of the meeting.
-fn exact(rng: &mut dyn Rng) -> Meeting {
+pub(super) fn exact(rng: &mut dyn Rng) -> Meeting {
     match rng.random_range(0..3) {
         0 => double_root(rng),
         1 => end_of_edge(rng),
@@ -54,7 +54,14 @@ fn double_root(rng: &mut dyn Rng) -> Meeting {
     let [p, q] = &mut meeting.edges;
     *p = Vector3::new(not_zero(rng, Meeting::REACH), p.y, 0);
     *q = Vector3::new(0, not_zero(rng, Meeting::REACH), 0);
-    meeting.passing.z = 0;
+    let w = &mut meeting.passing;
+    *w = Vector3::new(not_zero(rng, Meeting::REACH / 16), w.y, 0);
+    let [a, b] = &mut meeting.turns;
+    a.z = not_zero(rng, Meeting::REACH / 16);
+    // This is 0 for a triple root.
+    if w.x * q.y * a.z + (w.y * p.x - w.x * p.y) * b.z == 0 {
+        b.z = 0;
+    }
     meeting.places = [(); 2].map(|()| rng.random_range(1..=7));
     meeting
 }

@@ -73,3 +73,56 @@ fn wire(rng: &mut dyn Rng, reach: i32, beside: i32) -> Motion<i32, 5> {
         ]
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::SeedableRng;
+
+    use super::*;
+    use crate::oracle::decide_query;
+
+    #[test]
+    fn joint_wire_is_a_graph_that_the_segment_starts_before_and_ends_behind() {
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        for _ in 0..2000 {
+            let reach = power_of_two(&mut rng, 2..=8);
+            let beside = rng.random_range(-reach..=reach);
+            let motion = wire(&mut rng, reach, beside);
+            for (points, before) in motion.iter().zip([1, -1]) {
+                let [p0, p1, p2, c, d] = points;
+                let wire = [p0, p1, p2];
+                assert_eq!(*p1, Vector3::zeros());
+                for end in [c, d] {
+                    assert!(p0.x < end.x && end.x < p2.x && p0.x < 0 && p2.x > 0);
+                    assert!(wire.iter().all(|node| before * (end.z - node.z) > 0));
+                }
+                assert!(wire.iter().all(|node| d.y < node.y && node.y < c.y));
+            }
+        }
+    }
+
+    #[test]
+    fn joint_segment_meets_both_at_once_or_one_of_them_at_least() {
+        let [mut both, mut one] = [0; 2];
+        for index in 0..1000 {
+            let members = [0, 1].map(|i| FAMILY.query(1, 2 * index + i));
+            let [first, second] = members;
+            assert_eq!(
+                (first.start()[1], first.end()[1]),
+                (second.start()[0], second.end()[0])
+            );
+            assert_eq!(first.start()[2..], second.start()[2..]);
+            assert_eq!(first.end()[2..], second.end()[2..]);
+            let hits = members.map(|query| decide_query(&query).unwrap().hit);
+            match hits {
+                [Some(a), Some(b)] if a.toi == b.toi => both += 1,
+                hits => {
+                    assert!(hits.iter().any(|hit| hit.is_some()));
+                    one += 1;
+                }
+            }
+        }
+        assert!(both > 200 && one > 200, "{both} and {one}");
+    }
+}

@@ -62,3 +62,58 @@ pub(super) fn off_by<const N: usize>(
 fn ulp(number: f64) -> f64 {
     number.abs().next_up() - number.abs()
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::SeedableRng;
+
+    use super::*;
+
+    #[test]
+    fn ulps_are_of_every_magnitude_and_of_both_signs() {
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        let mut counts: BTreeMap<(i32, u32), u32> = BTreeMap::new();
+        let count = 44_000;
+        for _ in 0..count {
+            let k = ulps(&mut rng);
+            assert!(k.unsigned_abs() <= 1 << OCTAVES);
+            let octave = u32::BITS - k.unsigned_abs().leading_zeros();
+            *counts.entry((k.signum(), octave)).or_default() += 1;
+        }
+        assert_eq!(counts.len() as u32, 1 + 2 * (OCTAVES + 1));
+        assert!(counts.values().all(|n| *n > count / 50), "{counts:?}");
+    }
+
+    #[test]
+    fn nudged_moves_one_coordinate_or_several_by_whole_ulps() {
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        let exact: Motion<f64> = [[Vector3::new(1.0, -1.5, 0.0); 4]; 2];
+        let mut counts: BTreeMap<usize, u32> = BTreeMap::new();
+        for _ in 0..4000 {
+            let pairs = nudged(&mut rng, exact);
+            let pairs = pairs.as_flattened().iter().zip(exact.as_flattened());
+            let moved: Vec<_> = pairs.flat_map(|(x, y)| <[f64; 3]>::from(x - y)).collect();
+            // All three coordinates have the ulp of 1.
+            let ulps = moved.iter().map(|by| by / f64::EPSILON);
+            for k in ulps {
+                assert!(k.fract() == 0.0 && k.abs() <= f64::from(1 << OCTAVES) * 2.0);
+            }
+            let number = moved.iter().filter(|by| **by != 0.0).count();
+            *counts.entry(number).or_default() += 1;
+        }
+        for number in [0, 1, 3, 6, 24] {
+            assert!(counts[&number] > 25, "{counts:?}");
+        }
+    }
+
+    #[test]
+    fn off_by_takes_the_ulp_of_the_coordinate_or_of_the_largest() {
+        let exact: Motion<f64, 1> = [[Vector3::new(4.0, 1e-9, 0.0)]; 2];
+        let [_, [x]] = off_by(exact, |[end, ..]| end as i32);
+        let expected = [4f64.next_up(), 1e-9f64.next_up(), 4f64.next_up() - 4.0];
+        assert_eq!(x.as_slice(), expected);
+    }
+}

@@ -47,3 +47,28 @@ fn exact(rng: &mut dyn Rng) -> Motion<i32> {
     }
     motion
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::SeedableRng;
+
+    use super::*;
+
+    #[test]
+    fn point_on_line_has_a_on_the_line_of_cd_throughout() {
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        let mut off = 0;
+        for _ in 0..2000 {
+            let [start, end] = exact(&mut rng).map(|points| points.map(|p| p.map(i64::from)));
+            // Squares of t: three times decide.
+            for s in [0, 1, 2] {
+                let [a, b, c, d] = [0, 1, 2, 3].map(|i| start[i] * (2 - s) + end[i] * s);
+                assert_eq!((c - a).cross(&(d - a)), Vector3::zeros());
+                off += u32::from((c - b).cross(&(d - b)) != Vector3::zeros());
+            }
+        }
+        assert!(off > 3000, "B is off the line at {off} of 6000 times");
+    }
+}

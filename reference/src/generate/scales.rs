@@ -70,3 +70,34 @@ fn scale(motion: &mut Motion<f64>, mut factors: impl FnMut() -> Vector3<f64>) {
         point.component_mul_assign(&factors());
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scales_reach_from_the_smallest_numbers_to_1e300() {
+        let mut magnitudes = Vec::new();
+        let mut most = 0.0f64;
+        for index in 0..2000 {
+            let query = FAMILY.query(1, index);
+            let points = query.start().iter().chain(query.end());
+            let numbers: Vec<_> = points.flat_map(|p| p.iter()).map(|x| x.abs()).collect();
+            let largest = numbers.iter().copied().fold(0.0, f64::max);
+            let smallest = numbers
+                .iter()
+                .filter(|x| **x > 0.0)
+                .copied()
+                .fold(f64::MAX, f64::min);
+            most = most.max(largest.log10() - smallest.log10());
+            magnitudes.push(largest);
+        }
+        magnitudes.sort_by(f64::total_cmp);
+        let (first, last) = (magnitudes[0], magnitudes[magnitudes.len() - 1]);
+        assert!(
+            first < 1e-310 && last > 1e298 && last < 1e301,
+            "{first} to {last}"
+        );
+        assert!(most > 580.0, "10^{most} within one query");
+    }
+}

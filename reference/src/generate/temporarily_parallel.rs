@@ -33,7 +33,7 @@ fn draw(rng: &mut dyn Rng) -> Query {
 
 /// Edges that are parallel at the time of the meeting alone: the direction and both velocities are
 /// linearly independent.
-fn exact(rng: &mut dyn Rng) -> Meeting {
+pub(super) fn exact(rng: &mut dyn Rng) -> Meeting {
     let reach = power_of_two(rng, 2..=8);
     let mut meeting = Meeting::new(rng, reach, reach / 4);
     if rng.random() {

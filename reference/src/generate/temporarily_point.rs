@@ -33,7 +33,7 @@ fn draw(rng: &mut dyn Rng) -> Query {
 }
 
 /// Edges of which AB is a point at the time of the meeting alone.
-fn exact(rng: &mut dyn Rng) -> Meeting {
+pub(super) fn exact(rng: &mut dyn Rng) -> Meeting {
     let reach = power_of_two(rng, 2..=8);
     let mut meeting = Meeting::new(rng, reach, reach / 4);
     if rng.random() {

@@ -39,7 +39,7 @@ fn draw(rng: &mut dyn Rng) -> Query {
 }
 
 /// Edges with a cubic that has a triple root at the time of the meeting.
-fn exact(rng: &mut dyn Rng) -> Meeting {
+pub(super) fn exact(rng: &mut dyn Rng) -> Meeting {
     let reach = power_of_two(rng, 1..=4);
     let mut meeting = Meeting::new(rng, reach, reach);
     let independent = independent(rng, reach);
