@@ -19,7 +19,8 @@ pub struct Additive {
     /// Which part of the way to contact is taken, in `(0, 1)`; the paper's experiments and the IPC
     /// Toolkit take 0.9.
     pub rescaling: f64,
-    /// After this many advances the edges count as in contact where they are.
+    /// After this many advances the edges count as in contact where they are. It takes that many where
+    /// the edges start next to each other, or where rounding leaves them no way to advance.
     pub max_steps: u32,
 }
 
@@ -27,7 +28,7 @@ impl Default for Additive {
     fn default() -> Self {
         Additive {
             rescaling: 0.9,
-            max_steps: 1_000_000,
+            max_steps: 10_000,
         }
     }
 }

@@ -15,7 +15,7 @@ use tunnelproof_reference::field::{self, Integer};
 use tunnelproof_reference::generate::FAMILIES;
 use tunnelproof_reference::{oracle, shadow};
 
-const COUNT: u64 = 20_000;
+const COUNT: u64 = 5_000;
 
 fn by_oracle<Z: Integer>(query: &EdgeEdge) -> ExactAnswer {
     oracle::decide::<Z>(query)

@@ -1,19 +1,20 @@
 //! Corpora judged as a whole.
 
 use std::fmt;
+use std::iter;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use tunnelproof::narrow::Unsupported;
 use tunnelproof::query::{EdgeEdge, Query};
 
 use crate::answer::ExactAnswer;
-use crate::corpus::{CorpusError, Entry};
+use crate::corpus::{CorpusError, Entries, Entry};
 use crate::oracle;
 use crate::subject::{Answer, Subject};
 
 use super::batch::map_in_order;
 use super::source::Source;
-use super::tally::{Fault, Finding, Tally, Witness};
+use super::tally::{Fault, Finding, Tally, Witness, centrality};
 use super::verdict::judge;
 
 /// The names of the errata that together make an answer differ from the exact one.
@@ -48,6 +49,8 @@ pub struct Block {
     pub hits: u64,
     /// How many of them are crossed.
     pub crossings: u64,
+    /// How many whole groups there were of segments of a wire that is passed.
+    pub joints: u64,
     /// How many of them are labelled.
     pub labels: u64,
     /// Labels that are not what the oracle says.
@@ -102,11 +105,20 @@ impl Panel<'_> {
             tallies: vec![Tally::default(); self.subjects.len()],
             ..Block::default()
         };
-        let entries = source.entries()?.map(|entry| entry.map_err(RunError::from));
-        let work = |entry| self.judge(source, entry);
-        map_in_order(entries, work, |cases: Vec<Judgements>| {
-            progress(cases.len() as u64);
-            cases.into_iter().for_each(|case| block.add(case));
+        let size = source.group_size();
+        let groups = groups(source.entries()?, size);
+        let work = |group: Vec<Entry>| -> Result<Vec<_>, _> {
+            let judged = group.into_iter().map(|entry| self.judge(source, entry));
+            judged.collect()
+        };
+        map_in_order(groups, work, |groups: Vec<Vec<Judgements>>| {
+            for group in groups {
+                progress(group.len() as u64);
+                if group.len() == size && size > 1 {
+                    block.add_joint(&group);
+                }
+                group.into_iter().for_each(|case| block.add(case));
+            }
             Ok(())
         })?;
         block.tallies.iter_mut().for_each(measure_gap);
@@ -139,6 +151,20 @@ impl Panel<'_> {
     }
 }
 
+/// The entries in groups of `size`, the last one of what is left.
+fn groups(
+    mut entries: Entries,
+    size: usize,
+) -> impl Iterator<Item = Result<Vec<Entry>, RunError>> + Send {
+    iter::from_fn(move || {
+        let group: Result<Vec<_>, _> = entries.by_ref().take(size).collect();
+        match group {
+            Ok(group) if group.is_empty() => None,
+            group => Some(group.map_err(RunError::from)),
+        }
+    })
+}
+
 /// A query and all that was said and found about it.
 struct Judgements {
     id: String,
@@ -147,6 +173,23 @@ struct Judgements {
     truth: ExactAnswer,
     second: Option<Answer>,
     subjects: Vec<Found>,
+}
+
+impl Judgements {
+    fn witness(&self, answer: Option<Answer>, severity: f64) -> Witness {
+        Witness {
+            severity,
+            id: self.id.clone(),
+            query: self.query,
+            truth: self.truth,
+            answer,
+        }
+    }
+
+    /// How central the contact is; 0 for a miss.
+    fn centrality(&self) -> f64 {
+        self.truth.hit.as_ref().map_or(0.0, centrality)
+    }
 }
 
 /// What was found of one subject on one query.
@@ -160,6 +203,17 @@ pub struct Found {
     pub faults: Vec<(Fault, f64)>,
     /// The errata that together explain an answer that differs.
     pub errata: Vec<&'static str>,
+}
+
+impl Found {
+    /// Whether the subject reports a miss; no answer is none.
+    fn is_miss(&self) -> bool {
+        let has_answer = self
+            .faults
+            .iter()
+            .all(|(fault, _)| *fault != Fault::NoAnswer);
+        has_answer && !self.is_hit
+    }
 }
 
 impl Judged<'_> {
@@ -187,13 +241,7 @@ impl Judged<'_> {
 
 impl Block {
     fn add(&mut self, case: Judgements) {
-        let witness = |answer, severity| Witness {
-            severity,
-            id: case.id.clone(),
-            query: case.query,
-            truth: case.truth,
-            answer,
-        };
+        let witness = |answer, severity| case.witness(answer, severity);
         let hit = case.truth.hit;
         self.queries += 1;
         self.hits += u64::from(hit.is_some());
@@ -205,9 +253,9 @@ impl Block {
         if case.second != Some(Answer::Exact(case.truth)) {
             self.disagreements.add(witness(case.second, 0.0));
         }
-        for (tally, found) in self.tallies.iter_mut().zip(case.subjects) {
+        for (tally, found) in self.tallies.iter_mut().zip(&case.subjects) {
             tally.hits += u64::from(found.is_hit);
-            for (fault, severity) in found.faults {
+            for &(fault, severity) in &found.faults {
                 let finding = tally.faults.entry(fault).or_default();
                 finding.add(witness(found.answer, severity));
             }
@@ -222,11 +270,33 @@ impl Block {
         }
     }
 
+    /// Counts the joint tunnels of a group: the wire is passed, so that a hit is due in one of its
+    /// members.
+    fn add_joint(&mut self, members: &[Judgements]) {
+        self.joints += 1;
+        let more_central =
+            |a: &&Judgements, b: &&Judgements| a.centrality().total_cmp(&b.centrality());
+        let Some(shown) = members.iter().max_by(more_central) else {
+            return;
+        };
+        for (i, tally) in self.tallies.iter_mut().enumerate() {
+            if members.iter().all(|member| member.subjects[i].is_miss()) {
+                let witness = shown.witness(shown.subjects[i].answer, shown.centrality());
+                tally
+                    .faults
+                    .entry(Fault::JointTunnel)
+                    .or_default()
+                    .add(witness);
+            }
+        }
+    }
+
     /// Adds what was found on a later source.
     pub fn merge(&mut self, later: Block) {
         self.queries += later.queries;
         self.hits += later.hits;
         self.crossings += later.crossings;
+        self.joints += later.joints;
         self.labels += later.labels;
         self.wrong_labels.merge(later.wrong_labels);
         self.disagreements.merge(later.disagreements);

@@ -47,6 +47,14 @@ impl Source {
         }
     }
 
+    /// How many consecutive queries belong together ([`Family::group_size`]).
+    pub fn group_size(&self) -> usize {
+        match self {
+            Source::Family { family, .. } => family.group_size(),
+            Source::Figures | Source::File { .. } => 1,
+        }
+    }
+
     /// The queries in their order.
     ///
     /// # Errors

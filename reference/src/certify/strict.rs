@@ -8,7 +8,7 @@ use super::tally::{Fault, Tally};
 /// What fails: a line for each subject and for each disagreement among judges and labels; none if
 /// everything passes.
 ///
-/// A subject fails by a tunnel, a missed graze, a false hit or a missing answer, and by a near hit
+/// A subject fails by a tunnel, one at a joint, a missed graze, a false hit or a missing answer, and by a near hit
 /// or a late time of impact beyond what it is [`permitted`]; an exact one by any other field that
 /// differs. A wrong case alone does not fail an engine: it is a way to an answer, not the answer.
 pub fn failures(panel: &Panel, total: &Block) -> Vec<String> {
@@ -37,6 +37,7 @@ fn faults<'a>(judged: &Judged, tally: &'a Tally) -> impl Iterator<Item = String>
     let permitted = permitted(judged.subject.name());
     let counted = [
         (Fault::Tunnel, "tunnels"),
+        (Fault::JointTunnel, "joint tunnels"),
         (Fault::MissedGraze, "missed grazes"),
         (Fault::FalseHit, "false hits"),
         (Fault::NoAnswer, "queries without answer"),

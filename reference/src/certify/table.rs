@@ -7,10 +7,10 @@ use crate::corpus::jsonl::{self, Numbers};
 /// The width of the subjects' names.
 const NAME: usize = 18;
 
-type Cell = fn(&Tally) -> String;
+/// A column after the subject: two lines of heading, the width, what stands in it.
+type Column = ([&'static str; 2], usize, fn(&Tally) -> String);
 
-/// The columns after the subject: two lines of heading, the width, what stands in it.
-const COLUMNS: [([&str; 2], usize, Cell); 9] = [
+const COLUMNS: [Column; 9] = [
     (["", "hits"], 9, |tally| grouped(tally.hits)),
     (["", "tunnels"], 9, |tally| count(tally, Fault::Tunnel)),
     (["missed", "grazes"], 8, |tally| {
@@ -26,41 +26,61 @@ const COLUMNS: [([&str; 2], usize, Cell); 9] = [
     (["worst", "early"], 10, |tally| worst(tally, Fault::Early)),
 ];
 
+/// The column for sources with joints, after the tunnels.
+const JOINTS: Column = (["joint", "tunnels"], 9, |tally| {
+    count(tally, Fault::JointTunnel)
+});
+
 /// What was found, a block of lines for each source.
 pub fn blocks(panel: &Panel, blocks: &[Block]) -> String {
-    let mut lines = headings();
+    let has_joints = blocks.iter().any(|block| block.joints > 0);
+    let mut columns = COLUMNS.to_vec();
+    if has_joints {
+        columns.insert(2, JOINTS);
+    }
+    let mut lines = headings(&columns);
     for block in blocks {
         lines.push(String::new());
         lines.push(heading(block));
         for (judged, tally) in panel.subjects.iter().zip(&block.tallies) {
-            let cells = COLUMNS.map(|(_, width, cell)| format!("{:>width$}", cell(tally)));
-            let name = judged.subject.name();
-            lines.push(format!("  {name:<NAME$}{}", cells.concat()));
+            let cell = |column: &Column| match column {
+                (heading, ..) if *heading == JOINTS.0 && block.joints == 0 => String::new(),
+                (.., cell) => cell(tally),
+            };
+            lines.push(line(judged.subject.name(), &columns, cell));
         }
     }
     lines.push(String::new());
     lines.join("\n")
 }
 
-fn headings() -> Vec<String> {
-    let line = |which: usize, name: &str| {
-        let cells = COLUMNS.map(|(heading, width, _)| format!("{:>width$}", heading[which]));
-        format!("  {name:<NAME$}{}", cells.concat())
-    };
-    vec![line(0, ""), line(1, "subject")]
+fn headings(columns: &[Column]) -> Vec<String> {
+    let headings =
+        |which: usize, name| line(name, columns, |(heading, ..)| heading[which].to_owned());
+    vec![headings(0, ""), headings(1, "subject")]
+}
+
+/// A line of the table: a name, then a cell in each column.
+fn line(name: &str, columns: &[Column], cell: impl Fn(&Column) -> String) -> String {
+    let cells = columns
+        .iter()
+        .map(|column| format!("{:>width$}", cell(column), width = column.1));
+    format!("  {name:<NAME$}{}", cells.collect::<String>())
 }
 
 fn heading(block: &Block) -> String {
-    let labels = match block.labels {
+    let some = |number, of| match number {
         0 => String::new(),
-        labels => format!(", {} labels", grouped(labels)),
+        number => format!(", {} {of}", grouped(number)),
     };
     format!(
-        "{}: {} queries, {} hits, {} crossings{labels}",
+        "{}: {} queries, {} hits, {} crossings{}{}",
         block.name,
         grouped(block.queries),
         grouped(block.hits),
         grouped(block.crossings),
+        some(block.joints, "joints"),
+        some(block.labels, "labels"),
     )
 }
 
@@ -150,7 +170,7 @@ pub fn witnesses(panel: &Panel, total: &Block) -> String {
 /// How bad a witness is, in a few letters.
 fn measure(fault: Fault, severity: f64) -> String {
     match fault {
-        Fault::Tunnel | Fault::MissedGraze => format!("central {severity:.2}"),
+        Fault::Tunnel | Fault::JointTunnel | Fault::MissedGraze => format!("central {severity:.2}"),
         Fault::FalseHit => format!("gap {} m", short(severity)),
         Fault::Late | Fault::Early => format!("by {}", short(severity)),
         Fault::NearHit | Fault::NoAnswer | Fault::WrongCase | Fault::Differs => String::new(),

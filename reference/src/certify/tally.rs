@@ -16,6 +16,9 @@ pub enum Fault {
     /// [`Verdict::Tunnel`]. Worst: `toi`, `u` and `v` farthest from 0 and 1,
     /// together.
     Tunnel,
+    /// Misses of every segment of a wire that is passed, together one fault. Worst: as for a tunnel,
+    /// and of the segments the one with that contact.
+    JointTunnel,
     /// [`Verdict::MissedGraze`]. Worst: as for a tunnel.
     MissedGraze,
     /// [`Verdict::FalseHit`]. Worst: the largest gap in metres.
@@ -81,8 +84,9 @@ pub struct Explained {
 
 impl Fault {
     /// Every fault, in the order of tables.
-    pub const ALL: [Fault; 9] = [
+    pub const ALL: [Fault; 10] = [
         Fault::Tunnel,
+        Fault::JointTunnel,
         Fault::MissedGraze,
         Fault::FalseHit,
         Fault::NearHit,
@@ -97,6 +101,7 @@ impl Fault {
     pub fn name(self) -> &'static str {
         match self {
             Fault::Tunnel => Verdict::Tunnel.name(),
+            Fault::JointTunnel => "joint tunnel",
             Fault::MissedGraze => Verdict::MissedGraze.name(),
             Fault::FalseHit => Verdict::FalseHit.name(),
             Fault::NearHit => Verdict::NearHit.name(),
@@ -137,7 +142,7 @@ impl Judgement {
 
 /// How far the time and the place of a contact are from the ends of the step and of the edges: 0 if
 /// each is at an end, 1 if each is in the middle.
-fn centrality(hit: &ExactHit) -> f64 {
+pub(super) fn centrality(hit: &ExactHit) -> f64 {
     let from_ends = |number: Enclosure| number.below.min(1.0 - number.above);
     let sum = [hit.toi, hit.first.u, hit.first.v]
         .map(from_ends)

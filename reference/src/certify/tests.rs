@@ -9,6 +9,7 @@ use tunnelproof::query::{Point, Query};
 use super::run::{Block, Judged, Panel};
 use super::source::Source;
 use super::strict::failures;
+use super::table;
 use super::tally::{Fault, Tally};
 use crate::answer::{Enclosure, ExactAnswer};
 use crate::corpus::ReadOptions;
@@ -365,4 +366,105 @@ fn certify_figures_are_hits_where_the_captions_say_so() {
     assert_eq!((block.queries, block.labels), (12, 12));
     assert_eq!(block.wrong_labels.count, 0);
     assert_eq!(failures(&panel, &block), [""; 0]);
+}
+
+fn joint() -> Source {
+    Source::Family {
+        family: generate::by_name("joint").unwrap(),
+        seed: 3,
+        count: COUNT + 1,
+    }
+}
+
+/// An engine that is right but for the members of chosen wires of which `drops` is asked.
+fn run_joint(drops: impl Fn(&Query) -> bool + Sync) -> (Block, Vec<String>) {
+    let liar = Liar {
+        lie: |query: &Query, truth| {
+            let mut report = honest(truth);
+            if drops(query) {
+                report.verdict = Claim::Miss;
+            }
+            Ok(report)
+        },
+        declared: 0.0,
+    };
+    let panel = panel(&liar);
+    let block = panel.run(&joint(), |_| {}).unwrap();
+    let failures = failures(&panel, &block);
+    (block, failures)
+}
+
+/// About one wire in ten, chosen by the segment that both of its members share.
+fn is_chosen_wire(query: &Query) -> bool {
+    let bits = query.start()[2].x.to_bits() ^ query.end()[3].y.to_bits();
+    (bits ^ bits >> 32).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32 < (1 << 32) / 10
+}
+
+/// The two queries of each whole wire.
+fn members() -> Vec<[Query; 2]> {
+    let entries = joint().entries().unwrap();
+    let queries: Vec<_> = entries.map(|entry| entry.unwrap().query).collect();
+    queries
+        .chunks_exact(2)
+        .map(|pair| [pair[0], pair[1]])
+        .collect()
+}
+
+#[test]
+fn certify_wires_missed_by_both_segments_are_joint_tunnels() {
+    let chosen = members()
+        .into_iter()
+        .filter(|[first, _]| is_chosen_wire(first));
+    let chosen = chosen.count() as u64;
+    let (block, failures) = run_joint(is_chosen_wire);
+    let tally = &block.tallies[0];
+    assert!(chosen > 50, "{chosen}");
+    assert_eq!((block.queries, block.joints), (COUNT + 1, COUNT / 2));
+    assert_eq!(tally.count(Fault::JointTunnel), chosen);
+    assert!(
+        failures[0].contains(&format!("{chosen} joint tunnels")),
+        "{failures:?}"
+    );
+    let witness = tally.faults[&Fault::JointTunnel].worst.as_ref().unwrap();
+    assert!(is_chosen_wire(&witness.query) && witness.truth.hit.is_some());
+    assert_eq!(witness.severity, tally.worst(Fault::JointTunnel));
+}
+
+#[test]
+fn certify_wires_hit_by_one_segment_are_no_joint_tunnels() {
+    let is_hit = |query: &Query| decide_query(query).unwrap().hit.is_some();
+    // Of the wires that hit both segments, one hit is dropped: a fault, but the wire is held.
+    let dropped: Vec<Query> = (members().into_iter())
+        .filter(|pair| pair.iter().all(is_hit))
+        .map(|[first, _]| first)
+        .collect();
+    let (block, failures) = run_joint(|query| dropped.contains(query));
+    let tally = &block.tallies[0];
+    let missed = tally.count(Fault::Tunnel) + tally.count(Fault::MissedGraze);
+    assert_eq!(missed, dropped.len() as u64);
+    assert!(missed > 100, "{missed}");
+    assert_eq!(tally.count(Fault::JointTunnel), 0);
+    assert!(!failures[0].contains("joint"), "{failures:?}");
+}
+
+#[test]
+fn certify_table_has_a_column_for_joints_where_there_are_any() {
+    let (block, _) = run_joint(is_chosen_wire);
+    let liar = Liar {
+        lie: |_: &Query, truth| Ok(honest(truth)),
+        declared: 0.0,
+    };
+    let panel = panel(&liar);
+    let other = run(&liar);
+    let both = table::blocks(&panel, &[other.clone(), block]);
+    assert!(both.contains("joint") && both.contains(" 750 joints"));
+    let row = |text: &str| {
+        text.lines()
+            .filter(|l| l.contains("liar"))
+            .map(str::len)
+            .max()
+    };
+    let alone = table::blocks(&panel, &[other]);
+    assert!(!alone.contains("joint"));
+    assert_eq!(row(&both), row(&alone).map(|width| width + 9));
 }

@@ -33,8 +33,9 @@ Examples:
 
 Without files: the figure cases and every family. With files: these, and the families asked for.
 
-Columns: hits that the subject reports; tunnels, crossings that it misses; missed grazes, contacts
-without crossing that it misses; false hits; near hits, false hits within the distance that the
+Columns: hits that the subject reports; tunnels, crossings that it misses; joint tunnels, segments that
+pass through a wire at a node and that it misses on both sides of it; missed grazes, contacts without
+crossing that it misses; false hits; near hits, false hits within the distance that the
 subject declares of itself; wrong cases; queries it gives no answer to; and how far the worst time of
 impact is behind (late: dangerous) or ahead of (early: safe) the exact one.
 

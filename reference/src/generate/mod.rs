@@ -3,28 +3,78 @@
 //! A query of a family is named by a seed and an index, `FAMILY:SEED:INDEX`, and made from these
 //! alone: any one can be made by itself, on any thread, in any order. The random numbers are
 //! ChaCha8, keyed by the seed and the family's name, with the index as the stream.
+//!
+//! The queries of a family come in groups that belong together: each by itself, or the segments of one
+//! wire one after the other, which share a stream.
 
 use std::fmt;
 use std::str::FromStr;
 
-use nalgebra::Vector3;
-use rand::Rng;
+use rand::{Rng, RngExt};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tunnelproof::query::{EdgeEdge, Point, Query};
 
+use motion::Motion;
+
+mod cancellation;
+mod confine;
+mod crossing;
+mod grazing;
+mod joint;
 mod lattice;
+mod long_thin;
+mod meeting;
+mod motion;
+mod near_collinear;
+mod near_coplanar;
+mod near_parallel;
+mod nudge;
+mod point_on_line;
+mod scales;
+mod shared_start;
+mod slow;
+mod temporarily_parallel;
+mod temporarily_point;
+mod triple_root;
 mod uniform;
 
 /// Every family, in the order of tables.
-pub const FAMILIES: &[Family] = &[uniform::FAMILY, lattice::FAMILY];
+pub const FAMILIES: &[Family] = &[
+    uniform::FAMILY,
+    lattice::FAMILY,
+    near_coplanar::FAMILY,
+    near_parallel::FAMILY,
+    near_collinear::FAMILY,
+    shared_start::FAMILY,
+    point_on_line::FAMILY,
+    temporarily_parallel::FAMILY,
+    temporarily_point::FAMILY,
+    grazing::FAMILY,
+    triple_root::FAMILY,
+    scales::FAMILY,
+    cancellation::FAMILY,
+    slow::FAMILY,
+    long_thin::FAMILY,
+    joint::FAMILY,
+];
 
 /// An endless, seeded sequence of queries that probe one property.
 #[derive(Debug)]
 pub struct Family {
     name: &'static str,
     description: &'static str,
-    draw: fn(&mut dyn Rng) -> Query,
+    draw: Draw,
+}
+
+/// How a group of queries is made of random numbers.
+#[derive(Debug)]
+enum Draw {
+    /// Each query by itself.
+    Query(fn(&mut dyn Rng) -> Query),
+    /// Two consecutive segments of one wire against one other segment, which provably passes from one
+    /// side of the wire to the other.
+    Wire(fn(&mut dyn Rng) -> [Query; 2]),
 }
 
 impl Family {
@@ -45,14 +95,35 @@ impl Family {
         for (byte, letter) in key[8..].iter_mut().zip(self.name.bytes()) {
             *byte = letter;
         }
+        let size = self.group_size() as u64;
         let mut rng = ChaCha8Rng::from_seed(key);
-        rng.set_stream(index);
-        self.draw(&mut rng)
+        rng.set_stream(index / size);
+        self.draw.member(&mut rng, (index % size) as usize)
+    }
+
+    /// How many consecutive queries, from an index that it divides, are one group: 1, or 2 for the
+    /// segments of a wire that another segment passes through, so that a hit is due in one of them.
+    pub fn group_size(&self) -> usize {
+        match self.draw {
+            Draw::Query(_) => 1,
+            Draw::Wire(_) => 2,
+        }
     }
 
     /// A query made of any random numbers, such as the bytes that a fuzzer chooses.
     pub fn draw(&self, rng: &mut dyn Rng) -> Query {
-        (self.draw)(rng)
+        let member = rng.random_range(0..self.group_size());
+        self.draw.member(rng, member)
+    }
+}
+
+impl Draw {
+    /// One query of a group.
+    fn member(&self, rng: &mut dyn Rng, member: usize) -> Query {
+        match self {
+            Draw::Query(draw) => draw(rng),
+            Draw::Wire(draw) => draw(rng)[member],
+        }
     }
 }
 
@@ -124,7 +195,7 @@ impl fmt::Display for GeneratedId {
 }
 
 /// The query of two edges with radius 0, from positions that are finite by construction.
-fn edge_edge(start: [Vector3<f64>; 4], end: [Vector3<f64>; 4]) -> Query {
+fn edge_edge([start, end]: Motion<f64>) -> Query {
     EdgeEdge::new(start.map(Point::from), end.map(Point::from), 0.0)
         .map(Query::EdgeEdge)
         .expect("a family makes finite coordinates")

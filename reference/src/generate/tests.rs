@@ -1,5 +1,10 @@
 use std::collections::{BTreeMap, HashSet};
+use std::convert::Infallible;
+use std::iter;
 
+use nalgebra::Vector3;
+use rand::TryRng;
+use rand::rand_core::utils;
 use tunnelproof::contact::Case;
 use tunnelproof::query::QueryKind;
 
@@ -99,6 +104,42 @@ fn families_query_depends_on_family_seed_and_index_alone() {
     assert_ne!(FAMILIES[0].query(7, 0), FAMILIES[1].query(7, 0));
 }
 
+/// The bits of the first queries of seed 1, mixed (FNV-1a).
+fn digest(family: &Family) -> u64 {
+    let queries = (0..1000).map(|index| family.query(1, index));
+    let points = queries.flat_map(|query| [*query.start(), *query.end()].concat());
+    let bits = points.flat_map(|point| [point.x, point.y, point.z].map(f64::to_bits));
+    bits.fold(0xcbf2_9ce4_8422_2325, |digest, bits| {
+        (digest ^ bits).wrapping_mul(0x100_0000_01b3)
+    })
+}
+
+/// What an identifier names must not change, whatever a family's code does.
+#[test]
+fn families_queries_stay_the_same() {
+    let digests: Vec<_> = FAMILIES.iter().map(|f| (f.name(), digest(f))).collect();
+    assert_eq!(digests, DIGESTS);
+}
+
+const DIGESTS: [(&str, u64); 16] = [
+    ("uniform", 0x90e1_f756_7887_2025),
+    ("lattice", 0x38a1_60f1_e188_9625),
+    ("near_coplanar", 0x7ec1_5ac2_d0d9_16e6),
+    ("near_parallel", 0xa59f_0bf4_3aae_9b48),
+    ("near_collinear", 0x3b7c_508c_8860_f3e1),
+    ("shared_start", 0x5614_785f_7926_0ad5),
+    ("point_on_line", 0x86bc_bd03_cccf_fc08),
+    ("temporarily_parallel", 0xb44c_c580_eaa6_6c68),
+    ("temporarily_point", 0x8327_5a74_0050_4dcc),
+    ("grazing", 0x5797_51ad_66e8_5ff0),
+    ("triple_root", 0x042a_098f_d4be_bb20),
+    ("scales", 0x3ca4_b8d6_aff2_109c),
+    ("cancellation", 0xa7dd_99bd_ad37_5f93),
+    ("slow", 0x479a_4309_9511_f592),
+    ("long_thin", 0x5ce4_777e_6c14_b92d),
+    ("joint", 0xbbe5_22b6_e792_b744),
+];
+
 /// What an identifier names must not change: a release of `rand` that draws other numbers fails here.
 #[test]
 fn families_query_stays_the_same_over_releases() {
@@ -168,11 +209,12 @@ fn generated_id_is_read_as_it_is_written() {
 
 #[test]
 fn generated_id_errors_name_the_part() {
+    let no_family = format!("no such family; there are {}", names());
     for (text, message) in [
         ("lattice", "not of the form FAMILY:SEED:INDEX"),
         ("lattice:1", "not of the form FAMILY:SEED:INDEX"),
         ("lattice:1:2:3", "not of the form FAMILY:SEED:INDEX"),
-        ("lettuce:1:2", "no such family; there are uniform, lattice"),
+        ("lettuce:1:2", &no_family),
         (
             "lattice:-1:2",
             "the seed is not an integer from 0 to 18446744073709551615",
@@ -184,5 +226,40 @@ fn generated_id_errors_name_the_part() {
     ] {
         let error = text.parse::<GeneratedId>().unwrap_err();
         assert_eq!(error.to_string(), message, "{text}");
+    }
+}
+
+/// Random numbers from any bytes.
+struct Bytes<I>(I);
+
+impl<I: Iterator<Item = u8>> TryRng for Bytes<I> {
+    type Error = Infallible;
+
+    fn try_next_u32(&mut self) -> Result<u32, Infallible> {
+        utils::next_word_via_fill(self)
+    }
+
+    fn try_next_u64(&mut self) -> Result<u64, Infallible> {
+        utils::next_word_via_fill(self)
+    }
+
+    fn try_fill_bytes(&mut self, target: &mut [u8]) -> Result<(), Infallible> {
+        target.fill_with(|| self.0.next().expect("an endless sequence"));
+        Ok(())
+    }
+}
+
+#[test]
+fn families_draw_ends_in_a_query_whatever_the_random_numbers() {
+    for family in FAMILIES {
+        for byte in 0..=u8::MAX {
+            family.draw(&mut Bytes(iter::repeat(byte)));
+        }
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        for length in 0..4000 {
+            let mut bytes = vec![0; length % 200];
+            random.fill_bytes(&mut bytes);
+            family.draw(&mut Bytes(bytes.into_iter().chain(iter::repeat(0))));
+        }
     }
 }

@@ -5,20 +5,18 @@
 //! has no excuse. Edges are about as long as the box and steps about as long as the edges, which makes
 //! one query in five a hit.
 
-use nalgebra::Vector3;
-use rand::{Rng, RngExt};
+use rand::Rng;
 use tunnelproof::query::Query;
 
-use super::{Family, edge_edge};
+use super::motion::real_vector;
+use super::{Draw, Family, edge_edge};
 
 pub(super) const FAMILY: Family = Family {
     name: "uniform",
     description: "general motion: every coordinate evenly from [-1, 1)",
-    draw,
+    draw: Draw::Query(draw),
 };
 
 fn draw(rng: &mut dyn Rng) -> Query {
-    let mut positions = || [(); 4].map(|()| Vector3::from_fn(|_, _| rng.random_range(-1.0..1.0)));
-    let start = positions();
-    edge_edge(start, positions())
+    edge_edge([(); 2].map(|()| [(); 4].map(|()| real_vector(rng, 1.0))))
 }

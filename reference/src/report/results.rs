@@ -10,7 +10,8 @@
 //! | `total` | the same over all of them |
 //! | `failures` | what fails; empty if everything passes |
 //!
-//! A source has `name`, `queries`, `hits`, `crossings`, `labels`, the findings `wrong_labels` and
+//! A source has `name`, `queries`, `hits`, `crossings`, `joints` (pairs of consecutive segments of a
+//! wire that is passed), `labels`, the findings `wrong_labels` and
 //! `disagreements` (oracle against the second judge), and `subjects`. A subject has `subject`,
 //! `hits` (that it reports), `faults`, a finding by name, and `errata`, by the erratum that explains
 //! an answer two findings, `alone` and `with_others`. A finding has `count` and `worst`, its worst witness: `severity`, `id`,
@@ -63,6 +64,7 @@ struct Source<'a> {
     queries: u64,
     hits: u64,
     crossings: u64,
+    joints: u64,
     labels: u64,
     wrong_labels: Found<'a>,
     disagreements: Found<'a>,
@@ -136,6 +138,7 @@ fn source<'a>(panel: &Panel<'a>, block: &'a Block) -> Source<'a> {
         queries: block.queries,
         hits: block.hits,
         crossings: block.crossings,
+        joints: block.joints,
         labels: block.labels,
         wrong_labels: (&block.wrong_labels).into(),
         disagreements: (&block.disagreements).into(),

@@ -50,7 +50,7 @@ fn locate_errors_say_what_is_missing() {
         ("no.csv#1".into(), "no.csv: no such file".into()),
         (
             "lettuce:1:2".into(),
-            "lettuce:1:2: no such family; there are uniform, lattice".into(),
+            format!("lettuce:1:2: {}", crate::generate::IdError::Family),
         ),
         (
             "lattice:1:b".into(),

@@ -1,0 +1,49 @@
+//! Edges that are parallel at exactly one time of the step.
+//!
+//! Probes contact at roots of the cubic at which the lines of the edges have no single common point
+//! (thesis figure 4.2). Of 8 queries the time is inside the step in 4, at its start in 2, at its end in
+//! 2; of 4 queries the lines of the edges are one line at that time in 3, where the edges overlap or
+//! not. One query in three is nudged by 0 to `2^20` ulp.
+
+use nalgebra::Vector3;
+use rand::{Rng, RngExt};
+use tunnelproof::query::Query;
+
+use super::meeting::{Meeting, end_of_step};
+use super::motion::{metres, not_zero, placed, power_of_two, renamed};
+use super::nudge::nudged;
+use super::{Draw, Family, edge_edge};
+
+pub(super) const FAMILY: Family = Family {
+    name: "temporarily_parallel",
+    description: "edges parallel at exactly one time, also 0 and 1, or nearly so",
+    draw: Draw::Query(draw),
+};
+
+fn draw(rng: &mut dyn Rng) -> Query {
+    let motion = exact(rng).motion();
+    let motion = placed(rng, motion);
+    let motion = metres(rng, motion);
+    let motion = renamed(rng, motion);
+    edge_edge(match rng.random_range(0..3) {
+        0 => nudged(rng, motion),
+        _ => motion,
+    })
+}
+
+/// Edges that are parallel at the time of the meeting alone: the direction and both velocities are
+/// linearly independent.
+pub(super) fn exact(rng: &mut dyn Rng) -> Meeting {
+    let reach = power_of_two(rng, 2..=8);
+    let mut meeting = Meeting::new(rng, reach, reach / 4);
+    if rng.random() {
+        meeting.times = end_of_step(rng);
+    }
+    meeting.edges = [(); 2].map(|()| Vector3::x() * not_zero(rng, reach));
+    let [a, b] = &mut meeting.turns;
+    (a.y, a.z, b.z) = (not_zero(rng, reach / 4), 0, not_zero(rng, reach / 4));
+    if rng.random_range(0..4) == 0 {
+        meeting.aside.y = not_zero(rng, reach);
+    }
+    meeting
+}
