@@ -13,4 +13,5 @@ pub mod registry;
 pub mod report;
 pub mod scaled;
 pub mod shadow;
+pub mod shrink;
 pub mod subject;

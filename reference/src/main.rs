@@ -1,4 +1,4 @@
-//! The command line: `eval`, `certify` and `explain`.
+//! The command line: `eval`, `certify`, `explain` and `shrink`.
 
 use std::process::ExitCode;
 

@@ -21,6 +21,7 @@ mod certify;
 mod eval;
 mod explain;
 mod output;
+mod shrink;
 
 /// Judges continuous collision detection of moving edges against exact arithmetic.
 #[derive(Parser)]
@@ -38,6 +39,7 @@ enum Command {
     Eval(eval::Eval),
     Certify(certify::Certify),
     Explain(explain::Explain),
+    Shrink(shrink::Shrink),
 }
 
 /// How files are read.
@@ -93,6 +95,7 @@ impl Cli {
             Command::Eval(eval) => eval.run(),
             Command::Certify(certify) => certify.run(),
             Command::Explain(explain) => explain.run(),
+            Command::Shrink(shrink) => shrink.run(),
         }
     }
 }
