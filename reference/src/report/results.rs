@@ -174,6 +174,7 @@ impl From<&Permitted> for PermittedRow {
             subject,
             distance,
             late,
+            borders: _,
             source,
         }: &Permitted,
     ) -> Self {

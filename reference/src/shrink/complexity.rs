@@ -1,7 +1,7 @@
 //! Which of two queries is the simpler one.
 
-use super::shape::Shape;
 use crate::algebraic::decompose;
+use crate::shape::Shape;
 
 /// How complex a query is, totally ordered: the smaller, the simpler.
 ///

@@ -13,10 +13,10 @@ use tunnelproof::query::Query;
 use crate::certify::table;
 use crate::corpus::Entry;
 use crate::corpus::jsonl::{self, Numbers};
+use crate::shape::Shape;
 
 mod complexity;
 mod disagreement;
-mod shape;
 mod steps;
 
 #[cfg(test)]
@@ -24,8 +24,6 @@ mod tests;
 
 pub use complexity::Complexity;
 pub use disagreement::{Disagreement, Truth};
-
-use shape::Shape;
 
 /// How often the predicate is asked where nothing else is said. Some thousand times are enough for
 /// most queries; the truth takes some ten microseconds each.
@@ -57,7 +55,7 @@ pub fn shrink(
     mut is_interesting: impl FnMut(&Query) -> bool,
 ) -> Shrunk {
     let start = Shape::new(query);
-    let before = start.complexity();
+    let before = Complexity::new(&start);
     let mut search = Search {
         best: start,
         complexity: before,
@@ -128,7 +126,7 @@ impl Search {
         shape: Shape,
         is_interesting: &mut dyn FnMut(&Query) -> bool,
     ) -> Result<bool, UsedUp> {
-        let complexity = shape.complexity();
+        let complexity = Complexity::new(&shape);
         if complexity >= self.complexity || self.refused.contains(&shape) {
             return Ok(false);
         }

@@ -3,8 +3,8 @@
 
 use tunnelproof::query::QueryKind;
 
-use super::shape::Shape;
 use crate::algebraic::decompose;
+use crate::shape::Shape;
 
 /// Proposes queries in place of one.
 pub(super) type Step = fn(&Shape) -> Box<dyn Iterator<Item = Shape>>;

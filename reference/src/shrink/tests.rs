@@ -26,8 +26,8 @@ fn shrunk(subject: &dyn Subject, query: &Query) -> Option<(Fault, Shrunk)> {
     let fault = disagreement.fault(query).unwrap()?;
     let shrunk = disagreement.shrink(query, fault, MOST_CALLS);
     assert_eq!(disagreement.fault(&shrunk.query), Ok(Some(fault)));
-    assert_eq!(shrunk.before, Shape::new(query).complexity());
-    assert_eq!(shrunk.after, Shape::new(&shrunk.query).complexity());
+    assert_eq!(shrunk.before, Complexity::new(&Shape::new(query)));
+    assert_eq!(shrunk.after, Complexity::new(&Shape::new(&shrunk.query)));
     assert!(shrunk.after < shrunk.before || shrunk.query == *query);
     assert!(shrunk.calls <= MOST_CALLS);
     assert!(shrunk.is_minimal, "{shrunk}");

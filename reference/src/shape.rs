@@ -1,22 +1,20 @@
-//! A query as a list of numbers.
+//! A query as a list of numbers, which shrinking and fuzzing change as they like.
 
 use std::hash::{Hash, Hasher};
 
 use tunnelproof::query::{Point, Query, QueryKind};
 
-use super::Complexity;
-
-/// The numbers of a query, which steps change as they like.
+/// The numbers of a query.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shape {
-    pub(super) kind: QueryKind,
+pub(crate) struct Shape {
+    pub(crate) kind: QueryKind,
     /// x, y and z of A, B, C and D at `t = 0`, then at `t = 1`.
-    pub(super) numbers: [f64; 24],
-    pub(super) radius: f64,
+    pub(crate) numbers: [f64; 24],
+    pub(crate) radius: f64,
 }
 
 impl Shape {
-    pub(super) fn new(query: &Query) -> Self {
+    pub(crate) fn new(query: &Query) -> Self {
         let mut numbers = [0.0; 24];
         let points = query.start().iter().chain(query.end());
         for (place, number) in numbers
@@ -33,23 +31,23 @@ impl Shape {
     }
 
     /// The query, if the numbers are those of one.
-    pub(super) fn query(&self) -> Option<Query> {
+    pub(crate) fn query(&self) -> Option<Query> {
         let point = |index: usize| Point::from(self.position(index));
         let (start, end) = ([0, 1, 2, 3].map(point), [4, 5, 6, 7].map(point));
         Query::new(self.kind, start, end, self.radius).ok()
     }
 
     /// One of eight positions: A, B, C, D at the start and A, B, C, D at the end.
-    pub(super) fn position(&self, index: usize) -> [f64; 3] {
+    pub(crate) fn position(&self, index: usize) -> [f64; 3] {
         [0, 1, 2].map(|axis| self.numbers[3 * index + axis])
     }
 
-    pub(super) fn set_position(&mut self, index: usize, position: [f64; 3]) {
+    pub(crate) fn set_position(&mut self, index: usize, position: [f64; 3]) {
         self.numbers[3 * index..][..3].copy_from_slice(&position);
     }
 
     /// The same with another position at each index.
-    pub(super) fn permuted(&self, index: [usize; 8]) -> Self {
+    pub(crate) fn permuted(&self, index: [usize; 8]) -> Self {
         let mut shape = *self;
         for (to, from) in index.into_iter().enumerate() {
             shape.set_position(to, self.position(from));
@@ -58,7 +56,7 @@ impl Shape {
     }
 
     /// The same with these numbers, by their index, changed; a 0 is always the positive one.
-    pub(super) fn changed(
+    pub(crate) fn changed(
         &self,
         indices: impl IntoIterator<Item = usize>,
         change: impl Fn(f64) -> f64,
@@ -69,10 +67,6 @@ impl Shape {
             shape.numbers[index] = change(shape.numbers[index]) + 0.0;
         }
         shape
-    }
-
-    pub(super) fn complexity(&self) -> Complexity {
-        Complexity::new(self)
     }
 
     fn bits(&self) -> (QueryKind, [u64; 24], u64) {
