@@ -285,6 +285,7 @@ fn help_and_version_are_there() {
         &["certify", "--help"],
         &["explain", "-h"],
         &["shrink", "--help"],
+        &["replay", "--help"],
     ] {
         let output = tunnelproof(command);
         assert_eq!(code(&output), 0);
@@ -480,6 +481,29 @@ fn shrink_takes_the_first_query_that_is_wrong_and_says_if_there_is_none() {
         None,
         "a radius above 0",
     );
+}
+
+#[test]
+fn replay_takes_the_target_from_the_folder_and_shows_the_query() {
+    let folder = tempfile::tempdir().unwrap();
+    let target = folder.path().join("oracle_vs_shadow");
+    fs::create_dir(&target).unwrap();
+    let path = target.join("crash-1");
+    fs::write(&path, [0, 2, 1, 9, 8, 7]).unwrap();
+    let path = path.to_str().unwrap();
+    let output = tunnelproof(&["replay", path]);
+    assert_eq!(code(&output), 0);
+    let text = stdout(&output);
+    let (first, line) = text.split_once('\n').unwrap();
+    assert_eq!(first, format!("{path}: oracle_vs_shadow finds nothing"));
+    assert_eq!(code(&with_input(&["eval", "-"], line)), 0);
+    let output = tunnelproof(&["replay", "--target", "parsers", path]);
+    assert!(stdout(&output).ends_with(": parsers finds nothing\n"));
+    let (_other, stray) = file("bytes", [1, 2, 3]);
+    let output = tunnelproof(&["replay", &stray]);
+    assert_refused(&output, &stray, None, "pass --target");
+    let output = tunnelproof(&["replay", "--target", "poly", "no-such-file"]);
+    assert_refused(&output, "no-such-file", None, "No such file");
 }
 
 #[test]

@@ -21,6 +21,7 @@ mod certify;
 mod eval;
 mod explain;
 mod output;
+mod replay;
 mod shrink;
 
 /// Judges continuous collision detection of moving edges against exact arithmetic.
@@ -40,6 +41,7 @@ enum Command {
     Certify(certify::Certify),
     Explain(explain::Explain),
     Shrink(shrink::Shrink),
+    Replay(replay::Replay),
 }
 
 /// How files are read.
@@ -66,6 +68,8 @@ enum Failure {
     },
     /// There is nothing to do.
     Nothing,
+    /// Nothing says which fuzz target the file at this path is for.
+    Target(String),
     /// The threads cannot be started.
     Threads(rayon::ThreadPoolBuildError),
 }
@@ -96,6 +100,7 @@ impl Cli {
             Command::Certify(certify) => certify.run(),
             Command::Explain(explain) => explain.run(),
             Command::Shrink(shrink) => shrink.run(),
+            Command::Replay(replay) => replay.run(),
         }
     }
 }
@@ -138,6 +143,9 @@ impl fmt::Display for Failure {
             Failure::Input(error) => error.fmt(f),
             Failure::Output { name, error } => write!(f, "{name}: cannot be written: {error}"),
             Failure::Nothing => f.write_str("--count 0: no query is left to judge"),
+            Failure::Target(path) => {
+                write!(f, "{path}: is in no folder of a fuzz target; pass --target")
+            }
             Failure::Threads(error) => write!(f, "--threads: {error}"),
         }
     }

@@ -6,11 +6,15 @@
 
 use std::fmt;
 
+use rand::Rng;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
 use tunnelproof::query::Query;
 
 use crate::certify::table;
 use crate::corpus::Entry;
 use crate::corpus::jsonl::{self, Numbers};
+use crate::generate::FAMILIES;
 use crate::registry;
 use crate::shrink;
 
@@ -91,7 +95,7 @@ pub struct Finding {
     /// What is wrong.
     pub what: String,
     /// The query, for targets that make one of their bytes.
-    pub query: Option<Query>,
+    pub query: Option<Box<Query>>,
 }
 
 impl Target {
@@ -104,19 +108,49 @@ impl Target {
         let (what, query) = match self.check {
             Check::Query(check) => {
                 let query = input::query(bytes);
-                (check(&query), Some(query))
+                (check(&query), Some(Box::new(query)))
             }
             Check::Bytes(check) => (check(bytes), None),
         };
-        match what {
-            None => Ok(()),
-            Some(what) => Err(Finding {
-                target: self.name,
-                what,
-                query,
-            }),
+        let finding = |what| Finding {
+            target: self.name,
+            what,
+            query,
+        };
+        what.map_or(Ok(()), |what| Err(finding(what)))
+    }
+}
+
+/// How many seeds of a corpus each kind of input has.
+const SEEDS: u64 = 12;
+
+impl Target {
+    /// Bytes to start fuzzing with, always the same: some queries of every family, or random bytes, or
+    /// files for the readers.
+    pub fn seeds(&self) -> Vec<Vec<u8>> {
+        match self.check {
+            Check::Query(_) => (0..FAMILIES.len())
+                .flat_map(|family| (0..SEEDS).map(move |seed| input::seed(family, &random(seed))))
+                .collect(),
+            Check::Bytes(_) if self.name == "parsers" => parsers::seeds(),
+            Check::Bytes(_) => (0..SEEDS).map(random).collect(),
         }
     }
+
+    /// The query that these bytes stand for, for targets that make one of them.
+    pub fn query(&self, bytes: &[u8]) -> Option<Query> {
+        match self.check {
+            Check::Query(_) => Some(input::query(bytes)),
+            Check::Bytes(_) => None,
+        }
+    }
+}
+
+/// Enough random bytes for a query.
+fn random(seed: u64) -> Vec<u8> {
+    let mut bytes = vec![0; 256];
+    ChaCha8Rng::seed_from_u64(seed).fill_bytes(&mut bytes);
+    bytes
 }
 
 /// The target of this name, if this build has it.
@@ -143,7 +177,7 @@ impl fmt::Display for Finding {
         let Some(query) = &self.query else {
             return Ok(());
         };
-        let entry = Entry::unlabelled(self.target, *query);
+        let entry = Entry::unlabelled(self.target, **query);
         writeln!(f, "{}", jsonl::write(&entry, Numbers::Decimal))?;
         for subject in registry::subjects() {
             writeln!(f, "  {}: {:?}", subject.name(), subject.answer(query))?;

@@ -7,6 +7,7 @@ use tunnelproof::query::QueryKind;
 use crate::corpus::jsonl::{self, Numbers};
 use crate::corpus::locate::locate;
 use crate::corpus::{self, Entry, Format, ReadOptions};
+use crate::generate::FAMILIES;
 
 /// Reads the bytes after the first, which says how. What is read is written and read again.
 pub(super) fn check(bytes: &[u8]) -> Option<String> {
@@ -46,6 +47,26 @@ pub(super) fn check(bytes: &[u8]) -> Option<String> {
         }
     }
     None
+}
+
+/// A line of each kind of number, rows, and an identifier, each with its first byte.
+pub(super) fn seeds() -> Vec<Vec<u8>> {
+    let family = &FAMILIES[0];
+    let entry = Entry {
+        label: Some(true),
+        ..Entry::unlabelled("a", family.query(1, 0))
+    };
+    let row = "1,2,-3,-4,0,1,1\n";
+    [
+        (0, jsonl::write(&entry, Numbers::Decimal)),
+        (1, jsonl::write(&entry, Numbers::Hexadecimal)),
+        (5, row.repeat(8)),
+        (3, row.repeat(16)),
+        (0, format!("{}:1:4711", family.name())),
+        (0, "figure:4.3".to_owned()),
+    ]
+    .map(|(how, text)| [&[how], text.as_bytes()].concat())
+    .into()
 }
 
 /// Whether an identifier names neither a file nor the standard input, which a fuzzer leaves alone.
