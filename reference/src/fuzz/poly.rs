@@ -6,7 +6,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::One;
 
-use super::rational::Rational;
+use super::rational::{Rational, Sturm};
 use crate::algebraic::{Algebraic, isolate_roots};
 use crate::field;
 use crate::field::Integer;
@@ -50,7 +50,8 @@ pub(super) fn check(bytes: &[u8]) -> Option<String> {
 }
 
 fn roots(p: &Poly<Z>, q: &Poly<Z>, slow_p: &Rational, slow_q: &Rational) -> Option<&'static str> {
-    let (found, intervals) = (isolate_roots(p), slow_p.roots(BITS));
+    let chain = Sturm::new(slow_p);
+    let (found, intervals) = (isolate_roots(p), chain.roots(BITS));
     if found.len() != intervals.len() {
         return Some("the number of roots");
     }
@@ -61,7 +62,7 @@ fn roots(p: &Poly<Z>, q: &Poly<Z>, slow_p: &Rational, slow_q: &Rational) -> Opti
         if !(begins_below && root.is_zero() || low.is_gt() && high.is_le()) {
             return Some("the place of a root");
         }
-        if root.sign_of(q) != slow_q.sign_at(slow_p, interval) {
+        if root.sign_of(q) != slow_q.sign_at(&chain, interval) {
             return Some("the sign at a root");
         }
         let enclosure = root.enclosure();

@@ -35,7 +35,15 @@ impl Rational {
         }
     }
 
-    pub(super) fn at(&self, t: &BigRational) -> BigRational {
+    /// Divided by the magnitude of the leading coefficient: small numbers, the same signs.
+    fn scaled(&self) -> Self {
+        match self.0.last() {
+            Some(leading) => Rational(self.0.iter().map(|c| c / leading.abs()).collect()),
+            None => self.clone(),
+        }
+    }
+
+    fn at(&self, t: &BigRational) -> BigRational {
         let horner = |sum: BigRational, c: &BigRational| sum * t + c;
         self.0.iter().rev().fold(BigRational::zero(), horner)
     }
@@ -78,75 +86,92 @@ impl Rational {
         a.monic()
     }
 
-    /// With every root once.
-    fn square_free(&self) -> Self {
-        self.divide(&self.gcd(&self.derivative())).0
+    /// The sign at the root of `other` in the interval.
+    pub(super) fn sign_at(&self, other: &Sturm, interval: &Interval) -> Ordering {
+        if self.is_zero() || Sturm::new(&self.gcd(&other.0[0])).count(interval) > 0 {
+            return Ordering::Equal;
+        }
+        let own = Sturm::new(self);
+        let mut interval = interval.clone();
+        while own.count(&interval) > 0 {
+            let [lower, upper] = halves(&interval);
+            interval = if other.count(&lower) > 0 {
+                lower
+            } else {
+                upper
+            };
+        }
+        self.at(&interval[1]).cmp(&BigRational::zero())
     }
+}
 
-    /// How many different roots there are in `(low, high]`, by Sturm's theorem; the polynomial is not
-    /// 0.
-    pub(super) fn count(&self, low: &BigRational, high: &BigRational) -> usize {
-        let first = self.square_free();
-        let mut chain = vec![first.clone(), first.derivative()];
+/// `(low, high]`.
+pub(super) type Interval = [BigRational; 2];
+
+/// The Sturm chain of the polynomial with the same roots, each once.
+pub(super) struct Sturm(Vec<Rational>);
+
+impl Sturm {
+    /// The chain of a polynomial that is not 0.
+    pub(super) fn new(poly: &Rational) -> Self {
+        let first = poly.divide(&poly.gcd(&poly.derivative())).0.scaled();
+        let mut chain = vec![first.clone(), first.derivative().scaled()];
         while let [.., a, b] = chain.as_slice()
             && !b.is_zero()
         {
-            let rest = a.divide(b).1;
-            chain.push(Rational(rest.0.iter().map(|c| -c).collect()));
+            let Rational(rest) = a.divide(b).1;
+            chain.push(Rational(rest.iter().map(|c| -c).collect()).scaled());
         }
-        let variations = |t: &BigRational| {
-            let signs: Vec<bool> = chain
-                .iter()
-                .map(|p| p.at(t))
-                .filter(|value| !value.is_zero())
-                .map(|value| value.is_positive())
-                .collect();
-            signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
-        };
-        variations(low) - variations(high)
+        Sturm(chain)
     }
 
-    /// Intervals `(low, high]` with a root in `[0, 1]` each, ascending, no wider than `2^-bits`.
-    pub(super) fn roots(&self, bits: u32) -> Vec<[BigRational; 2]> {
+    /// How many different roots there are in the interval, by Sturm's theorem.
+    pub(super) fn count(&self, [low, high]: &Interval) -> usize {
+        self.variations(low) - self.variations(high)
+    }
+
+    fn variations(&self, t: &BigRational) -> usize {
+        let values = self.0.iter().map(|p| p.at(t));
+        let signs: Vec<bool> = values
+            .filter(|value| !value.is_zero())
+            .map(|value| value.is_positive())
+            .collect();
+        signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
+    }
+
+    /// Intervals with a root in `[0, 1]` each, ascending, no wider than `2^-bits`.
+    pub(super) fn roots(&self, bits: u32) -> Vec<Interval> {
         let width = BigRational::new(BigInt::one(), BigInt::one() << bits);
-        // `(-1/2^bits, 0]` holds 0, and may hold roots below it.
         let mut found = Vec::new();
-        if self.at(&BigRational::zero()).is_zero() {
-            found.push([-&width, BigRational::zero()]);
+        // `(0, 1]` does not hold 0.
+        if self.0[0].at(&BigRational::zero()).is_zero() {
+            found.push(self.around_zero(&width));
         }
         let mut open = vec![[BigRational::zero(), BigRational::one()]];
-        while let Some([low, high]) = open.pop() {
-            match self.count(&low, &high) {
+        while let Some(interval) = open.pop() {
+            match self.count(&interval) {
                 0 => {}
-                1 if &high - &low <= width => found.push([low, high]),
+                1 if &interval[1] - &interval[0] <= width => found.push(interval),
                 _ => {
-                    let middle = half(&low, &high);
-                    open.push([middle.clone(), high]);
-                    open.push([low, middle]);
+                    let [lower, upper] = halves(&interval);
+                    open.extend([upper, lower]);
                 }
             }
         }
         found
     }
 
-    /// The sign at the root of `other` in `(low, high]`.
-    pub(super) fn sign_at(&self, other: &Self, [low, high]: &[BigRational; 2]) -> Ordering {
-        if self.is_zero() || self.gcd(other).count(low, high) > 0 {
-            return Ordering::Equal;
+    /// An interval that ends at the root 0 and holds no other.
+    fn around_zero(&self, width: &BigRational) -> Interval {
+        let mut interval = [-width, BigRational::zero()];
+        while self.count(&interval) > 1 {
+            interval = halves(&interval)[1].clone();
         }
-        let (mut low, mut high) = (low.clone(), high.clone());
-        while self.count(&low, &high) > 0 {
-            let middle = half(&low, &high);
-            if other.count(&low, &middle) > 0 {
-                high = middle;
-            } else {
-                low = middle;
-            }
-        }
-        self.at(&high).cmp(&BigRational::zero())
+        interval
     }
 }
 
-fn half(low: &BigRational, high: &BigRational) -> BigRational {
-    (low + high) / BigRational::from_integer(2.into())
+fn halves([low, high]: &Interval) -> [Interval; 2] {
+    let middle = (low + high) / BigRational::from_integer(2.into());
+    [[low.clone(), middle.clone()], [middle, high.clone()]]
 }

@@ -10,7 +10,7 @@ use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
 use tunnelproof::query::{EdgeEdge, Point};
 use tunnelproof::thesis::Thesis;
 
-use super::rational::Rational;
+use super::rational::{Rational, Sturm};
 use super::*;
 use crate::certify::permitted::permitted;
 use crate::generate::{FAMILIES, by_name as family};
@@ -208,14 +208,18 @@ fn rational_roots_divisors_and_signs_of_known_products() {
     let p = integers(&[0, -1, 7, -16, 12]);
     let q = integers(&[2, -5, 2]);
     assert_eq!(p.gcd(&q), integers(&[-1, 2]).monic());
-    assert_eq!(p.count(&ratio(0, 1), &ratio(1, 1)), 2);
-    assert_eq!(p.count(&ratio(-1, 1), &ratio(1, 2)), 3);
-    let roots = p.roots(10);
+    let chain = Sturm::new(&p);
+    assert_eq!(chain.count(&[ratio(0, 1), ratio(1, 1)]), 2);
+    assert_eq!(chain.count(&[ratio(-1, 1), ratio(1, 2)]), 3);
+    let roots = chain.roots(10);
     assert_eq!(roots.len(), 3);
     for ([low, high], root) in roots.iter().zip([ratio(0, 1), ratio(1, 3), ratio(1, 2)]) {
         assert!(*low < root && root <= *high);
     }
-    let signs: Vec<_> = roots.iter().map(|root| q.sign_at(&p, root) as i8).collect();
+    let signs: Vec<_> = roots
+        .iter()
+        .map(|root| q.sign_at(&chain, root) as i8)
+        .collect();
     assert_eq!(signs, [1, 1, 0]);
-    assert_eq!(integers(&[-2, 0, 1]).roots(10).len(), 0);
+    assert_eq!(Sturm::new(&integers(&[-2, 0, 1])).roots(10).len(), 0);
 }
