@@ -503,7 +503,7 @@ fn replay_takes_the_target_from_the_folder_and_shows_the_query() {
     let output = tunnelproof(&["replay", &stray]);
     assert_refused(&output, &stray, None, "pass --target");
     let output = tunnelproof(&["replay", "--target", "poly", "no-such-file"]);
-    assert_refused(&output, "no-such-file", None, "No such file");
+    assert_refused(&output, "no-such-file", None, "no such file");
 }
 
 #[test]

@@ -5,6 +5,7 @@
 //! repository; they call these functions and nothing else. How bytes make a query is in [`input`].
 
 use std::fmt;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
@@ -16,6 +17,7 @@ use crate::corpus::Entry;
 use crate::corpus::jsonl::{self, Numbers};
 use crate::generate::FAMILIES;
 use crate::registry;
+use crate::report::answer;
 use crate::shrink;
 
 #[cfg(feature = "gmp")]
@@ -108,9 +110,9 @@ impl Target {
         let (what, query) = match self.check {
             Check::Query(check) => {
                 let query = input::query(bytes);
-                (check(&query), Some(Box::new(query)))
+                (guarded(|| check(&query)), Some(Box::new(query)))
             }
-            Check::Bytes(check) => (check(bytes), None),
+            Check::Bytes(check) => (guarded(|| check(bytes)), None),
         };
         let finding = |what| Finding {
             target: self.name,
@@ -119,6 +121,12 @@ impl Target {
         };
         what.map_or(Ok(()), |what| Err(finding(what)))
     }
+}
+
+/// What is found; a panic is a finding. Where the fuzzer ends the program at any panic, replaying its
+/// bytes comes here.
+fn guarded(check: impl FnOnce() -> Option<String>) -> Option<String> {
+    catch_unwind(AssertUnwindSafe(check)).unwrap_or_else(|_| Some("panics".to_owned()))
 }
 
 /// How many seeds of a corpus each kind of input has.
@@ -164,7 +172,7 @@ impl Finding {
         let Check::Query(check) = by_name(self.target)?.check else {
             return None;
         };
-        let is_same = |query: &Query| check(query).as_ref() == Some(&self.what);
+        let is_same = |query: &Query| guarded(|| check(query)).as_ref() == Some(&self.what);
         Some(shrink::failure(query, is_same))
     }
 }
@@ -180,7 +188,12 @@ impl fmt::Display for Finding {
         let entry = Entry::unlabelled(self.target, **query);
         writeln!(f, "{}", jsonl::write(&entry, Numbers::Decimal))?;
         for subject in registry::subjects() {
-            writeln!(f, "  {}: {:?}", subject.name(), subject.answer(query))?;
+            let name = subject.name();
+            match catch_unwind(AssertUnwindSafe(|| subject.answer(query))) {
+                Ok(Ok(answer)) => writeln!(f, "  {}", answer::line(name, &answer))?,
+                Ok(Err(reason)) => writeln!(f, "  {name}: {reason}")?,
+                Err(_) => writeln!(f, "  {name} panics")?,
+            }
         }
         writeln!(f, "{}", table::explain_line(&entry))?;
         if let Some(shrunk) = self.shrunk(query) {

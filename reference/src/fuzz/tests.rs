@@ -194,8 +194,27 @@ fn finding_shows_the_query_the_verdicts_and_the_smallest_twin() {
     };
     let text = finding.to_string();
     assert!(text.starts_with("oracle_vs_shadow: differs\n{\"id\":\"oracle_vs_shadow\""));
-    assert!(text.contains("\n  certified: Ok(Certified(Hit"), "{text}");
+    assert!(
+        text.contains("\n  {\"id\":\"certified\",\"hit\":true,"),
+        "{text}"
+    );
     assert!(text.contains("explain -\nshrunk, "), "{text}");
+}
+
+#[test]
+fn finding_of_a_panic_has_its_query() {
+    let target = Target {
+        name: "planted",
+        description: "ends where A does not start in the origin",
+        check: Check::Query(|query| {
+            assert_eq!(query.start()[0], Point::origin());
+            None
+        }),
+    };
+    assert_eq!(target.run(&[0, 2, 0]).unwrap_err().what, "panics");
+    let finding = target.run(&input::seed(0, &random(1))).unwrap_err();
+    assert!(finding.query.is_some());
+    assert!(finding.to_string().contains("explain -"));
 }
 
 /// The slow way by itself, on polynomials whose roots are known.
