@@ -1,4 +1,4 @@
-//! The command line: `eval`, `certify` and `explain`.
+//! The command line: `eval`, `certify`, `explain`, `shrink` and `replay`.
 
 use std::process::ExitCode;
 

@@ -7,8 +7,9 @@ use tunnelproof::query::Query;
 use tunnelproof::thesis::{Erratum, Repairs, Thesis};
 
 use crate::answer::ExactAnswer;
-use crate::oracle::Oracle;
+use crate::oracle::{Oracle, decide_query};
 use crate::shadow::Shadow;
+use crate::shrink::Truth;
 use crate::subject::{Answer, Certified, Engine, Subject};
 
 /// Agrees with the oracle on every query, or one of the two is wrong.
@@ -34,6 +35,12 @@ pub fn subjects() -> [&'static dyn Subject; 6] {
 pub fn by_name(name: &str) -> Option<&'static dyn Subject> {
     let mut subjects = subjects().into_iter();
     subjects.find(|subject| subject.name() == name)
+}
+
+/// Who can be taken for the truth, by the name of the subject.
+pub fn truths() -> [(&'static str, Truth); 2] {
+    let shadow = |query: &Query| SECOND_JUDGE.decide(query);
+    [(Oracle.name(), decide_query), (SECOND_JUDGE.name(), shadow)]
 }
 
 /// The names of a smallest set of errata whose repair makes the published text give the exact answer;

@@ -11,6 +11,7 @@ use tunnelproof::thesis::{Erratum, Options, Repairs, Thesis};
 use tunnelproof_reference::corpus::{self, Format, ReadOptions};
 use tunnelproof_reference::oracle::decide_query;
 use tunnelproof_reference::shadow::Shadow;
+use tunnelproof_reference::shrink::{Disagreement, MOST_CALLS};
 use tunnelproof_reference::subject::{Answer, Engine, Subject};
 
 fn page() -> String {
@@ -95,6 +96,25 @@ fn errata_witnesses_show_what_the_page_says() {
     for erratum in Erratum::ALL {
         let is_shown = witnesses.iter().any(|witness| witness.erratum == erratum);
         assert!(is_shown, "{erratum} has no witness");
+    }
+}
+
+#[test]
+fn errata_witnesses_shrink_to_what_shows_the_same() {
+    let page = page();
+    let lines = page.lines().filter(|line| line.starts_with('{'));
+    for witness in lines.map(Witness::new).filter(|witness| witness.is_exact) {
+        let id = &witness.id;
+        let subject = Shadow::new(Repairs::ALL.without(witness.erratum));
+        let disagreement = Disagreement {
+            subject: &subject,
+            truth: decide_query,
+        };
+        let fault = disagreement.fault(&witness.query).unwrap().expect(id);
+        let shrunk = disagreement.shrink(&witness.query, fault, MOST_CALLS);
+        assert!(shrunk.is_minimal && shrunk.after < shrunk.before, "{id}");
+        assert!(shrunk.after.bits() <= 20, "{id}: {}", shrunk.line(id));
+        assert_eq!(disagreement.fault(&shrunk.query), Ok(Some(fault)), "{id}");
     }
 }
 

@@ -14,7 +14,7 @@ mod enclose;
 mod interval;
 mod isolate;
 
-pub(crate) use enclose::decompose;
+pub(crate) use enclose::{decompose, dyadic};
 pub use isolate::isolate_roots;
 
 use interval::Interval;

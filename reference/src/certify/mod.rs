@@ -6,9 +6,10 @@
 //!
 //! [`verdict`] says what one answer is worth, [`tally`] counts, [`run`] does it for a whole
 //! [`source`], [`strict`] says whether the result passes and [`table`] writes it down. How far a
-//! subject may be off is in [`permitted`] and nowhere else.
+//! subject may be off is in [`permitted`] and nowhere else; [`margin`] is its rule for thresholds.
 
 pub mod batch;
+pub mod margin;
 pub mod permitted;
 pub mod run;
 pub mod source;

@@ -74,12 +74,7 @@ impl Source {
                     index,
                 });
                 Ok(Box::new(ids.map(|id| {
-                    Ok(Entry {
-                        id: id.to_string(),
-                        query: id.query(),
-                        label: None,
-                        line: None,
-                    })
+                    Ok(Entry::unlabelled(id.to_string(), id.query()))
                 })))
             }
             Source::File { path, options } => corpus::open(path, *options),

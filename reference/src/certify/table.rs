@@ -2,6 +2,7 @@
 
 use super::run::{Block, Panel};
 use super::tally::{Explained, Fault, Finding, Tally, Witness};
+use crate::corpus::Entry;
 use crate::corpus::jsonl::{self, Numbers};
 
 /// The width of the subjects' names.
@@ -179,13 +180,19 @@ fn measure(fault: Fault, severity: f64) -> String {
 
 /// The command that explains a witness, ready to paste into a shell.
 pub fn command(witness: &Witness) -> String {
-    const EXPLAIN: &str = "cargo run --release -- explain";
-    if !witness.id.starts_with(STANDARD_INPUT) {
-        return format!("{EXPLAIN} {}", quoted(&witness.id));
+    if witness.id.starts_with(STANDARD_INPUT) {
+        return explain_line(&witness.entry());
     }
-    let line = jsonl::write(&witness.entry(), Numbers::Decimal);
+    format!("{EXPLAIN} {}", quoted(&witness.id))
+}
+
+/// The command that explains a query that is in no file, ready to paste into a shell.
+pub fn explain_line(entry: &Entry) -> String {
+    let line = jsonl::write(entry, Numbers::Decimal);
     format!("echo {} | {EXPLAIN} -", quoted(&line))
 }
+
+const EXPLAIN: &str = "cargo run --release -- explain";
 
 /// What the identifiers of queries begin with that no file holds.
 const STANDARD_INPUT: &str = "-#";

@@ -154,12 +154,7 @@ pub(super) fn centrality(hit: &ExactHit) -> f64 {
 impl Witness {
     /// The query as an entry of a corpus.
     pub fn entry(&self) -> Entry {
-        Entry {
-            id: self.id.clone(),
-            query: self.query,
-            label: None,
-            line: None,
-        }
+        Entry::unlabelled(&self.id, self.query)
     }
 }
 

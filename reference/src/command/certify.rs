@@ -13,9 +13,11 @@ use tunnelproof_reference::certify::strict::failures;
 use tunnelproof_reference::certify::table;
 use tunnelproof_reference::field::{self, Integer};
 use tunnelproof_reference::generate::{self, FAMILIES, Family};
+use tunnelproof_reference::oracle;
 use tunnelproof_reference::registry;
 use tunnelproof_reference::report::results::Results;
 use tunnelproof_reference::shadow::Shadow;
+use tunnelproof_reference::shrink::{Disagreement, MOST_CALLS};
 use tunnelproof_reference::subject::Subject;
 
 use super::output::{OutputFile, print};
@@ -29,6 +31,7 @@ use super::{Failure, Reading};
 Examples:
   tunnelproof certify
   tunnelproof certify --subject thesis --family lattice --count 1000000 --seed 7
+  tunnelproof certify --subject thesis --count 1000 --shrink
   tunnelproof certify --strict --subject oracle,shadow queries.jsonl unit-tests/edge-edge/*.csv
 
 Without files: the figure cases and every family. With files: these, and the families asked for.
@@ -61,6 +64,9 @@ pub(super) struct Certify {
     /// Write the whole result to this file, as JSON
     #[arg(long, value_name = "OUT")]
     json: Option<PathBuf>,
+    /// Also print a shrunk twin of each worst witness
+    #[arg(long)]
+    shrink: bool,
     /// Exit with 1 unless every subject passes and all judges and labels agree
     #[arg(long)]
     strict: bool,
@@ -87,6 +93,9 @@ impl Certify {
             file.write(&results.text())?;
         }
         print(&self.text(&panel, &blocks, &total))?;
+        if self.shrink {
+            print(&shrunk_witnesses(&panel, &total))?;
+        }
         let failures = failures(&panel, &total);
         if !self.strict || failures.is_empty() {
             return Ok(ExitCode::SUCCESS);
@@ -148,6 +157,31 @@ impl Certify {
         ]
         .join("\n")
     }
+}
+
+/// The worst witness of each fault of each subject, shrunk, with the command that explains it. Where a
+/// witness shows a worse fault than the one it is listed under, or one that is permitted, there is none.
+fn shrunk_witnesses(panel: &Panel, total: &Block) -> String {
+    let mut lines = vec!["\nShrunk:".to_owned()];
+    for (judged, tally) in panel.subjects.iter().zip(&total.tallies) {
+        let disagreement = Disagreement {
+            subject: judged.subject,
+            truth: oracle::decide_query,
+        };
+        for (&fault, finding) in &tally.faults {
+            let Some(witness) = &finding.worst else {
+                continue;
+            };
+            if disagreement.fault(&witness.query) == Ok(Some(fault)) {
+                let shrunk = disagreement.shrink(&witness.query, fault, MOST_CALLS);
+                let name = judged.subject.name();
+                lines.push(format!("  {name}, {}: {shrunk}", fault.name()));
+                lines.push(format!("    {}", shrunk.command(&witness.id)));
+            }
+        }
+    }
+    lines.push(String::new());
+    lines.join("\n")
 }
 
 pub(super) fn judged(subject: &'static dyn Subject) -> Judged<'static> {

@@ -21,6 +21,8 @@ mod certify;
 mod eval;
 mod explain;
 mod output;
+mod replay;
+mod shrink;
 
 /// Judges continuous collision detection of moving edges against exact arithmetic.
 #[derive(Parser)]
@@ -38,6 +40,8 @@ enum Command {
     Eval(eval::Eval),
     Certify(certify::Certify),
     Explain(explain::Explain),
+    Shrink(shrink::Shrink),
+    Replay(replay::Replay),
 }
 
 /// How files are read.
@@ -64,6 +68,8 @@ enum Failure {
     },
     /// There is nothing to do.
     Nothing,
+    /// Nothing says which fuzz target the file at this path is for.
+    Target(String),
     /// The threads cannot be started.
     Threads(rayon::ThreadPoolBuildError),
 }
@@ -93,6 +99,8 @@ impl Cli {
             Command::Eval(eval) => eval.run(),
             Command::Certify(certify) => certify.run(),
             Command::Explain(explain) => explain.run(),
+            Command::Shrink(shrink) => shrink.run(),
+            Command::Replay(replay) => replay.run(),
         }
     }
 }
@@ -135,6 +143,9 @@ impl fmt::Display for Failure {
             Failure::Input(error) => error.fmt(f),
             Failure::Output { name, error } => write!(f, "{name}: cannot be written: {error}"),
             Failure::Nothing => f.write_str("--count 0: no query is left to judge"),
+            Failure::Target(path) => {
+                write!(f, "{path}: is in no folder of a fuzz target; pass --target")
+            }
             Failure::Threads(error) => write!(f, "--threads: {error}"),
         }
     }

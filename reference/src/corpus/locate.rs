@@ -65,12 +65,7 @@ fn generated(identifier: &str) -> Result<Entry, Problem> {
         IdError::Form => Problem::Identifier,
         error => Problem::Generated(error),
     })?;
-    Ok(Entry {
-        id: id.to_string(),
-        query: id.query(),
-        label: None,
-        line: None,
-    })
+    Ok(Entry::unlabelled(id.to_string(), id.query()))
 }
 
 /// The entry with the kind and the radius that the options ask for.

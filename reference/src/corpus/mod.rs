@@ -47,6 +47,18 @@ pub struct Entry {
     pub line: Option<u64>,
 }
 
+impl Entry {
+    /// A query that comes from no file and of which nothing is known.
+    pub fn unlabelled(id: impl Into<String>, query: Query) -> Self {
+        Entry {
+            id: id.into(),
+            query,
+            label: None,
+            line: None,
+        }
+    }
+}
+
 /// What the reader of a corpus is told besides its path.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ReadOptions {

@@ -177,6 +177,7 @@ impl From<&Permitted> for PermittedRow {
             subject,
             distance,
             late,
+            borders: _,
             source,
         }: &Permitted,
     ) -> Self {

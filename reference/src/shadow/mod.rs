@@ -66,6 +66,21 @@ impl Shadow {
     pub const fn new(repairs: Repairs) -> Self {
         Shadow { repairs }
     }
+
+    /// The answer to a query.
+    ///
+    /// # Errors
+    ///
+    /// [`Unsupported`] for any other than edge-edge queries of radius 0.
+    pub fn decide(&self, query: &Query) -> Result<ExactAnswer, Unsupported> {
+        let Query::EdgeEdge(query) = query else {
+            return Err(Unsupported::Kind(query.kind()));
+        };
+        if query.radius() > 0.0 {
+            return Err(Unsupported::Radius(query.radius()));
+        }
+        Ok(edge_edge::<field::Default>(query, self.repairs))
+    }
 }
 
 impl Subject for Shadow {
@@ -79,14 +94,7 @@ impl Subject for Shadow {
     }
 
     fn answer(&self, query: &Query) -> Result<Answer, Unsupported> {
-        let Query::EdgeEdge(query) = query else {
-            return Err(Unsupported::Kind(query.kind()));
-        };
-        if query.radius() > 0.0 {
-            return Err(Unsupported::Radius(query.radius()));
-        }
-        let answer = edge_edge::<field::Default>(query, self.repairs);
-        Ok(Answer::Exact(answer))
+        self.decide(query).map(Answer::Exact)
     }
 }
 

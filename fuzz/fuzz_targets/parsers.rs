@@ -1,0 +1,5 @@
+//! The target `parsers` for libFuzzer.
+
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| tunnelproof_fuzz::run("parsers", bytes));

@@ -1,0 +1,5 @@
+//! The target `thesis_vs_shadow` for libFuzzer.
+
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| tunnelproof_fuzz::run("thesis_vs_shadow", bytes));

@@ -1,0 +1,16 @@
+//! What the programs in `fuzz_targets/` have in common. The targets themselves are
+//! `tunnelproof_reference::fuzz`.
+
+use tunnelproof_reference::fuzz;
+
+/// Runs a target on the bytes of the fuzzer.
+///
+/// # Panics
+///
+/// If the target finds something, with all that there is to say of it.
+pub fn run(target: &str, bytes: &[u8]) {
+    let target = fuzz::by_name(target).expect("a target of this build");
+    if let Err(finding) = target.run(bytes) {
+        panic!("{finding}");
+    }
+}

@@ -1,0 +1,53 @@
+//! Subjects against judges.
+
+use tunnelproof::query::Query;
+use tunnelproof::thesis::{Erratum, Repairs, Thesis};
+
+use crate::certify::permitted::permitted;
+use crate::oracle::decide_query;
+use crate::registry::SECOND_JUDGE;
+use crate::shadow::Shadow;
+use crate::shrink::Disagreement;
+use crate::subject::{Certified, Engine, Subject};
+
+/// The thesis path as it is by default, in exact arithmetic. With a threshold of 0 the published
+/// comparison of Algorithm 12 would pass over no equation; with that of the thesis it passes over those
+/// that are 0, which is what its repair does.
+pub(super) const EXACT_THESIS: Shadow = Shadow::new(Repairs::SLIPS.with(Erratum::StrictSkip));
+
+/// The fault by name.
+fn fault(disagreement: &Disagreement, query: &Query) -> Option<String> {
+    // A query that the truth does not take shows nothing.
+    let fault = disagreement.fault(query).ok().flatten()?;
+    Some(fault.name().to_owned())
+}
+
+pub(super) fn oracle_vs_shadow(query: &Query) -> Option<String> {
+    let disagreement = Disagreement {
+        subject: &SECOND_JUDGE,
+        truth: decide_query,
+    };
+    fault(&disagreement, query)
+}
+
+pub(super) fn certified_vs_oracle(query: &Query) -> Option<String> {
+    let disagreement = Disagreement {
+        subject: &Certified,
+        truth: decide_query,
+    };
+    fault(&disagreement, query)
+}
+
+pub(super) fn thesis_vs_shadow(query: &Query) -> Option<String> {
+    engine_vs_shadow(&Engine(Thesis::default()), query)
+}
+
+/// The thesis path, or one with a planted fault.
+pub(super) fn engine_vs_shadow(subject: &dyn Subject, query: &Query) -> Option<String> {
+    let disagreement = Disagreement {
+        subject,
+        truth: |query| EXACT_THESIS.decide(query),
+    };
+    let fault = fault(&disagreement, query)?;
+    (!permitted(subject.name()).excuses(query)).then_some(fault)
+}

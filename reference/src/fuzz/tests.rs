@@ -1,0 +1,244 @@
+use std::collections::HashSet;
+
+use num_bigint::BigInt;
+use num_rational::BigRational;
+use proptest::prelude::*;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use tunnelproof::contact::Verdict;
+use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
+use tunnelproof::query::{EdgeEdge, Point};
+use tunnelproof::thesis::Thesis;
+
+use super::rational::{Rational, Sturm};
+use super::*;
+use crate::certify::permitted::permitted;
+use crate::generate::{FAMILIES, by_name as family};
+use crate::subject::Engine;
+
+/// Runs a target on bytes that stand for queries of every family, and on random ones.
+fn finds_nothing(target: &Target, count: u64) {
+    for seed in 0..count {
+        let family = seed as usize % FAMILIES.len();
+        for bytes in [input::seed(family, &random(seed)), random(seed)] {
+            if let Err(finding) = target.run(&bytes) {
+                panic!("{finding}");
+            }
+        }
+    }
+}
+
+#[test]
+fn targets_find_nothing_in_what_is_right() {
+    let names: HashSet<_> = TARGETS.iter().map(|target| target.name).collect();
+    assert_eq!(names.len(), TARGETS.len());
+    for target in TARGETS {
+        assert_eq!(by_name(target.name).unwrap().name, target.name);
+        finds_nothing(target, 300);
+        for seed in target.seeds() {
+            assert_eq!(target.run(&seed), Ok(()), "{}", target.name);
+        }
+        for bytes in [&[][..], &[0], &[255; 4], &[7; 1000]] {
+            assert_eq!(target.run(bytes), Ok(()), "{}", target.name);
+        }
+    }
+    assert!(by_name("thesis").is_none());
+}
+
+proptest! {
+    #[test]
+    fn input_any_bytes_make_one_query(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        let query = input::query(&bytes);
+        prop_assert_eq!(query, input::query(&bytes));
+    }
+}
+
+#[test]
+fn input_seeds_reach_every_family_and_mean_its_queries() {
+    for (index, family) in FAMILIES.iter().enumerate() {
+        let queries: Vec<_> = (0..50)
+            .map(|seed| input::query(&input::seed(index, &random(seed))))
+            .collect();
+        for seed in 0..50 {
+            let mut rng = ChaCha8Rng::seed_from_u64(seed);
+            assert_eq!(
+                queries[seed as usize],
+                family.draw(&mut rng),
+                "{}",
+                family.name()
+            );
+        }
+        // Where there are no bytes, drawing ends all the same.
+        input::query(&input::seed(index, &[]));
+    }
+}
+
+#[test]
+fn input_bases_have_any_bits_and_small_integers() {
+    let of_base = |base: u8, first: u8, seed| {
+        input::query(&[&[0, base, first], random(seed).as_slice()].concat())
+    };
+    let numbers = |query: &Query| -> Vec<f64> {
+        let points = query.start().iter().chain(query.end());
+        points.flat_map(|point| point.iter().copied()).collect()
+    };
+    for seed in 0..100 {
+        let wide = numbers(&of_base(1, 3, seed));
+        assert!(wide.iter().any(|n| n.abs() > 1e30 || n.abs() < 1e-30));
+        let narrow = numbers(&of_base(1, 0, seed));
+        assert!(narrow.iter().all(|n| (0.25..8.0).contains(&n.abs())));
+        let integers = numbers(&of_base(2, 3, seed));
+        assert!(integers.iter().all(|n| n.fract() == 0.0 && n.abs() <= 4.0));
+    }
+}
+
+/// The thesis path with a planted fault, under its name, so that it is permitted the same.
+struct Faulty<Q, R>(Q, R);
+
+impl<Q, R> NarrowPhase for Faulty<Q, R>
+where
+    Q: Fn(&EdgeEdge) -> EdgeEdge + Sync,
+    R: Fn(Report) -> Report + Sync,
+{
+    fn name(&self) -> &str {
+        "thesis"
+    }
+
+    fn edge_edge(&self, query: &EdgeEdge) -> Result<Report, Unsupported> {
+        Thesis::default().edge_edge(&self.0(query)).map(&self.1)
+    }
+}
+
+/// The share of the queries of a family on which a subject is reported, of a thousand.
+fn reported(engine: impl NarrowPhase, family_name: &str) -> u64 {
+    let subject = Engine(engine);
+    let family = family(family_name).unwrap();
+    let queries = (0..4000).map(|index| family.query(9, index));
+    let is_reported = |query: &Query| judges::engine_vs_shadow(&subject, query).is_some();
+    queries.filter(is_reported).count() as u64 / 4
+}
+
+#[test]
+fn thesis_vs_shadow_reports_planted_faults() {
+    let same = |query: &EdgeEdge| *query;
+    let right = |report: Report| report;
+    assert_eq!(reported(Faulty(same, right), "uniform"), 0);
+    assert_eq!(reported(Faulty(same, right), "lattice"), 0);
+    // The sign of one component of C - A is wrong.
+    let sign = |query: &EdgeEdge| {
+        let mut ends = [*query.start(), *query.end()];
+        for [a, _, c, _] in &mut ends {
+            c.x = 2.0 * a.x - c.x;
+        }
+        EdgeEdge::new(ends[0], ends[1], 0.0).unwrap()
+    };
+    assert!(reported(Faulty(sign, right), "uniform") > 50);
+    assert!(reported(Faulty(sign, right), "lattice") > 5);
+    let late = |report: Report| match report.verdict {
+        Verdict::Hit(mut contact) => {
+            contact.toi += 1e-8;
+            Report {
+                verdict: Verdict::Hit(contact),
+                ..report
+            }
+        }
+        Verdict::Miss => report,
+    };
+    assert!(reported(Faulty(same, late), "uniform") > 100);
+    let first_dropped = |report: Report| match report.verdict {
+        Verdict::Hit(contact) if contact.first.u > 0.5 => Report {
+            verdict: Verdict::Miss,
+            ..report
+        },
+        _ => report,
+    };
+    assert!(reported(Faulty(same, first_dropped), "uniform") > 50);
+}
+
+/// The rule excuses few queries in general position; so what it excuses elsewhere is their doing.
+#[test]
+fn thesis_is_excused_seldom_in_general_position() {
+    let excused = |name: &str, count: u64| {
+        let family = family(name).unwrap();
+        let queries = (0..count).map(|index| family.query(9, index));
+        let excuses = |query: &Query| permitted("thesis").excuses(query);
+        1000 * queries.filter(excuses).count() as u64 / count
+    };
+    for family in FAMILIES {
+        eprintln!(
+            "{}: {} of 1000",
+            family.name(),
+            excused(family.name(), 4000)
+        );
+    }
+    assert!(excused("uniform", 4000) < 20);
+    assert!(excused("lattice", 4000) < 950);
+}
+
+#[test]
+fn finding_shows_the_query_the_verdicts_and_the_smallest_twin() {
+    let points = |z: f64| {
+        [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.5, -1.0, z],
+            [0.5, 1.0, z],
+        ]
+    };
+    let [start, end] = [1.0, -1.0].map(|z| points(z).map(Point::from));
+    let query = Query::EdgeEdge(EdgeEdge::new(start, end, 0.0).unwrap());
+    let finding = Finding {
+        target: "oracle_vs_shadow",
+        what: "differs".to_owned(),
+        query: Some(Box::new(query)),
+    };
+    let text = finding.to_string();
+    assert!(text.starts_with("oracle_vs_shadow: differs\n{\"id\":\"oracle_vs_shadow\""));
+    assert!(
+        text.contains("\n  {\"id\":\"certified\",\"hit\":true,"),
+        "{text}"
+    );
+    assert!(text.contains("explain -\nshrunk, "), "{text}");
+}
+
+#[test]
+fn finding_of_a_panic_has_its_query() {
+    let target = Target {
+        name: "planted",
+        description: "ends where A does not start in the origin",
+        check: Check::Query(|query| {
+            assert_eq!(query.start()[0], Point::origin());
+            None
+        }),
+    };
+    assert_eq!(target.run(&[0, 2, 0]).unwrap_err().what, "panics");
+    let finding = target.run(&input::seed(0, &random(1))).unwrap_err();
+    assert!(finding.query.is_some());
+    assert!(finding.to_string().contains("explain -"));
+}
+
+/// The slow way by itself, on polynomials whose roots are known.
+#[test]
+fn rational_roots_divisors_and_signs_of_known_products() {
+    let integers =
+        |c: &[i64]| Rational::of_integers(&c.iter().map(|&c| BigInt::from(c)).collect::<Vec<_>>());
+    let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
+    // (2t - 1)^2 (3t - 1) t and (2t - 1)(t - 2)
+    let p = integers(&[0, -1, 7, -16, 12]);
+    let q = integers(&[2, -5, 2]);
+    assert_eq!(p.gcd(&q), integers(&[-1, 2]).monic());
+    let chain = Sturm::new(&p);
+    assert_eq!(chain.count(&[ratio(0, 1), ratio(1, 1)]), 2);
+    assert_eq!(chain.count(&[ratio(-1, 1), ratio(1, 2)]), 3);
+    let roots = chain.roots(10);
+    assert_eq!(roots.len(), 3);
+    for ([low, high], root) in roots.iter().zip([ratio(0, 1), ratio(1, 3), ratio(1, 2)]) {
+        assert!(*low < root && root <= *high);
+    }
+    let signs: Vec<_> = roots
+        .iter()
+        .map(|root| q.sign_at(&chain, root) as i8)
+        .collect();
+    assert_eq!(signs, [1, 1, 0]);
+    assert_eq!(Sturm::new(&integers(&[-2, 0, 1])).roots(10).len(), 0);
+}

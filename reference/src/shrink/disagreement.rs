@@ -1,0 +1,57 @@
+//! What a subject gets wrong, as something to be shrunk.
+
+use tunnelproof::narrow::Unsupported;
+use tunnelproof::query::Query;
+
+use super::{Shrunk, shrink};
+use crate::answer::ExactAnswer;
+use crate::certify::permitted::permitted;
+use crate::certify::run::Judged;
+use crate::certify::tally::Fault;
+use crate::subject::Subject;
+
+/// Says what is true, such as [`decide_query`](crate::oracle::decide_query).
+pub type Truth = fn(&Query) -> Result<ExactAnswer, Unsupported>;
+
+/// A subject and who knows better.
+#[derive(Clone, Copy)]
+pub struct Disagreement<'a> {
+    /// Who may be wrong.
+    pub subject: &'a dyn Subject,
+    /// Who is right.
+    pub truth: Truth,
+}
+
+impl Disagreement<'_> {
+    /// What the subject gets wrong, the worst of all that it does, in the order of [`Fault::ALL`];
+    /// `None` if it is right. Times of impact that are off by no more than is permitted do not count.
+    ///
+    /// # Errors
+    ///
+    /// [`Unsupported`] for a query that the truth does not take.
+    pub fn fault(&self, query: &Query) -> Result<Option<Fault>, Unsupported> {
+        let truth = (self.truth)(query)?;
+        let judged = Judged {
+            subject: self.subject,
+            explain: None,
+        };
+        let permitted = permitted(self.subject.name()).late;
+        let counts = |&(fault, severity): &(Fault, f64)| match fault {
+            Fault::Late | Fault::Early => severity > permitted,
+            _ => true,
+        };
+        let faults = judged.judge(query, &truth).faults;
+        Ok(faults
+            .into_iter()
+            .filter(counts)
+            .map(|(fault, _)| fault)
+            .min())
+    }
+
+    /// The smallest query on which the subject does wrong what it does on this one.
+    pub fn shrink(&self, query: &Query, fault: Fault, most_calls: u64) -> Shrunk {
+        shrink(query, most_calls, |query| {
+            self.fault(query) == Ok(Some(fault))
+        })
+    }
+}
