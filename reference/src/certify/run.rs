@@ -32,8 +32,8 @@ pub struct Judged<'a> {
 /// Who judges and who is judged. A subject with the name of a judge is that judge.
 #[derive(Clone)]
 pub struct Panel<'a> {
-    /// Has to agree with the oracle on every query.
-    pub second_judge: &'a dyn Subject,
+    /// Has to agree with the oracle on every query, if there is one.
+    pub second_judge: Option<&'a dyn Subject>,
     /// Who is judged, in the order of tables.
     pub subjects: Vec<Judged<'a>>,
 }
@@ -132,12 +132,16 @@ impl Panel<'_> {
             reason,
         };
         let truth = oracle::decide_query(&query).map_err(refused)?;
-        let second = answer(self.second_judge, &query);
+        let second = self
+            .second_judge
+            .map(|judge| (judge.name(), answer(judge, &query)));
         // What the judges said need not be asked again.
         let said = |judged: &Judged| match judged.subject.name() {
             name if name == oracle::Oracle.name() => Some(Answer::Exact(truth)),
-            name if name == self.second_judge.name() => second,
-            _ => answer(judged.subject, &query),
+            name => match second {
+                Some((judge, answer)) if judge == name => answer,
+                _ => answer(judged.subject, &query),
+            },
         };
         let found = |judged: &Judged| judged.compare(&query, &truth, said(judged));
         Ok(Judgements {
@@ -146,7 +150,7 @@ impl Panel<'_> {
             query,
             label: entry.label,
             truth,
-            second,
+            second: second.map(|(_, answer)| answer),
         })
     }
 }
@@ -171,7 +175,8 @@ struct Judgements {
     query: Query,
     label: Option<bool>,
     truth: ExactAnswer,
-    second: Option<Answer>,
+    /// What the second judge says, if there is one; `None` in it for no answer.
+    second: Option<Option<Answer>>,
     subjects: Vec<Found>,
 }
 
@@ -250,8 +255,9 @@ impl Block {
         if case.label.is_some_and(|label| label != hit.is_some()) {
             self.wrong_labels.add(witness(None, 0.0));
         }
-        if case.second != Some(Answer::Exact(case.truth)) {
-            self.disagreements.add(witness(case.second, 0.0));
+        let exact = Some(Answer::Exact(case.truth));
+        if let Some(second) = case.second.filter(|second| *second != exact) {
+            self.disagreements.add(witness(second, 0.0));
         }
         for (tally, found) in self.tallies.iter_mut().zip(&case.subjects) {
             tally.hits += u64::from(found.is_hit);

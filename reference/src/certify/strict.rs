@@ -20,7 +20,9 @@ pub fn failures(panel: &Panel, total: &Block) -> Vec<String> {
             (!faults.is_empty()).then(|| format!("{name}: {}", faults.join(", ")))
         })
         .collect();
-    let second = format!("oracle and {} disagree", panel.second_judge.name());
+    let second = panel.second_judge.map_or_else(String::new, |judge| {
+        format!("oracle and {} disagree", judge.name())
+    });
     for (what, finding) in [
         (second.as_str(), &total.disagreements),
         ("labels disagree with the oracle", &total.wrong_labels),

@@ -27,43 +27,26 @@ const COLUMNS: [Column; 9] = [
     (["worst", "early"], 10, |tally| worst(tally, Fault::Early)),
 ];
 
-/// The column for sources with joints, after the tunnels.
-const JOINTS: Column = (["joint", "tunnels"], 9, |tally| {
-    count(tally, Fault::JointTunnel)
-});
-
 /// What was found, a block of lines for each source.
 pub fn blocks(panel: &Panel, blocks: &[Block]) -> String {
-    let has_joints = blocks.iter().any(|block| block.joints > 0);
-    let mut columns = COLUMNS.to_vec();
-    if has_joints {
-        columns.insert(2, JOINTS);
-    }
-    let mut lines = headings(&columns);
+    let mut lines = vec![
+        line("", |(heading, ..)| heading[0].to_owned()),
+        line("subject", |(heading, ..)| heading[1].to_owned()),
+    ];
     for block in blocks {
         lines.push(String::new());
         lines.push(heading(block));
         for (judged, tally) in panel.subjects.iter().zip(&block.tallies) {
-            let cell = |column: &Column| match column {
-                (heading, ..) if *heading == JOINTS.0 && block.joints == 0 => String::new(),
-                (.., cell) => cell(tally),
-            };
-            lines.push(line(judged.subject.name(), &columns, cell));
+            lines.push(line(judged.subject.name(), |(.., cell)| cell(tally)));
         }
     }
     lines.push(String::new());
     lines.join("\n")
 }
 
-fn headings(columns: &[Column]) -> Vec<String> {
-    let headings =
-        |which: usize, name| line(name, columns, |(heading, ..)| heading[which].to_owned());
-    vec![headings(0, ""), headings(1, "subject")]
-}
-
 /// A line of the table: a name, then a cell in each column.
-fn line(name: &str, columns: &[Column], cell: impl Fn(&Column) -> String) -> String {
-    let cells = columns
+fn line(name: &str, cell: impl Fn(&Column) -> String) -> String {
+    let cells = COLUMNS
         .iter()
         .map(|column| format!("{:>width$}", cell(column), width = column.1));
     format!("  {name:<NAME$}{}", cells.collect::<String>())
@@ -88,18 +71,20 @@ fn heading(block: &Block) -> String {
 /// Whether the judges and the labels agree, and which errata explain the answers of subjects that
 /// have any.
 pub fn agreement(panel: &Panel, total: &Block) -> String {
-    let second = panel.second_judge.name();
-    let mut lines = vec![agree(
-        &format!("oracle and {second}"),
-        total.queries,
-        &total.disagreements,
-    )];
+    let mut lines = Vec::new();
+    if let Some(second) = panel.second_judge {
+        let who = format!("oracle and {}", second.name());
+        lines.push(agree(&who, total.queries, &total.disagreements));
+    }
     if total.labels > 0 {
         lines.push(agree(
             "oracle and labels",
             total.labels,
             &total.wrong_labels,
         ));
+    }
+    if total.joints > 0 {
+        lines.push(joints(panel, total));
     }
     for (judged, tally) in panel.subjects.iter().zip(&total.tallies) {
         if tally.errata.is_empty() {
@@ -129,6 +114,25 @@ pub fn agreement(panel: &Panel, total: &Block) -> String {
     lines.join("\n")
 }
 
+/// Who lets wires tunnel though no single segment's miss looks bad.
+fn joints(panel: &Panel, total: &Block) -> String {
+    let subjects = panel.subjects.iter().zip(&total.tallies);
+    let tunnels = subjects
+        .filter(|(_, tally)| tally.count(Fault::JointTunnel) > 0)
+        .map(|(judged, tally)| {
+            let count = count(tally, Fault::JointTunnel);
+            format!("{count} are missed by {}", judged.subject.name())
+        });
+    let tunnels = match tunnels.collect::<Vec<_>>() {
+        missed if missed.is_empty() => "none is missed".to_owned(),
+        missed => missed.join(", "),
+    };
+    format!(
+        "of {} wires that are passed at a joint, {tunnels}",
+        grouped(total.joints)
+    )
+}
+
 fn agree(who: &str, queries: u64, against: &Finding) -> String {
     match against.count {
         0 => format!("{who} agree on all {} queries", grouped(queries)),
@@ -154,7 +158,7 @@ pub fn witnesses(panel: &Panel, total: &Block) -> String {
                 continue;
             };
             lines.push(format!(
-                "  {:<NAME$}{:<14}{:<17}{}",
+                "  {:<NAME$}{:<14}{:<15}{}",
                 judged.subject.name(),
                 fault.name(),
                 measure(*fault, witness.severity),

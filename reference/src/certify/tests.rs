@@ -94,7 +94,7 @@ fn run(subject: &dyn Subject) -> Block {
 
 fn panel(subject: &dyn Subject) -> Panel<'_> {
     Panel {
-        second_judge: &Shadow::REPAIRED,
+        second_judge: Some(&Shadow::REPAIRED),
         subjects: vec![Judged {
             subject,
             explain: None,
@@ -309,7 +309,7 @@ fn certify_exact_subject_off_by_a_neighbour_differs() {
     assert_eq!(block.disagreements.count, 0);
 
     let panel = Panel {
-        second_judge: &AlmostExact,
+        second_judge: Some(&AlmostExact),
         subjects: Vec::new(),
     };
     let block = panel.run(&lattice(), |_| {}).unwrap();
@@ -448,23 +448,16 @@ fn certify_wires_hit_by_one_segment_are_no_joint_tunnels() {
 }
 
 #[test]
-fn certify_table_has_a_column_for_joints_where_there_are_any() {
+fn certify_says_who_misses_joints_where_there_are_any() {
     let (block, _) = run_joint(is_chosen_wire);
     let liar = Liar {
         lie: |_: &Query, truth| Ok(honest(truth)),
         declared: 0.0,
     };
     let panel = panel(&liar);
-    let other = run(&liar);
-    let both = table::blocks(&panel, &[other.clone(), block]);
-    assert!(both.contains("joint") && both.contains(" 750 joints"));
-    let row = |text: &str| {
-        text.lines()
-            .filter(|l| l.contains("liar"))
-            .map(str::len)
-            .max()
-    };
-    let alone = table::blocks(&panel, &[other]);
-    assert!(!alone.contains("joint"));
-    assert_eq!(row(&both), row(&alone).map(|width| width + 9));
+    let count = block.tallies[0].count(Fault::JointTunnel);
+    let said = format!("of 750 wires that are passed at a joint, {count} are missed by liar");
+    let text = table::agreement(&panel, &block);
+    assert!(text.contains(&said), "{text}");
+    assert!(!table::agreement(&panel, &run(&liar)).contains("wires"));
 }

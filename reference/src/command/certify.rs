@@ -36,11 +36,11 @@ Examples:
 
 Without files: the figure cases and every family. With files: these, and the families asked for.
 
-Columns: hits that the subject reports; tunnels, crossings that it misses; joint tunnels, segments that
-pass through a wire at a node and that it misses on both sides of it; missed grazes, contacts without
-crossing that it misses; false hits; near hits, false hits within the distance that the
+Columns: hits that the subject reports; tunnels, crossings that it misses; missed grazes, contacts
+without crossing that it misses; false hits; near hits, false hits within the distance that the
 subject declares of itself; wrong cases; queries it gives no answer to; and how far the worst time of
-impact is behind (late: dangerous) or ahead of (early: safe) the exact one.
+impact is behind (late: dangerous) or ahead of (early: safe) the exact one. Joint tunnels are edges that
+pass through a wire at a node and are missed by both of its segments there.
 
 Of the witnesses, \"central\" is 1 if the time and the parameters of the missed contact are in the
 middle of the step and the edges, 0 if they are at the ends; \"gap\" is the least distance during the
@@ -61,6 +61,9 @@ pub(super) struct Certify {
     /// The seed of the families
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
+    /// Take the oracle's word without asking the second judge, for long runs of other subjects
+    #[arg(long)]
+    one_judge: bool,
     /// Write the whole result to this file, as JSON
     #[arg(long, value_name = "OUT")]
     json: Option<PathBuf>,
@@ -112,7 +115,7 @@ impl Certify {
             false => self.subject.clone(),
         };
         Panel {
-            second_judge: &registry::SECOND_JUDGE,
+            second_judge: (!self.one_judge).then_some(&registry::SECOND_JUDGE),
             subjects: subjects.into_iter().map(judged).collect(),
         }
     }

@@ -156,7 +156,7 @@ impl Target {
 
 /// Enough random bytes for a query.
 fn random(seed: u64) -> Vec<u8> {
-    let mut bytes = vec![0; 256];
+    let mut bytes = vec![0; 1024];
     ChaCha8Rng::seed_from_u64(seed).fill_bytes(&mut bytes);
     bytes
 }

@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | `version`, `arithmetic` | of this crate; the backend of the exact numbers |
 //! | `seed`, `count` | of the families |
-//! | `second_judge` | who has to agree with the oracle |
+//! | `second_judge` | who has to agree with the oracle; null for no one |
 //! | `permitted` | the tolerances that `failures` goes by |
 //! | `sources` | what was found on each source, in the order of the table |
 //! | `total` | the same over all of them |
@@ -43,7 +43,7 @@ pub struct Results<'a> {
     arithmetic: &'static str,
     seed: u64,
     count: u64,
-    second_judge: &'a str,
+    second_judge: Option<&'a str>,
     permitted: Vec<PermittedRow>,
     sources: Vec<Source<'a>>,
     total: Source<'a>,
@@ -116,7 +116,7 @@ impl<'a> Results<'a> {
             arithmetic: field::Default::BACKEND,
             seed,
             count,
-            second_judge: panel.second_judge.name(),
+            second_judge: panel.second_judge.map(|judge| judge.name()),
             permitted: PERMITTED.iter().map(PermittedRow::from).collect(),
             sources: blocks.iter().map(|block| source(panel, block)).collect(),
             total: source(panel, total),
