@@ -7,7 +7,7 @@ use super::ends::Ends;
 use super::exact;
 use super::locate::Place;
 use super::motion::{Motion, Positions};
-use super::refine;
+use super::refine::Root;
 use super::root::Bracket;
 use super::separate::SweptBoxes;
 use super::verdict::{Hit, Parameters, Verdict};
@@ -140,41 +140,51 @@ fn decide_by_roots<E: Ends>(
     cubic: &Cubic,
 ) -> Option<Verdict> {
     for bracket in cubic.isolate()?.as_slice() {
-        let place = match motion.meeting(cubic, bracket).place() {
+        let contact = match motion.meeting(cubic, bracket).place() {
+            Place::Apart => continue,
+            Place::Inside { .. } => hit(positions, motion, cubic, bracket),
             Place::Unclear => {
                 let (sharp, _) = cubic.sharpen(bracket)?;
-                motion.meeting(cubic, &sharp).place()
+                match motion.meeting(cubic, &sharp).place() {
+                    Place::Apart => continue,
+                    Place::Inside { .. } => hit(positions, motion, cubic, &sharp),
+                    Place::Unclear => {
+                        let positions = positions();
+                        let root = Root::new(&positions, cubic, &sharp)?;
+                        match root.meeting(&positions, motion, cubic).place() {
+                            Place::Apart => continue,
+                            place => crossing(root.round_down()?, &sharp, place),
+                        }
+                    }
+                }
             }
-            place => place,
         };
-        match place {
-            Place::Apart => {}
-            Place::Inside { .. } => {
-                return hit(positions, motion, cubic, bracket).map(Verdict::Hit);
-            }
-            Place::Unclear => return None,
-        }
+        return contact.map(Verdict::Hit);
     }
     Some(Verdict::Miss)
 }
 
-/// The contact at a simple root strictly inside the step, strictly inside both edges.
-///
-/// `f` changes sign there and the lines meet at an angle: a crossing of general motion.
+/// The contact at a root at which the lines meet inside both edges.
 fn hit<E: Ends>(
     positions: &impl Fn() -> Positions,
     motion: &Motion<E>,
     cubic: &Cubic,
     bracket: &Bracket,
 ) -> Option<Hit> {
-    let toi = refine::round_down(&positions(), cubic, bracket)?;
-    let toi_above = toi.next_up();
+    let toi = Root::new(&positions(), cubic, bracket)?.round_down()?;
     let at_toi = Bracket {
         low: toi,
-        high: toi_above,
+        high: toi.next_up(),
         ..*bracket
     };
-    let Place::Inside { u, v, error } = motion.meeting(cubic, &at_toi).place() else {
+    crossing(toi, bracket, motion.meeting(cubic, &at_toi).place())
+}
+
+/// The contact at a simple root strictly inside the step, strictly inside both edges.
+///
+/// `f` changes sign there and the lines meet at an angle: a crossing of general motion.
+fn crossing(toi: f64, bracket: &Bracket, place: Place) -> Option<Hit> {
+    let Place::Inside { u, v, error } = place else {
         return None;
     };
     if error > Hit::PARAMETER_ERROR {
@@ -182,7 +192,7 @@ fn hit<E: Ends>(
     }
     Some(Hit {
         toi,
-        toi_above,
+        toi_above: toi.next_up(),
         kind: ContactKind::Crossing,
         side: if bracket.is_rising { -1 } else { 1 },
         first: Parameters { u, v },

@@ -10,6 +10,8 @@ pub(super) struct Cubic {
     /// The Bernstein coefficients, each within `error` of the exact one.
     pub(super) bernstein: [f64; 4],
     pub(super) error: f64,
+    /// No determinant at any time has terms of magnitudes with a larger sum.
+    pub(super) permanent: f64,
     /// Of `K`, `L`, `M`: the larger magnitude of each component at both ends of the step.
     pub(super) reach: [Vector; 3],
 }
@@ -30,7 +32,7 @@ impl Cubic {
     /// below `10 u`. Below, `16 u P`.
     ///
     /// A product that underflows adds at most `2^-1075`, times at most one more factor; [`Cubic::new`]
-    /// returns `None` unless all factors are below `2^180` and `16 u P` is above `2^-700`, so what
+    /// returns `None` unless all factors are below `2^180` and `P` is above `2^-650`, so what
     /// underflow adds (fewer than 40 times `2^-895`) is far below the bound. Overflow cannot
     /// happen then. NaN and infinities fail the same test.
     #[inline(always)]
@@ -59,6 +61,7 @@ impl Cubic {
                 outer.end(),
             ],
             error: 16.0 * U * permanent,
+            permanent,
             reach,
         }
     }
@@ -68,7 +71,7 @@ impl Cubic {
     pub(super) fn is_valid(&self) -> bool {
         let [k, l, m] = &self.reach;
         let size = larger(larger(largest(k), largest(l)), largest(m));
-        (size < LARGEST) & (self.error > SMALLEST)
+        (size < LARGEST) & (self.permanent > SMALLEST)
     }
 
     /// Whether `f` has no root in `[0, 1]`, so that the edges are never coplanar: it is a convex
@@ -97,4 +100,4 @@ pub(super) fn permanents(x: &Vector, y: &Vector) -> Vector {
 }
 
 const LARGEST: f64 = f64::from_bits((1023 + 180) << 52);
-const SMALLEST: f64 = f64::from_bits((1023 - 700) << 52);
+const SMALLEST: f64 = f64::from_bits((1023 - 650) << 52);

@@ -29,13 +29,16 @@ pub(super) enum Place {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Meeting {
     /// `N . w`, `(M x L) . w` and `(M x K) . w`.
-    n: f64,
-    u: f64,
-    v: f64,
-    /// Bounds on their errors.
-    error_n: f64,
-    error_u: f64,
-    error_v: f64,
+    pub(super) n: f64,
+    pub(super) u: f64,
+    pub(super) v: f64,
+    /// `n - u` and `n - v`.
+    pub(super) before_b: f64,
+    pub(super) before_d: f64,
+    /// Bounds on the errors of `n`, `u` and `v`.
+    pub(super) error_n: f64,
+    pub(super) error_u: f64,
+    pub(super) error_v: f64,
 }
 
 impl<E: Ends> Motion<E> {
@@ -54,15 +57,7 @@ impl<E: Ends> Motion<E> {
     pub(super) fn meeting(&self, cubic: &Cubic, bracket: &Bracket) -> Meeting {
         let t = 0.5 * (bracket.low + bracket.high);
         let half_width = 0.5 * (bracket.high - bracket.low) + U;
-        let weights = E::new(1.0 - t, t);
-        let at = |[x, y, z]: &[E; 3]| {
-            [
-                (weights * *x).sum(),
-                (weights * *y).sum(),
-                (weights * *z).sum(),
-            ]
-        };
-        let (k, l, m) = (at(&self.k), at(&self.l), at(&self.m));
+        let (k, l, m) = (at(&self.k, t), at(&self.l, t), at(&self.m, t));
         let normal = cross(&k, &l);
         let size = normal.map(f64::abs);
         let factor = if half_width < 0.125 {
@@ -72,14 +67,24 @@ impl<E: Ends> Motion<E> {
         };
         let bound = |x: &Vector, y: &Vector| factor * dot(&size, &permanents(x, y)) + TINY;
         let [k_reach, l_reach, m_reach] = &cubic.reach;
+        let n = dot(&normal, &normal);
+        let u = dot(&cross(&m, &l), &normal);
+        let v = dot(&cross(&m, &k), &normal);
         Meeting {
-            n: dot(&normal, &normal),
-            u: dot(&cross(&m, &l), &normal),
-            v: dot(&cross(&m, &k), &normal),
+            n,
+            u,
+            v,
+            before_b: n - u,
+            before_d: n - v,
             error_n: bound(k_reach, l_reach),
             error_u: bound(m_reach, l_reach),
             error_v: bound(m_reach, k_reach),
         }
+    }
+
+    /// `N` at a time, about.
+    pub(super) fn normal(&self, t: f64) -> Vector {
+        cross(&at(&self.k, t), &at(&self.l, t))
     }
 
     /// Whether the edges certainly do not touch at a root in a half of the step.
@@ -89,6 +94,17 @@ impl<E: Ends> Motion<E> {
     }
 }
 
+/// A vector at a time.
+#[inline(always)]
+fn at<E: Ends>([x, y, z]: &[E; 3], t: f64) -> Vector {
+    let weights = E::new(1.0 - t, t);
+    [
+        (weights * *x).sum(),
+        (weights * *y).sum(),
+        (weights * *z).sum(),
+    ]
+}
+
 impl Meeting {
     /// Whether the lines certainly meet outside an edge.
     #[inline(always)]
@@ -96,8 +112,8 @@ impl Meeting {
         let (error_u1, error_v1) = self.far_errors();
         let is_apart = (self.u < -self.error_u)
             | (self.v < -self.error_v)
-            | (self.n - self.u < -error_u1)
-            | (self.n - self.v < -error_v1);
+            | (self.before_b < -error_u1)
+            | (self.before_d < -error_v1);
         (self.n > self.error_n) & is_apart
     }
 
@@ -111,13 +127,13 @@ impl Meeting {
         let is_inside = n > self.error_n
             && u > self.error_u
             && v > self.error_v
-            && n - u > error_u1
-            && n - v > error_v1;
+            && self.before_b > error_u1
+            && self.before_d > error_v1;
         if !is_inside {
             return Place::Unclear;
         }
-        // |u~/n~ - u/n| <= (error_u + error_n) / (n~ - error_n) for u in [0, 1], and one rounding.
-        let error = error_u1.max(error_v1) / (n - self.error_n) + 2.0 * U;
+        // |u~/n~ - u/n| <= (error_u + error_n) / (n~ - error_n) for u in [0, 1], and three roundings.
+        let error = error_u1.max(error_v1) / (n - self.error_n) + 4.0 * U;
         Place::Inside {
             u: u / n,
             v: v / n,
@@ -137,4 +153,4 @@ impl Meeting {
 }
 
 /// Far above what underflow adds, far below any bound that matters.
-const TINY: f64 = f64::from_bits((1023 - 700) << 52);
+pub(super) const TINY: f64 = f64::from_bits((1023 - 700) << 52);

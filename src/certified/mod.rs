@@ -8,10 +8,14 @@
 //! 2. a direction separates the edges for the whole step (`separate`);
 //! 3. the cubic `f = (K x L) . M`, with `K = B - A`, `L = D - C`, `M = C - A`, has no root, by the signs
 //!    of its Bernstein coefficients (`cubic`): edges that touch are coplanar;
-//! 4. its roots are bracketed (`root`), the edges are far enough inside or outside of each other there
-//!    (`locate`), and the last bit of the time is settled in double-double arithmetic (`refine`);
+//! 4. its roots are bracketed (`root`), the edges are inside or outside of each other there (`locate`),
+//!    and the last bit of the time, or what is near an edge's end, is settled in double-double
+//!    arithmetic (`refine`, `double`);
 //! 5. a separating direction is searched for (`separate`);
 //! 6. integers decide what is left ([`decide_exactly`], `exact`): degenerate motion, contact at ends.
+//!
+//! [`Batch`] takes the first four stages for many queries at once, as far as they need no branch
+//! (`block`); both ends of the step are a pair of numbers (`ends`) throughout.
 //!
 //! No stage has a threshold: an error bound is a proof, and what it cannot prove it hands on.
 
@@ -24,6 +28,7 @@ mod batch;
 mod block;
 mod cascade;
 mod cubic;
+mod double;
 mod ends;
 mod exact;
 mod locate;

@@ -1,216 +1,166 @@
-//! The last bit of a time of impact, in double-double arithmetic.
+//! A root of `f` in double-double arithmetic: the last bit of a time of impact, and where the lines meet
+//! there when that is near an edge's end.
 //!
 //! One Newton step from an `f64` near the root, with `f` evaluated to twice the precision, gives the
-//! root as `t + delta` with an error that is small against an ulp. Nearly always no `f64` lies so
+//! root as a double-double with an error that is small against an ulp. Nearly always no `f64` lies so
 //! near to the root, and rounding down is certain; else the exact stage decides.
 
 use wide::f64x2;
 
-use super::cubic::Cubic;
-use super::ends::{Ends, Scalar};
-use super::motion::Positions;
+use super::cubic::{Cubic, permanents};
+use super::double::{Double, two_difference, two_sum};
+use super::ends::Ends;
+use super::locate::{Meeting, TINY};
+use super::motion::{Motion, Positions};
 use super::root::Bracket;
 use super::separate::U;
 
-/// An unevaluated sum `high + low`, `|low|` at most half an ulp of `high`; in each lane.
+/// A simple root of `f`.
 #[derive(Clone, Copy)]
-struct Double<T> {
-    high: T,
-    low: T,
+pub(super) struct Root {
+    time: Double<f64>,
+    /// The root is no farther from `time` than this.
+    error: f64,
 }
 
-/// `a + b` without error (Knuth; Dekker 1971).
+/// From two points to two others, on an axis each, at a time.
+///
+/// Error bound, with `h = 2^-106` and `k` the larger magnitude at both ends of the step: the
+/// differences at the ends are exact, their difference is within `16 h k`, the product with the time
+/// within `8 h 2 k` more, the sum within `24 h k` more (bounds at the operations): `56 h k`.
 #[inline(always)]
-fn two_sum<T: Scalar>(a: T, b: T) -> Double<T> {
-    let high = a + b;
-    let part = high - a;
-    Double {
-        high,
-        low: (a - (high - part)) + (b - part),
-    }
-}
-
-/// `a - b` without error.
-#[inline(always)]
-fn two_difference<T: Scalar>(a: T, b: T) -> Double<T> {
-    let high = a - b;
-    let part = high - a;
-    Double {
-        high,
-        low: (a - (high - part)) - (b + part),
-    }
-}
-
-/// `a b` without error, unless something over- or underflows (Veltkamp, Dekker 1971).
-#[inline(always)]
-fn two_product<E: Ends>(a: E, b: E) -> Double<E> {
-    const SPLIT: f64 = 134_217_729.0; // 2^27 + 1
-    let halves = |x: E| {
-        let c = E::both(SPLIT) * x;
-        let high = c - (c - x);
-        (high, x - high)
-    };
-    let high = a * b;
-    let ((ah, al), (bh, bl)) = (halves(a), halves(b));
-    Double {
-        high,
-        low: ((ah * bh - high) + ah * bl + al * bh) + al * bl,
-    }
-}
-
-impl<T: Scalar> Double<T> {
-    #[inline(always)]
-    fn sum(a: T, b: T) -> Self {
-        let high = a + b;
-        Double {
-            high,
-            low: b - (high - a),
-        }
-    }
-
-    /// `self + other`; an error below `8 * 2^-106 (|self| + |other|)`: the low parts are added in
-    /// `f64`, which is not precise relative to a sum that cancels, nor need it be.
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        let s = two_sum(self.high, other.high);
-        Self::sum(s.high, s.low + (self.low + other.low))
-    }
-
-    /// `self - other`; an error as that of [`add`](Self::add).
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        let s = two_difference(self.high, other.high);
-        Self::sum(s.high, s.low + (self.low - other.low))
-    }
-}
-
-impl<E: Ends> Double<E> {
-    /// `self other`; relative error below `8 * 2^-106`.
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        let p = two_product(self.high, other.high);
-        Self::sum(
-            p.high,
-            p.low + (self.high * other.low + self.low * other.high),
-        )
-    }
-
-    /// `self t`; relative error below `4 * 2^-106`.
-    #[inline(always)]
-    fn scale(self, t: E) -> Self {
-        let p = two_product(self.high, t);
-        Self::sum(p.high, p.low + self.low * t)
-    }
-
-    /// The lanes exchanged.
-    #[inline(always)]
-    fn swapped(self) -> Self {
-        Double {
-            high: self.high.swapped(),
-            low: self.low.swapped(),
-        }
-    }
-
-    /// The first lanes of two numbers, and their second ones.
-    #[inline(always)]
-    fn transposed(self, other: Self) -> [Self; 2] {
-        let ([high, end_high], [low, end_low]) = (
-            self.high.transposed(other.high),
-            self.low.transposed(other.low),
-        );
-        [
-            Double { high, low },
-            Double {
-                high: end_high,
-                low: end_low,
-            },
-        ]
-    }
-
-    #[inline(always)]
-    fn lanes(self) -> [Double<f64>; 2] {
-        [
-            Double {
-                high: self.high.start(),
-                low: self.low.start(),
-            },
-            Double {
-                high: self.high.end(),
-                low: self.low.end(),
-            },
-        ]
-    }
-}
-
-/// From two points to two others, on an axis each, at `t`: exact up to what the two operations on
-/// double-doubles add.
-#[inline(always)]
-fn difference<E: Ends>(from: [E; 2], to: [E; 2], t: E) -> Double<E> {
+fn difference<E: Ends>(from: [E; 2], to: [E; 2], time: Double<f64>) -> Double<E> {
     let ([from_start, from_end], [to_start, to_end]) =
         (from[0].transposed(from[1]), to[0].transposed(to[1]));
     let (first, last) = (
         two_difference(to_start, from_start),
         two_difference(to_end, from_end),
     );
-    first.add(last.sub(first).scale(t))
+    first.add(last.sub(first).mul(Double::both(time)))
 }
 
-/// `f` at `t` in double-double arithmetic, two numbers at a time.
-fn evaluate(positions: &Positions, t: f64) -> f64 {
+/// `f` at a time, two numbers at a time.
+///
+/// Error bound: a minor of two components is within `(8 + 2 * 56 + 8) h p_ij` of the exact one, a term
+/// of the determinant within `(8 + 56 + 128) h`, and the two last sums add `16 h`: `208 h P`, with `P`
+/// the permanent of [`Cubic`]. Below, `256 h P`. The rounding to `f64` is relative. Underflow: see [`Cubic::new`]; the errors of products that underflow are below
+/// `2^-885`, the bound above `2^-750`.
+fn evaluate(positions: &Positions, time: Double<f64>) -> f64 {
     let [a, b, c, d] = positions.points::<f64x2>();
-    let t = f64x2::both(t);
     // K and L of an axis; M of two axes.
-    let edges = |i: usize| difference([a[i], c[i]], [b[i], d[i]], t);
+    let edges = |i: usize| difference([a[i], c[i]], [b[i], d[i]], time);
     let (x, y, z) = (edges(0), edges(1), edges(2));
-    let m_xy = difference([a[0], a[1]], [c[0], c[1]], t);
-    let m_z = difference([a[2], a[2]], [c[2], c[2]], t);
+    let m_xy = difference([a[0], a[1]], [c[0], c[1]], time);
+    let m_z = difference([a[2], a[2]], [c[2], c[2]], time);
     let products = |i: Double<f64x2>, j: Double<f64x2>| i.mul(j.swapped());
     let (yz, zx, xy) = (products(y, z), products(z, x), products(x, y));
     let minor = |[first, second]: [Double<f64x2>; 2]| first.sub(second);
     let [first, second] = m_xy.mul(minor(yz.transposed(zx))).lanes();
     let [third, _] = m_z.mul(minor(xy.transposed(xy))).lanes();
-    let sum = first.add(second).add(third);
-    sum.high + sum.low
+    first.add(second).add(third).value()
 }
 
-/// The largest `f64` not above the root in the bracket, if that is certain; then the root is not an
-/// `f64` itself.
-///
-/// Error bound. Let `t` be the middle of the sharpened bracket, `W` its width, `s` the least magnitude
-/// of the slope in it, `P` the permanent of [`Cubic`] (`error = 16 u P`) and `h = 2^-106`.
-///
-/// - The value of `f` at `t`: differences are exact double-doubles; a component of `K(t)` is within
-///   `(16 + 8 + 24) h k_i` (difference, product, sum; bounds at the operations), a minor within
-///   `(8 + 2 * 48 + 8) h p_ij`, a term of the determinant within `(8 + 48 + 112) h`, and the two last
-///   sums add `16 h`: `184 h P`, below `2^-49 error = 256 h P`. The rounding to `f64` is relative.
-/// - By Taylor the root is `t - f(t) / f'(t)` up to `C W^2 / 2 s`, with `C` the bound on `|f''|`.
-///
-/// So it is `t + delta` up to `(2^-49 error + C W^2) / s` and, for slope, division and rounding,
-/// `|delta| (slope_error / s + 8 u)`. Underflow: see [`Cubic::new`]; the errors of products that
-/// underflow are below `2^-885`, the first bound above `2^-750`.
-pub(super) fn round_down(positions: &Positions, cubic: &Cubic, bracket: &Bracket) -> Option<f64> {
-    let (sharp, least) = cubic.sharpen(bracket)?;
-    if !(least > 0.0) {
-        return None;
+/// `2^-106`.
+const SQUARED_U: f64 = U * U;
+
+/// The error of [`evaluate`] in units of the permanent.
+const VALUE_ERROR: f64 = 256.0 * SQUARED_U;
+
+impl Root {
+    /// The root in a bracket, if the slope there is certain.
+    ///
+    /// Error bound. Let `t` be the middle of the sharpened bracket, `W` its width, `s` the least
+    /// magnitude of the slope in it, `C` the bound on `|f''|`. By Taylor the root is `t - f(t) / f'(t)`
+    /// up to `C W^2 / 2 s`. So it is `t + delta` up to `(256 h P + C W^2) / s` and, for slope,
+    /// division and rounding, `|delta| (slope_error / s + 8 u)`; the first error is that of [`evaluate`].
+    pub(super) fn new(positions: &Positions, cubic: &Cubic, bracket: &Bracket) -> Option<Self> {
+        let (sharp, least) = cubic.sharpen(bracket)?;
+        if !(least > 0.0) {
+            return None;
+        }
+        let t = 0.5 * (sharp.low + sharp.high);
+        let width = sharp.high - sharp.low;
+        let (_, slope) = cubic.evaluate(t);
+        let delta = -evaluate(positions, Double { high: t, low: 0.0 }) / slope;
+        let error = (cubic.permanent * VALUE_ERROR + cubic.curvature() * width * width) / least
+            + delta.abs() * (cubic.slope_error() / least + 8.0 * U);
+        Some(Root {
+            time: two_sum(t, delta),
+            error,
+        })
     }
-    let t = 0.5 * (sharp.low + sharp.high);
-    let width = sharp.high - sharp.low;
-    let (_, slope) = cubic.evaluate(t);
-    let delta = -evaluate(positions, t) / slope;
-    let error = (cubic.error * VALUE_ERROR + cubic.curvature() * width * width) / least
-        + delta.abs() * (cubic.slope_error() / least + 8.0 * U);
-    let Double { high, low } = two_sum(t, delta);
-    let below = if low - error > 0.0 {
-        high
-    } else if low + error < 0.0 {
-        high.next_down()
-    } else {
-        return None;
-    };
-    // The root is between two neighbours, so neither of them, and inside the step.
-    let is_between = error < 0.125 * (below.next_up() - below);
-    (is_between && below > 0.0 && below < 1.0).then_some(below)
-}
 
-/// `2^-49`: the error of [`evaluate`] in units of that of the cubic.
-const VALUE_ERROR: f64 = f64::from_bits((1023 - 49) << 52);
+    /// The largest `f64` not above the root, if that is certain; then the root is not an `f64` itself.
+    pub(super) fn round_down(&self) -> Option<f64> {
+        let Double { high, low } = self.time;
+        let below = if low - self.error > 0.0 {
+            high
+        } else if low + self.error < 0.0 {
+            high.next_down()
+        } else {
+            return None;
+        };
+        // The root is between two neighbours, so neither of them, and inside the step.
+        let is_between = self.error < 0.125 * (below.next_up() - below);
+        (is_between && below > 0.0 && below < 1.0).then_some(below)
+    }
+
+    /// Where the lines meet at the root: as [`Motion::meeting`](super::motion::Motion::meeting), to
+    /// twice the precision, with `w` along the axis on which `N` is largest.
+    ///
+    /// Error bound: a minor is within `128 h p` of the exact one at `time` (see [`evaluate`]), and
+    /// moving to the root changes it by at most `4 e p (1 + e)`, `e` the error of the root. A
+    /// difference of minors adds `8 h` of both. Below, `(160 h + 5 e) p`, for `e < 1/8`; the computation
+    /// of that has a relative error below `4 u`. What underflows is below `2^-1070`, and `TINY` is more.
+    pub(super) fn meeting<E: Ends>(
+        &self,
+        positions: &Positions,
+        motion: &Motion<E>,
+        cubic: &Cubic,
+    ) -> Meeting {
+        let [a, b, c, d] = positions.points::<f64x2>();
+        let [k, l, m] = &cubic.reach;
+        let (n, mixed_l, mixed_k) = (permanents(k, l), permanents(m, l), permanents(m, k));
+        let edges = |i: usize| difference([a[i], c[i]], [b[i], d[i]], self.time);
+        let far = |i: usize| difference([a[i], a[i]], [c[i], c[i]], self.time);
+        let at = |h: usize| {
+            let (i, j) = ((h + 1) % 3, (h + 2) % 3);
+            let ((x, y), (m_i, m_j)) = ((edges(i), edges(j)), (far(i), far(j)));
+            let [first, second] = x.mul(y.swapped()).lanes();
+            // Of K, then of L.
+            let [v, u] = m_i.mul(y).sub(m_j.mul(x)).lanes();
+            (first.sub(second), u, v)
+        };
+        let [x, y, z] = motion.normal(self.time.high).map(f64::abs);
+        let axis = if x >= y && x >= z {
+            0
+        } else if y >= z {
+            1
+        } else {
+            2
+        };
+        let factor = if self.error < 0.125 {
+            160.0 * SQUARED_U + 5.0 * self.error
+        } else {
+            f64::INFINITY
+        };
+        let (normal, u, v) = at(axis);
+        let flip = |x: Double<f64>| {
+            if normal.high < 0.0 {
+                -x.value()
+            } else {
+                x.value()
+            }
+        };
+        Meeting {
+            n: flip(normal),
+            u: flip(u),
+            v: flip(v),
+            before_b: flip(normal.sub(u)),
+            before_d: flip(normal.sub(v)),
+            error_n: factor * n[axis] + TINY,
+            error_u: factor * mixed_l[axis] + TINY,
+            error_v: factor * mixed_k[axis] + TINY,
+        }
+    }
+}
