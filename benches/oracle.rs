@@ -2,7 +2,7 @@
 //! the answer with every number rounded both ways.
 //!
 //! `cargo bench --bench oracle` runs the default backend; add `--features gmp` for GMP. The public
-//! sets are measured where `../shared/data` is present; the generated families always.
+//! sets are measured where `../shared/data` is present; the generated ones always.
 
 use std::hint::black_box;
 
@@ -17,10 +17,10 @@ fn bench(c: &mut Criterion) {
     let mut group = c.benchmark_group(format!("oracle/{}", <field::Default as Integer>::BACKEND));
     for (name, queries) in data::sets() {
         group.throughput(Throughput::Elements(queries.len() as u64));
-        group.bench_with_input(BenchmarkId::new("toi", &name), &queries, |b, queries| {
+        group.bench_with_input(BenchmarkId::new("toi", name), &queries, |b, queries| {
             b.iter(|| queries.iter().for_each(decide_toi));
         });
-        group.bench_with_input(BenchmarkId::new("answer", &name), &queries, |b, queries| {
+        group.bench_with_input(BenchmarkId::new("answer", name), &queries, |b, queries| {
             b.iter(|| queries.iter().for_each(decide_all));
         });
     }

@@ -7,32 +7,51 @@ use tunnelproof::query::{EdgeEdge, Point, Query};
 use tunnelproof_reference::corpus::{self, ReadOptions};
 use tunnelproof_reference::generate;
 
-/// Named sets: generated ones, then the public ones that are there.
-pub(crate) fn sets() -> Vec<(String, Vec<EdgeEdge>)> {
-    let mut sets: Vec<(String, Vec<EdgeEdge>)> = generate::FAMILIES
-        .iter()
-        .map(|family| {
-            let queries = (0..4096).map(|index| family.query(1, index));
-            (
-                family.name().to_owned(),
-                queries.filter_map(edge_edge).collect(),
-            )
-        })
-        .collect();
-    let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
-    let handcrafted = csv_files(&shared.join("ccd-sample-queries"));
-    if !handcrafted.is_empty() {
-        sets.push((
-            "handcrafted".to_owned(),
-            handcrafted.iter().flat_map(|p| csv(p)).collect(),
-        ));
-    }
-    for name in ["candidates-cloth-ball", "hits-cloth-ball"] {
-        if let Ok(bytes) = fs::read(shared.join(format!("{name}.ee.bin"))) {
-            sets.push((name.to_owned(), binary(&bytes)));
-        }
-    }
-    sets
+mod wires;
+
+/// A set by its name, made when it is asked for.
+type Set = (&'static str, fn() -> Vec<EdgeEdge>);
+
+const SETS: [Set; 6] = [
+    ("uniform-overlapping", uniform_overlapping),
+    ("lattice", || family("lattice", 4096)),
+    ("wires", wires::pairs),
+    ("handcrafted", handcrafted),
+    ("candidates-cloth-ball", || binary("candidates-cloth-ball")),
+    ("hits-cloth-ball", || binary("hits-cloth-ball")),
+];
+
+/// Generated sets, then the public ones that are there.
+pub(crate) fn sets() -> impl Iterator<Item = (&'static str, Vec<EdgeEdge>)> {
+    let made = SETS.into_iter().map(|(name, make)| (name, make()));
+    made.filter(|(_, queries)| !queries.is_empty())
+}
+
+/// The queries of one set.
+#[allow(dead_code, reason = "not every bench asks for one set")]
+pub(crate) fn set(name: &str) -> Option<Vec<EdgeEdge>> {
+    let (_, make) = SETS.into_iter().find(|(of, _)| *of == name)?;
+    Some(make())
+}
+
+fn family(name: &str, count: u64) -> Vec<EdgeEdge> {
+    let family = generate::by_name(name).expect("a family");
+    let queries = (0..count).map(|index| family.query(1, index));
+    queries.filter_map(edge_edge).collect()
+}
+
+fn uniform_overlapping() -> Vec<EdgeEdge> {
+    let drawn = family("uniform", 8192);
+    drawn.into_iter().filter(wires::overlaps).collect()
+}
+
+fn shared() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data")
+}
+
+fn handcrafted() -> Vec<EdgeEdge> {
+    let files = csv_files(&shared().join("ccd-sample-queries"));
+    files.iter().flat_map(|path| csv(path)).collect()
 }
 
 fn edge_edge(query: Query) -> Option<EdgeEdge> {
@@ -71,8 +90,12 @@ fn csv(path: &Path) -> Vec<EdgeEdge> {
         .collect()
 }
 
-/// `i64 n`, then `n` times the 24 coordinates of eight points, little-endian.
-fn binary(bytes: &[u8]) -> Vec<EdgeEdge> {
+/// `i64 n`, then `n` times the 24 coordinates of eight points, little-endian; nothing if the file is not
+/// there.
+fn binary(name: &str) -> Vec<EdgeEdge> {
+    let Ok(bytes) = fs::read(shared().join(format!("{name}.ee.bin"))) else {
+        return Vec::new();
+    };
     let (count, rest) = bytes.split_at(8);
     let count = i64::from_le_bytes(count.try_into().expect("eight bytes")) as usize;
     let numbers: Vec<f64> = rest
