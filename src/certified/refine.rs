@@ -214,3 +214,6 @@ pub(super) fn round_down(positions: &Positions, cubic: &Cubic, bracket: &Bracket
 
 /// `2^-49`: the error of [`evaluate`] in units of that of the cubic.
 const VALUE_ERROR: f64 = f64::from_bits((1023 - 49) << 52);
+
+#[cfg(test)]
+mod tests;
