@@ -12,3 +12,6 @@ pub(super) use number::Number;
 pub(super) use polynomial::Polynomial;
 pub(super) use random::Random;
 pub(super) use search::{Claim, Search};
+
+#[cfg(test)]
+mod tests;

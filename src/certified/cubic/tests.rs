@@ -43,9 +43,9 @@ fn cubic_coefficients_are_within_their_bound() {
     let start = |random: &mut Random| points(random, (-222, 184));
     let search = Search {
         seed: 4,
-        climbs: 6,
+        climbs: 8,
         starts: 200,
-        steps: 1000,
+        steps: 2500,
     };
     let worst = search.worst(start, claims);
     println!(

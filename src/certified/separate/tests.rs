@@ -47,6 +47,17 @@ fn start(random: &mut Random) -> [f64; 27] {
     for d in &mut x[24..] {
         *d = random.signed() * 2f64.powi(power);
     }
+    if random.coin() {
+        // Apart along an axis, by anything from nothing to far.
+        let gap = x[0].abs() * 2f64.powi(-random.whole(0, 60));
+        let axis = random.below(3) as usize;
+        x[24..].fill(0.0);
+        x[24 + axis] = 2f64.powi(power);
+        for p in [0, 1, 4, 5] {
+            x[3 * p + axis] = -x[3 * p + axis].abs();
+            x[3 * p + 6 + axis] = x[3 * p + 6 + axis].abs() + gap;
+        }
+    }
     x
 }
 

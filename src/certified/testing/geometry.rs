@@ -67,7 +67,7 @@ pub(in super::super) fn layout(coordinates: &[f64]) -> Positions {
 /// Coordinates for [`layout`], of one of several kinds, times a power of two in the given range as
 /// often as not.
 pub(in super::super) fn points(random: &mut Random, (low, high): (i32, i32)) -> [f64; 24] {
-    let mut x = match random.below(6) {
+    let mut x = match random.below(7) {
         0 => [0.0; 24].map(|_| random.signed()),
         1 => [0.0; 24].map(|_| random.small()),
         2 => {
@@ -86,6 +86,8 @@ pub(in super::super) fn points(random: &mut Random, (low, high): (i32, i32)) -> 
                 random.nudged(value)
             })
         }
+        // Sparse: few terms, which do not make up for each other's errors.
+        5 => [0.0; 24].map(|_| if random.coin() { random.signed() } else { 0.0 }),
         _ => [0.0; 24].map(|_| random.signed() * 2f64.powi(random.whole(-30, 30))),
     };
     if random.coin() {
