@@ -16,7 +16,8 @@ struct Case {
     motion: Motion<f64x2>,
     bracket: Bracket,
     meeting: Meeting,
-    /// `K x L`, `M x L` and `M x K` at both ends of an interval of length `2^-200` around the root.
+    /// `K x L`, `M x L` and `M x K` at both ends of an interval around the root, `2^120` times shorter
+    /// than the shortest bracket.
     normals: [[[Number; 3]; 3]; 2],
 }
 
@@ -26,15 +27,10 @@ impl Case {
         let motion = Motion::new(&positions.points());
         let cubic = Cubic::new(&motion)?;
         let bracket = *cubic.isolate()?.as_slice().first()?;
-        let exact = Exact::new(&positions);
-        let ends = |bracket: &Bracket| [Number::from(bracket.low), Number::from(bracket.high)];
-        let [low, high] = ends(&bracket);
-        let (low, high) = exact.f.enclose(&low, &high, 200);
+        let [low, high] = [bracket.low, bracket.high].map(Number::from);
         let bracket = stretched(&bracket, x)?;
-        let [from, to] = ends(&bracket);
-        if from > low || to < high {
-            return None;
-        }
+        let exact = Exact::new(&positions);
+        let (low, high) = exact.f.enclose(&low, &high, 120);
         Some(Case {
             motion,
             bracket,
@@ -83,8 +79,9 @@ impl Case {
         }
     }
 
-    /// The errors of the three products, and of the parameters of a contact.
-    fn claims(&self) -> [Claim; 4] {
+    /// The errors of the three products and of the parameters of a contact, and how far on the wrong
+    /// side of an end of an edge the lines seem to meet.
+    fn claims(&self) -> [Claim; 5] {
         let Meeting {
             n,
             u,
@@ -98,34 +95,79 @@ impl Case {
         let w = w.map(Number::from);
         let found = [(n, error_n), (u, error_u), (v, error_v)];
         let product = |i: usize| {
-            let claims = self.normals.each_ref().map(|normals| {
+            let [x, y] = self.normals.each_ref().map(|normals| {
                 let exact = exact_dot(&normals[i], &w);
                 Claim::within(found[i].0, &exact, Number::from(found[i].1))
             });
-            worse(claims)
+            worse(x, y)
         };
-        [product(0), product(1), product(2), self.parameters()]
+        [
+            product(0),
+            product(1),
+            product(2),
+            self.parameters(),
+            self.wrong_side(),
+        ]
+    }
+
+    fn wrong_side(&self) -> Claim {
+        let Meeting { n, u, v, .. } = self.meeting;
+        let Meeting {
+            error_n,
+            error_u,
+            error_v,
+            ..
+        } = self.meeting;
+        if !(n > error_n) {
+            return nothing();
+        }
+        let (error_u1, error_v1) = self.meeting.far_errors();
+        let [[exact_n, exact_u, exact_v], _] = self.products();
+        let sides = [
+            (u, error_u, exact_u.sign()),
+            (v, error_v, exact_v.sign()),
+            (n - u, error_u1, (&exact_n - &exact_u).sign()),
+            (n - v, error_v1, (&exact_n - &exact_v).sign()),
+        ];
+        let wrong = sides
+            .into_iter()
+            .filter(|(found, _, sign)| Number::from(*found).sign() != *sign);
+        let claims = wrong.map(|(found, bound, _)| Claim {
+            error: Number::from(found).abs(),
+            bound: Number::from(bound),
+        });
+        claims.fold(nothing(), worse)
     }
 
     fn parameters(&self) -> Claim {
         let Place::Inside { u, v, error } = self.meeting.place() else {
-            return Claim {
-                error: Number::zero(),
-                bound: Number::from(1.0),
-            };
+            return nothing();
         };
-        let claims = self.products().map(|[n, exact_u, exact_v]| {
+        let [x, y] = self.products().map(|[n, exact_u, exact_v]| {
             // All times N . N.
             let [u, v, bound] = [u, v, error].map(|x| &Number::from(x) * &n);
             let error = (&u - &exact_u).abs().larger((&v - &exact_v).abs());
             Claim { error, bound }
         });
-        worse(claims)
+        worse(x, y)
     }
 }
 
-fn worse([x, y]: [Claim; 2]) -> Claim {
-    if x.error > y.error { x } else { y }
+/// No error.
+fn nothing() -> Claim {
+    Claim {
+        error: Number::zero(),
+        bound: Number::from(1.0),
+    }
+}
+
+/// The one with the larger ratio.
+fn worse(x: Claim, y: Claim) -> Claim {
+    if &x.error * &y.bound > &y.error * &x.bound {
+        x
+    } else {
+        y
+    }
 }
 
 /// The bracket, or a longer one, of which one half has nothing to do with the root.
@@ -226,16 +268,16 @@ fn locate_errors_are_within_their_bounds_and_no_claim_is_wrong() {
     };
     let search = Search {
         seed: 14,
-        climbs: 4,
-        starts: 200,
-        steps: 400,
+        climbs: 3,
+        starts: 300,
+        steps: 600,
     };
     let worst = search.worst(start, claims);
     let (places, wrong) = (places.get(), wrong.get());
     println!(
-        "locate: n, u, v, parameters {worst:?}; apart, inside, unclear {places:?}; with the bounds divided by 8 {wrong} wrong"
+        "locate: n, u, v, parameters, side {worst:?}; {places:?} apart, inside, unclear; with an eighth of the bounds {wrong} wrong"
     );
-    let [products @ .., parameters] = worst;
-    assert!(products.iter().all(|&ratio| ratio > 0.5) && parameters > 0.1);
-    assert!(places.iter().all(|&count| count > 100) && wrong > 10);
+    let [n, u, v, parameters, side] = worst;
+    assert!(n > 0.4 && u > 0.4 && v > 0.4 && parameters > 0.1 && side > 0.15);
+    assert!(places.iter().all(|&count| count > 100) && wrong > 0);
 }

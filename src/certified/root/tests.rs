@@ -24,11 +24,14 @@ impl Case {
             && factor >= 1.0
             && (0.0..=1.0).contains(&t)
             && shares.iter().all(|share| share.abs() <= 1.0);
+        if !is_case {
+            return None;
+        }
         let exact = [0, 1, 2, 3].map(|i| {
             let share = &Number::from(shares[i]) * &Number::from(error);
             &Number::from(bernstein[i]) + &share
         });
-        is_case.then(|| Case {
+        Some(Case {
             cubic: Cubic {
                 bernstein,
                 error,
@@ -42,7 +45,7 @@ impl Case {
     /// The same with a bound that is too small: the exact cubic is none of those it allows.
     fn faulty(&self) -> Cubic {
         Cubic {
-            error: self.cubic.error / 8.0,
+            error: self.cubic.error / 4.0,
             ..self.cubic
         }
     }
@@ -82,12 +85,17 @@ fn start(random: &mut Random) -> Input {
     } else {
         0
     };
-    let [b0, b1, b2, b3] = bernstein.map(|b| b * 2f64.powi(power));
     let factor = if random.coin() {
         2f64.powi(random.whole(0, 30))
     } else {
         1.0
     };
+    let is_near_error = random.coin();
+    let [b0, b1, b2, b3] = bernstein.map(|b| {
+        let is_small = is_near_error && random.coin();
+        let b = if is_small { 128.0 * U * factor * b } else { b };
+        b * 2f64.powi(power)
+    });
     let t = random.whole(-6, 4).clamp(0, 1);
     let t = if random.coin() {
         random.unit()
@@ -227,8 +235,8 @@ fn check_all(seed: u64, count: u32, check: impl Fn(&Cubic, &Case) -> Option<bool
         }
         found += u32::from(check(&case.faulty(), &case) == Some(false));
     }
-    println!("root: {claims} claims of {count}, with the bound divided by 8 {found} wrong");
-    assert!(claims > count / 4 && found > 20);
+    println!("root: {claims} claims of {count}, with a quarter of the bound {found} wrong");
+    assert!(claims > count / 4 && found > 0);
 }
 
 #[test]
