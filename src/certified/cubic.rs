@@ -101,3 +101,6 @@ pub(super) fn permanents(x: &Vector, y: &Vector) -> Vector {
 
 const LARGEST: f64 = f64::from_bits((1023 + 180) << 52);
 const SMALLEST: f64 = f64::from_bits((1023 - 650) << 52);
+
+#[cfg(test)]
+mod tests;

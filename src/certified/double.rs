@@ -142,3 +142,6 @@ impl Double<f64> {
         self.high + self.low
     }
 }
+
+#[cfg(test)]
+mod tests;

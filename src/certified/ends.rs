@@ -192,3 +192,6 @@ impl Ends for Plain {
         [self.start > other.start, self.end > other.end]
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -154,3 +154,6 @@ impl Meeting {
 
 /// Far above what underflow adds, far below any bound that matters.
 pub(super) const TINY: f64 = f64::from_bits((1023 - 700) << 52);
+
+#[cfg(test)]
+mod tests;

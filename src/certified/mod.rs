@@ -37,6 +37,8 @@ mod narrow;
 mod refine;
 mod root;
 mod separate;
+#[cfg(test)]
+mod testing;
 mod verdict;
 
 pub use batch::{Batch, BatchError};

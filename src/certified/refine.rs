@@ -164,3 +164,6 @@ impl Root {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

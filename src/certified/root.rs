@@ -317,3 +317,6 @@ impl Part {
         ]
     }
 }
+
+#[cfg(test)]
+mod tests;

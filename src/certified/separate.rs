@@ -130,3 +130,6 @@ const TINY: f64 = 1e-300;
 const LARGEST: f64 = f64::from_bits((1023 + 960) << 52);
 
 const SEARCH_STEPS: usize = 6;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,17 @@
+//! What the tests of the stages share: exact arithmetic, and a search for the inputs at which an
+//! error comes nearest to its bound.
+
+mod geometry;
+mod number;
+mod polynomial;
+mod random;
+mod search;
+
+pub(super) use geometry::{Exact, dot, layout, points};
+pub(super) use number::Number;
+pub(super) use polynomial::Polynomial;
+pub(super) use random::Random;
+pub(super) use search::{Claim, Search};
+
+#[cfg(test)]
+mod tests;
