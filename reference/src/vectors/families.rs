@@ -36,13 +36,20 @@ struct Candidate {
     complexity: Complexity,
     class: Class,
     summary: String,
+    /// Flags that only the whole group shows.
+    group_flags: Vec<Flag>,
 }
 
 pub(super) fn selection(family: &'static Family) -> Source {
-    let candidates: Vec<_> = (0..QUERIES)
+    let mut candidates: Vec<_> = (0..QUERIES)
         .into_par_iter()
         .map(|index| Candidate::new(family, index))
         .collect();
+    if family.group_size() > 1 {
+        candidates
+            .chunks_mut(family.group_size())
+            .for_each(flag_wire);
+    }
     let chosen = chosen(&candidates);
     let members = chosen.iter().map(|&index| candidates[index].described());
     let shrunk = simplest_failures(&candidates).into_par_iter().map(shrunk);
@@ -54,6 +61,29 @@ pub(super) fn selection(family: &'static Family) -> Source {
             family.description()
         ),
         queries: members.chain(shrunk.collect::<Vec<_>>()).collect(),
+    }
+}
+
+/// Says of the segments of a wire that they are, and by which method all of them are missed.
+fn flag_wire(segments: &mut [Candidate]) {
+    let misses = |candidate: &Candidate, method| {
+        let missed = [Fault::Tunnel, Fault::MissedGraze].map(|fault| Flag::Failure(fault, method));
+        missed.iter().any(|flag| candidate.class.0.contains(flag))
+    };
+    // A crossing is due in one of them, but not a contact in each.
+    let is_passed_by = |method: &Method| {
+        let is_missed =
+            |candidate: &Candidate| candidate.class.1.is_none() || misses(candidate, *method);
+        segments.iter().all(is_missed)
+    };
+    let methods = Method::ALL.into_iter().filter(is_passed_by);
+    let joint_tunnels = methods.map(|method| Flag::Failure(Fault::JointTunnel, method));
+    let flags: Vec<_> = std::iter::once(Flag::WireJoint)
+        .chain(joint_tunnels)
+        .collect();
+    for candidate in segments {
+        candidate.class.0.extend(&flags);
+        candidate.group_flags.clone_from(&flags);
     }
 }
 
@@ -76,12 +106,14 @@ fn chosen(candidates: &[Candidate]) -> BTreeSet<usize> {
         .collect()
 }
 
-/// Of each way in which a method fails the simplest query that shows it.
+/// Of each way in which a method fails on a single query the simplest one that shows it.
 fn simplest_failures(candidates: &[Candidate]) -> Vec<(Method, Fault, &Candidate)> {
     let mut simplest: BTreeMap<(Method, Fault), &Candidate> = BTreeMap::new();
     for candidate in candidates {
         for flag in &candidate.class.0 {
-            if let Flag::Failure(fault, method) = *flag {
+            if let Flag::Failure(fault, method) = *flag
+                && fault != Fault::JointTunnel
+            {
                 let best = simplest.entry((method, fault)).or_insert(candidate);
                 if candidate.complexity < best.complexity {
                     *best = candidate;
@@ -129,6 +161,7 @@ impl Candidate {
             complexity: Complexity::of(&query),
             summary: assessment.summary(),
             class: (assessment.flags, kind),
+            group_flags: Vec::new(),
         }
     }
 
@@ -142,7 +175,7 @@ impl Candidate {
         Described {
             id: self.id.to_string(),
             comment: self.summary.clone(),
-            flags: wire.iter().map(|_| Flag::WireJoint).collect(),
+            flags: self.group_flags.clone(),
             wire,
             query: self.query,
         }
