@@ -324,6 +324,38 @@ fn vectors_on_disk_are_those_that_are_generated() {
 }
 
 #[test]
+fn vectors_that_are_shrunk_show_the_failure_that_they_are_called_after() {
+    let all = vectors();
+    let mut seen = 0;
+    for vector in &all {
+        let parts: Vec<_> = vector.id.split('/').collect();
+        let method = match parts[..] {
+            [_, "thesis", _] => "InThresholdedMethod",
+            [_, "shadow-published", _] => "InPublishedText",
+            [_, "additive", _] => "InConservativeAdvancement",
+            _ => continue,
+        };
+        let fault = parts[2].replace('-', "");
+        let shows = |flag: &String| {
+            let flagged = flag.strip_suffix(method).map(str::to_lowercase);
+            flagged == Some(fault.clone())
+        };
+        assert!(vector.flags.iter().any(shows), "{}", vector.id);
+        seen += 1;
+    }
+    assert!(seen > 50, "{seen}");
+}
+
+#[test]
+fn vectors_are_as_many_as_their_page_says() {
+    let page = fs::read_to_string(folder().join("README.md")).unwrap();
+    let [thousands, rest] = [vectors().len() / 1000, vectors().len() % 1000];
+    let files = vector_files::reader::names().len();
+    let count = format!("{thousands},{rest:03} vectors in {files} files");
+    assert!(page.contains(&count), "the page does not say {count}");
+}
+
+#[test]
 fn vectors_of_wires_belong_together() {
     let all = vectors();
     let segments: Vec<_> = all.iter().filter(|vector| vector.wire.is_some()).collect();
