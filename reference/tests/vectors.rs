@@ -16,15 +16,15 @@ use std::process::Command;
 use serde_json::{Value, json};
 use tunnelproof::certified::{self, Verdict};
 use tunnelproof::query::Query;
-use tunnelproof_reference::answer::Enclosure;
+use tunnelproof_reference::answer::{Enclosure, Parameters};
 use tunnelproof_reference::shadow::Shadow;
 
-use vector_files::rational;
-use vector_files::reader::{Bounds, Place, Vector, folder, vectors};
+use vector_files::reader::{Bounds, Place, Root, Vector, folder, names, vectors};
+use vector_files::{rational, says};
 
 /// Every file in the folder but the schema, parsed.
 fn documents() -> Vec<(String, Value)> {
-    let names = vector_files::reader::names();
+    let names = names();
     let read = |name: String| {
         let text = fs::read_to_string(folder().join(&name)).unwrap();
         let document = serde_json::from_str(&text).unwrap();
@@ -117,7 +117,6 @@ fn check(vector: &Vector) -> Result<(), String> {
 }
 
 fn shadow_agrees(vector: &Vector) -> Result<(), String> {
-    let says = |what: &str, is_so: bool| is_so.then_some(()).ok_or_else(|| what.to_owned());
     let exact = Shadow::REPAIRED
         .decide(&Query::EdgeEdge(vector.query()))
         .unwrap();
@@ -127,25 +126,18 @@ fn shadow_agrees(vector: &Vector) -> Result<(), String> {
     let Some(hit) = exact.hit else {
         return says("contact of a miss", result.toi.is_none());
     };
-    let is = |exact: Enclosure, stated: Option<Bounds>| {
-        stated
-            == Some(Bounds {
-                below: exact.below,
-                above: exact.above,
-            })
+    let bounds = |exact: Enclosure| Bounds {
+        below: exact.below,
+        above: exact.above,
     };
-    says("toi", is(hit.toi, result.toi))?;
-    says("u", is(hit.first.u, result.u))?;
-    says("v", is(hit.first.v, result.v))?;
-    let overlap = |place: Place| (Some(place.u), Some(place.v));
-    let stated = result.overlap.map_or((None, None), overlap);
-    let second = hit.second.map_or((true, true), |place| {
-        (is(place.u, stated.0), is(place.v, stated.1))
-    });
-    says(
-        "overlap",
-        second == (true, true) && hit.second.is_some() == result.overlap.is_some(),
-    )?;
+    let place = |exact: Parameters| Place {
+        u: bounds(exact.u),
+        v: bounds(exact.v),
+    };
+    says("toi", Some(bounds(hit.toi)) == result.toi)?;
+    says("u", Some(bounds(hit.first.u)) == result.u)?;
+    says("v", Some(bounds(hit.first.v)) == result.v)?;
+    says("overlap", hit.second.map(place) == result.overlap)?;
     says(
         "kind",
         Some(hit.kind.name()) == result.kind_of_contact.as_deref(),
@@ -160,6 +152,16 @@ fn shadow_agrees(vector: &Vector) -> Result<(), String> {
         "flags",
         flags == (result.temporarily_parallel, result.temporarily_point),
     )
+}
+
+fn fraction(vector: &mut Vector) -> &mut [String; 2] {
+    let exact = vector.exact_toi.as_mut().unwrap();
+    exact.fraction.as_mut().unwrap()
+}
+
+fn root(vector: &mut Vector) -> &mut Root {
+    let exact = vector.exact_toi.as_mut().unwrap();
+    exact.root.as_mut().unwrap()
 }
 
 #[test]
@@ -191,62 +193,14 @@ fn vectors_that_are_changed_are_found_wrong() {
         |vector| vector.exact_toi = None,
     ];
     let of_fractions: [Change; 2] = [
-        |vector| {
-            vector.exact_toi.as_mut().unwrap().fraction = Some(["1".to_owned(), "1023".to_owned()])
-        },
-        |vector| {
-            vector
-                .exact_toi
-                .as_mut()
-                .unwrap()
-                .fraction
-                .as_mut()
-                .unwrap()[1] += "0"
-        },
+        |vector| fraction(vector)[1] += "0",
+        |vector| *fraction(vector) = ["1", "1023"].map(str::to_owned),
     ];
     let of_roots: [Change; 4] = [
-        |vector| {
-            vector
-                .exact_toi
-                .as_mut()
-                .unwrap()
-                .root
-                .as_mut()
-                .unwrap()
-                .polynomial[0] += "1"
-        },
-        |vector| {
-            vector
-                .exact_toi
-                .as_mut()
-                .unwrap()
-                .root
-                .as_mut()
-                .unwrap()
-                .polynomial[1] += "1"
-        },
-        |vector| {
-            vector
-                .exact_toi
-                .as_mut()
-                .unwrap()
-                .root
-                .as_mut()
-                .unwrap()
-                .interval
-                .reverse()
-        },
-        |vector| {
-            let interval = &mut vector
-                .exact_toi
-                .as_mut()
-                .unwrap()
-                .root
-                .as_mut()
-                .unwrap()
-                .interval;
-            interval[0] = interval[1].clone();
-        },
+        |vector| root(vector).polynomial[0] += "1",
+        |vector| root(vector).polynomial[1] += "1",
+        |vector| root(vector).interval.reverse(),
+        |vector| root(vector).interval[0] = root(vector).interval[1].clone(),
     ];
     let rational_changes = of_both
         .iter()
@@ -350,7 +304,7 @@ fn vectors_that_are_shrunk_show_the_failure_that_they_are_called_after() {
 fn vectors_are_as_many_as_their_page_says() {
     let page = fs::read_to_string(folder().join("README.md")).unwrap();
     let [thousands, rest] = [vectors().len() / 1000, vectors().len() % 1000];
-    let files = vector_files::reader::names().len();
+    let files = names().len();
     let count = format!("{thousands},{rest:03} vectors in {files} files");
     assert!(page.contains(&count), "the page does not say {count}");
 }

@@ -10,6 +10,7 @@ use tunnelproof::query::Query;
 use super::exact_time::ExactTime;
 use super::flag::Flag;
 use super::method::Method;
+use crate::algebraic::Algebraic;
 use crate::answer::{Enclosure, ExactAnswer, ExactHit, Parameters};
 use crate::field;
 use crate::oracle::{Decision, decide};
@@ -33,21 +34,18 @@ impl Assessment {
         let decision = decide::<field::Default>(edges)?;
         let answer = decision.written();
         let time = decision.toi().map(ExactTime::new);
-        let mut flags = BTreeSet::new();
-        let mut flag = |flag, is_so: bool| is_so.then(|| flags.insert(flag));
-        flag(Flag::Motion(answer.case), answer.case != Case::General);
-        flag(Flag::MultipleRoot, is_multiple_root(&decision));
-        flag(
-            Flag::IrrationalTime,
-            time.as_ref().is_some_and(ExactTime::is_irrational),
-        );
-        flag(Flag::ExtremeRange, is_extreme(query));
-        for method in Method::ALL {
-            if let Some(fault) = method.fault(query) {
-                flag(Flag::Failure(fault, method), true);
-            }
-        }
-        flags.extend(answer.hit.iter().flat_map(of_contact));
+        let is_irrational = time.as_ref().is_some_and(ExactTime::is_irrational);
+        let of_motion = [
+            (Flag::Motion(answer.case), answer.case != Case::General),
+            (Flag::MultipleRoot, is_multiple_root(&decision)),
+            (Flag::IrrationalTime, is_irrational),
+            (Flag::ExtremeRange, is_extreme(query)),
+        ];
+        let failure = |method: Method| Some(Flag::Failure(method.fault(query)?, method));
+        let flags = that_are(of_motion)
+            .chain(answer.hit.iter().flat_map(of_contact))
+            .chain(Method::ALL.into_iter().filter_map(failure))
+            .collect();
         Ok(Assessment {
             answer,
             time,
@@ -67,12 +65,18 @@ impl Assessment {
     }
 }
 
+/// Of flags those that are so.
+fn that_are<const N: usize>(flags: [(Flag, bool); N]) -> impl Iterator<Item = Flag> {
+    let so = flags.into_iter().filter(|(_, is_so)| *is_so);
+    so.map(|(flag, _)| flag)
+}
+
 fn of_contact(hit: &ExactHit) -> impl Iterator<Item = Flag> + use<> {
     let is = |number: Enclosure, value| number == Enclosure::exactly(value);
     let is_end = |number| is(number, 0.0) || is(number, 1.0);
     let touches_end = |place: &Parameters| is_end(place.u) || is_end(place.v);
     let is_graze = hit.kind == ContactKind::Graze;
-    [
+    that_are([
         (Flag::ContactAtStart, is(hit.toi, 0.0)),
         (Flag::ContactAtEnd, is(hit.toi, 1.0)),
         (Flag::Graze, is_graze && !is_end(hit.toi)),
@@ -84,15 +88,13 @@ fn of_contact(hit: &ExactHit) -> impl Iterator<Item = Flag> + use<> {
         (Flag::Overlap, hit.second.is_some()),
         (Flag::TemporarilyParallel, hit.flags.temporarily_parallel),
         (Flag::TemporarilyPoint, hit.flags.temporarily_point),
-    ]
-    .into_iter()
-    .filter_map(|(flag, is_so)| is_so.then_some(flag))
+    ])
 }
 
 /// Whether the time of impact is a root of the cubic and of its derivative.
 fn is_multiple_root(decision: &Decision<field::Default>) -> bool {
     let f = decision.f();
-    let at_root = |toi: &crate::algebraic::Algebraic<_>| toi.sign_of(&f.derivative()).is_eq();
+    let at_root = |toi: &Algebraic<_>| toi.sign_of(&f.derivative()).is_eq();
     !f.is_zero() && decision.toi().is_some_and(at_root)
 }
 

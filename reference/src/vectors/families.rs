@@ -8,7 +8,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use rayon::prelude::*;
-use tunnelproof::contact::ContactKind;
 use tunnelproof::query::Query;
 
 use super::Source;
@@ -27,7 +26,12 @@ const QUERIES: u64 = 2000;
 const MEMBERS: usize = 4;
 
 /// What queries of one class have in common.
-type Class = (BTreeSet<Flag>, Option<u8>);
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct Class {
+    flags: BTreeSet<Flag>,
+    /// The kind of the first contact; `None` for a miss.
+    kind: Option<&'static str>,
+}
 
 /// A query of the family.
 struct Candidate {
@@ -68,12 +72,14 @@ pub(super) fn selection(family: &'static Family) -> Source {
 fn flag_wire(segments: &mut [Candidate]) {
     let misses = |candidate: &Candidate, method| {
         let missed = [Fault::Tunnel, Fault::MissedGraze].map(|fault| Flag::Failure(fault, method));
-        missed.iter().any(|flag| candidate.class.0.contains(flag))
+        missed
+            .iter()
+            .any(|flag| candidate.class.flags.contains(flag))
     };
     // A crossing is due in one of them, but not a contact in each.
     let is_passed_by = |method: &Method| {
         let is_missed =
-            |candidate: &Candidate| candidate.class.1.is_none() || misses(candidate, *method);
+            |candidate: &Candidate| candidate.class.kind.is_none() || misses(candidate, *method);
         segments.iter().all(is_missed)
     };
     let methods = Method::ALL.into_iter().filter(is_passed_by);
@@ -82,7 +88,7 @@ fn flag_wire(segments: &mut [Candidate]) {
         .chain(joint_tunnels)
         .collect();
     for candidate in segments {
-        candidate.class.0.extend(&flags);
+        candidate.class.flags.extend(&flags);
         candidate.group_flags.clone_from(&flags);
     }
 }
@@ -110,7 +116,7 @@ fn chosen(candidates: &[Candidate]) -> BTreeSet<usize> {
 fn simplest_failures(candidates: &[Candidate]) -> Vec<(Method, Fault, &Candidate)> {
     let mut simplest: BTreeMap<(Method, Fault), &Candidate> = BTreeMap::new();
     for candidate in candidates {
-        for flag in &candidate.class.0 {
+        for flag in &candidate.class.flags {
             if let Flag::Failure(fault, method) = *flag
                 && fault != Fault::JointTunnel
             {
@@ -151,16 +157,16 @@ impl Candidate {
         };
         let query = id.query();
         let assessment = Assessment::new(&query).expect("a family makes edges of radius 0");
-        let kind = assessment.answer.hit.map(|hit| match hit.kind {
-            ContactKind::Crossing => 0,
-            ContactKind::Graze => 1,
-        });
+        let kind = assessment.answer.hit.map(|hit| hit.kind.name());
         Candidate {
             id,
             query,
             complexity: Complexity::of(&query),
             summary: assessment.summary(),
-            class: (assessment.flags, kind),
+            class: Class {
+                flags: assessment.flags,
+                kind,
+            },
             group_flags: Vec::new(),
         }
     }

@@ -9,6 +9,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 use super::reader::{Bounds, Root, Vector};
+use super::says;
 
 /// Coefficients ascending, the last one not 0.
 type Poly = Vec<BigRational>;
@@ -17,7 +18,6 @@ type Vector3 = [BigRational; 3];
 
 /// What is wrong with the points or the exact time of a vector.
 pub(crate) fn check(vector: &Vector) -> Result<(), String> {
-    let says = |what: &str, is_so: bool| is_so.then_some(()).ok_or_else(|| what.to_owned());
     for (decimal, hex) in vector
         .points
         .iter()
@@ -58,7 +58,6 @@ pub(crate) fn check(vector: &Vector) -> Result<(), String> {
 /// The polynomial has exactly one root in the interval, which is within the bounds and a root of the
 /// cubic.
 fn check_root(vector: &Vector, root: &Root, toi: Bounds) -> Result<(), String> {
-    let says = |what: &str, is_so: bool| is_so.then_some(()).ok_or_else(|| what.to_owned());
     let integers: Option<Vec<BigInt>> = root
         .polynomial
         .iter()

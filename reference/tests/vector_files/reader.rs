@@ -48,7 +48,7 @@ pub(crate) struct Bounds {
     pub(crate) above: f64,
 }
 
-#[derive(Clone, Copy, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 pub(crate) struct Place {
     pub(crate) u: Bounds,
     pub(crate) v: Bounds,
