@@ -17,3 +17,4 @@ pub mod shadow;
 mod shape;
 pub mod shrink;
 pub mod subject;
+pub mod vectors;

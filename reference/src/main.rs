@@ -1,4 +1,4 @@
-//! The command line: `eval`, `certify`, `explain`, `shrink` and `replay`.
+//! The command line: `eval`, `certify`, `explain`, `shrink`, `replay` and `vectors`.
 
 use std::process::ExitCode;
 

@@ -23,6 +23,7 @@ mod explain;
 mod output;
 mod replay;
 mod shrink;
+mod vectors;
 
 /// Judges continuous collision detection of moving edges against exact arithmetic.
 #[derive(Parser)]
@@ -42,6 +43,7 @@ enum Command {
     Explain(explain::Explain),
     Shrink(shrink::Shrink),
     Replay(replay::Replay),
+    Vectors(vectors::Vectors),
 }
 
 /// How files are read.
@@ -101,6 +103,7 @@ impl Cli {
             Command::Explain(explain) => explain.run(),
             Command::Shrink(shrink) => shrink.run(),
             Command::Replay(replay) => replay.run(),
+            Command::Vectors(vectors) => vectors.run(),
         }
     }
 }

@@ -42,7 +42,7 @@ enum Target {
 impl OutputFile {
     /// Sees to it that the file can be made.
     pub(super) fn create(path: &Path) -> Result<Self, Failure> {
-        let target = Target::create(path).map_err(|error| failure(path, error))?;
+        let target = Target::create(path).map_err(|error| unwritable(path, error))?;
         let path = path.to_owned();
         Ok(OutputFile { path, target })
     }
@@ -51,7 +51,7 @@ impl OutputFile {
     pub(super) fn write(self, text: &str) -> Result<(), Failure> {
         self.target
             .write(&self.path, text.as_bytes())
-            .map_err(|error| failure(&self.path, error))
+            .map_err(|error| unwritable(&self.path, error))
     }
 }
 
@@ -96,7 +96,8 @@ fn permissions() -> Option<Permissions> {
     None
 }
 
-fn failure(path: &Path, error: io::Error) -> Failure {
+/// That this file or folder cannot be written.
+pub(super) fn unwritable(path: &Path, error: io::Error) -> Failure {
     Failure::Output {
         name: path.display().to_string(),
         error,

@@ -1,5 +1,7 @@
 //! Which of two queries is the simpler one.
 
+use tunnelproof::query::Query;
+
 use crate::algebraic::decompose;
 use crate::shape::Shape;
 
@@ -28,6 +30,11 @@ pub struct Complexity {
 const NUMBERS: usize = 25;
 
 impl Complexity {
+    /// How complex this query is.
+    pub fn of(query: &Query) -> Self {
+        Self::new(&Shape::new(query))
+    }
+
     /// The bits of all numbers, as counted above.
     pub fn bits(&self) -> u64 {
         self.bits

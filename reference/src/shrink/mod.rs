@@ -1,7 +1,7 @@
 //! From a query that shows something to the smallest one that still shows it.
 //!
 //! [`shrink`] knows nothing of what is shown: a predicate says whether a query is still interesting.
-//! It is greedy. Each [step](steps) proposes queries, the first one that is simpler by
+//! It is greedy. Each step (`steps`) proposes queries, the first one that is simpler by
 //! [`Complexity`] and still interesting takes the place of the query, and so on until no step gets
 //! any further. [`Disagreement`] is the predicate for a subject that is wrong.
 

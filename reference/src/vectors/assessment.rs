@@ -1,0 +1,105 @@
+//! What there is to say of a query: the exact answer, and every flag that follows from the query
+//! itself.
+
+use std::collections::BTreeSet;
+
+use tunnelproof::contact::{Case, ContactKind};
+use tunnelproof::narrow::Unsupported;
+use tunnelproof::query::Query;
+
+use super::exact_time::ExactTime;
+use super::flag::Flag;
+use super::method::Method;
+use crate::algebraic::Algebraic;
+use crate::answer::{Enclosure, ExactAnswer, ExactHit, Parameters};
+use crate::field;
+use crate::oracle::{Decision, decide};
+
+/// Products of three numbers within this factor of 1 stay in the range of `f64` with all their digits.
+const RANGE: f64 = 1e60;
+
+/// The exact answer and what is special about it.
+pub(super) struct Assessment {
+    pub(super) answer: ExactAnswer,
+    /// The time of impact, exactly; `None` for a miss.
+    pub(super) time: Option<ExactTime>,
+    pub(super) flags: BTreeSet<Flag>,
+}
+
+impl Assessment {
+    pub(super) fn new(query: &Query) -> Result<Self, Unsupported> {
+        let Query::EdgeEdge(edges) = query else {
+            return Err(Unsupported::Kind(query.kind()));
+        };
+        let decision = decide::<field::Default>(edges)?;
+        let answer = decision.written();
+        let time = decision.toi().map(ExactTime::new);
+        let is_irrational = time.as_ref().is_some_and(ExactTime::is_irrational);
+        let of_motion = [
+            (Flag::Motion(answer.case), answer.case != Case::General),
+            (Flag::MultipleRoot, is_multiple_root(&decision)),
+            (Flag::IrrationalTime, is_irrational),
+            (Flag::ExtremeRange, is_extreme(query)),
+        ];
+        let failure = |method: Method| Some(Flag::Failure(method.fault(query)?, method));
+        let flags = that_are(of_motion)
+            .chain(answer.hit.iter().flat_map(of_contact))
+            .chain(Method::ALL.into_iter().filter_map(failure))
+            .collect();
+        Ok(Assessment {
+            answer,
+            time,
+            flags,
+        })
+    }
+
+    /// The answer in a few words.
+    pub(super) fn summary(&self) -> String {
+        let contact = match self.answer.hit {
+            None => "no contact".to_owned(),
+            Some(hit) if hit.toi.above == 0.0 => format!("{} at the start", hit.kind),
+            Some(hit) if hit.toi.below == 1.0 => format!("{} at the end", hit.kind),
+            Some(hit) => format!("{} inside the step", hit.kind),
+        };
+        format!("{} motion, {contact}", self.answer.case)
+    }
+}
+
+/// Of flags those that are so.
+fn that_are<const N: usize>(flags: [(Flag, bool); N]) -> impl Iterator<Item = Flag> {
+    let so = flags.into_iter().filter(|(_, is_so)| *is_so);
+    so.map(|(flag, _)| flag)
+}
+
+fn of_contact(hit: &ExactHit) -> impl Iterator<Item = Flag> + use<> {
+    let is = |number: Enclosure, value| number == Enclosure::exactly(value);
+    let is_end = |number| is(number, 0.0) || is(number, 1.0);
+    let touches_end = |place: &Parameters| is_end(place.u) || is_end(place.v);
+    let is_graze = hit.kind == ContactKind::Graze;
+    that_are([
+        (Flag::ContactAtStart, is(hit.toi, 0.0)),
+        (Flag::ContactAtEnd, is(hit.toi, 1.0)),
+        (Flag::Graze, is_graze && !is_end(hit.toi)),
+        (Flag::LaterCrossing, is_graze && hit.crosses),
+        (
+            Flag::EndOfEdge,
+            touches_end(&hit.first) || hit.second.as_ref().is_some_and(touches_end),
+        ),
+        (Flag::Overlap, hit.second.is_some()),
+        (Flag::TemporarilyParallel, hit.flags.temporarily_parallel),
+        (Flag::TemporarilyPoint, hit.flags.temporarily_point),
+    ])
+}
+
+/// Whether the time of impact is a root of the cubic and of its derivative.
+fn is_multiple_root(decision: &Decision<field::Default>) -> bool {
+    let f = decision.f();
+    let at_root = |toi: &Algebraic<_>| toi.sign_of(&f.derivative()).is_eq();
+    !f.is_zero() && decision.toi().is_some_and(at_root)
+}
+
+fn is_extreme(query: &Query) -> bool {
+    let points = query.start().iter().chain(query.end());
+    let mut numbers = points.flat_map(|point| point.iter().map(|number| number.abs()));
+    numbers.any(|number| number > RANGE || number > 0.0 && number < 1.0 / RANGE)
+}
