@@ -284,8 +284,9 @@ impl<const N: usize> Number for Wide<N> {
         let next = if top > 0 { limbs[top - 1] } else { 0 };
         let both = (u128::from(limbs[top]) << 64 | u128::from(next)) << zeros;
         let mantissa = (both >> 65) as i64 | i64::from(both << 63 != 0);
-        let exponent = 64 * top as u64 + 1 - u64::from(zeros);
-        let value = mantissa as f64 * f64::from_bits((1023 + exponent) << 52);
+        // From -62, so that it is added to the bias first.
+        let biased = 1023 + 64 * top as u64 + 1 - u64::from(zeros);
+        let value = mantissa as f64 * f64::from_bits(biased << 52);
         if self.is_negative() { -value } else { value }
     }
 
