@@ -60,7 +60,7 @@ impl Additive {
         p.iter_mut().for_each(|p| *p -= mean);
         let speed = p[0].norm().max(p[1].norm()) + p[2].norm().max(p[3].norm());
         // What is left until contact, as a distance.
-        let left = |x: &[Vector3<f64>; 4]| distance(x) - query.radius();
+        let left = |x: &[Vector3<f64>; 4]| distance(x) - query.radius().rounded();
         let mut gap = left(&x);
         if gap <= 0.0 {
             return Some(0.0);

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::contact::{Case, Flags, Verdict};
-use crate::query::{EdgeEdge, QueryKind, VertexFace};
+use crate::query::{EdgeEdge, QueryKind, Radius, VertexFace};
 
 /// A continuous narrow phase: the thesis path, the certified path, or a user's own.
 ///
@@ -52,7 +52,7 @@ pub enum Unsupported {
     /// Queries of this kind.
     Kind(QueryKind),
     /// A radius other than 0.
-    Radius(f64),
+    Radius(Radius),
 }
 
 impl fmt::Display for Unsupported {

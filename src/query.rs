@@ -8,18 +8,22 @@ use std::fmt;
 
 use nalgebra::Point3;
 
+mod radius;
+
+pub use radius::Radius;
+
 /// A point in space, coordinates in metres.
 pub type Point = Point3<f64>;
 
 /// Two moving edges `AB` and `CD`: do they come within `radius` of each other during the step?
 ///
-/// Points are in the order A, B, C, D. All coordinates are finite and the radius is finite and not
+/// Points are in the order A, B, C, D. All coordinates are finite and the radii are finite and not
 /// negative; [`EdgeEdge::new`] sees to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgeEdge {
     start: [Point; 4],
     end: [Point; 4],
-    radius: f64,
+    radius: Radius,
 }
 
 /// A moving vertex `A` and a moving face `BCD`: do they come within `radius` of each other?
@@ -29,7 +33,7 @@ pub struct EdgeEdge {
 pub struct VertexFace {
     start: [Point; 4],
     end: [Point; 4],
-    radius: f64,
+    radius: Radius,
 }
 
 /// Either kind of query.
@@ -64,14 +68,15 @@ pub enum QueryError {
         /// The value refused.
         value: f64,
     },
-    /// The radius is NaN, infinite or negative.
-    Radius(f64),
+    /// A radius is NaN, infinite or negative.
+    Radius(Radius),
 }
 
 macro_rules! four_points {
     ($kind:ident) => {
         impl $kind {
-            /// The query of four points given at `t = 0` and `t = 1`, in metres.
+            /// The query of four points given at `t = 0` and `t = 1`, in metres, and of a radius or
+            /// of two.
             ///
             /// # Errors
             ///
@@ -80,8 +85,9 @@ macro_rules! four_points {
             pub fn new(
                 start: [Point; 4],
                 end: [Point; 4],
-                radius: f64,
+                radius: impl Into<Radius>,
             ) -> Result<Self, QueryError> {
+                let radius = radius.into();
                 check(&start, &end, radius)?;
                 Ok(Self { start, end, radius })
             }
@@ -96,9 +102,9 @@ macro_rules! four_points {
                 &self.end
             }
 
-            /// The distance at which the two count as touching, in metres; 0 asks for the
-            /// midlines themselves.
-            pub fn radius(&self) -> f64 {
+            /// The distance at which the two count as touching; 0 asks for the midlines
+            /// themselves.
+            pub fn radius(&self) -> Radius {
                 self.radius
             }
         }
@@ -118,7 +124,7 @@ impl Query {
         kind: QueryKind,
         start: [Point; 4],
         end: [Point; 4],
-        radius: f64,
+        radius: impl Into<Radius>,
     ) -> Result<Self, QueryError> {
         match kind {
             QueryKind::EdgeEdge => EdgeEdge::new(start, end, radius).map(Query::EdgeEdge),
@@ -150,8 +156,8 @@ impl Query {
         }
     }
 
-    /// The distance at which the two count as touching, in metres.
-    pub fn radius(&self) -> f64 {
+    /// The distance at which the two count as touching.
+    pub fn radius(&self) -> Radius {
         match self {
             Query::EdgeEdge(q) => q.radius(),
             Query::VertexFace(q) => q.radius(),
@@ -159,7 +165,7 @@ impl Query {
     }
 }
 
-fn check(start: &[Point; 4], end: &[Point; 4], radius: f64) -> Result<(), QueryError> {
+fn check(start: &[Point; 4], end: &[Point; 4], radius: Radius) -> Result<(), QueryError> {
     for (at_end, points) in [(false, start), (true, end)] {
         for (point, position) in points.iter().enumerate() {
             for (axis, &value) in position.coords.iter().enumerate() {
@@ -174,7 +180,7 @@ fn check(start: &[Point; 4], end: &[Point; 4], radius: f64) -> Result<(), QueryE
             }
         }
     }
-    if !radius.is_finite() || radius < 0.0 {
+    if !radius.is_valid() {
         return Err(QueryError::Radius(radius));
     }
     Ok(())
@@ -256,9 +262,17 @@ mod tests {
     fn query_new_refuses_a_radius_below_zero_or_not_finite() {
         let zero = [Point::origin(); 4];
         for radius in [-1.0, -f64::MIN_POSITIVE, f64::NAN, f64::INFINITY] {
-            assert!(EdgeEdge::new(zero, zero, radius).is_err(), "{radius}");
+            for parts in [[radius, 0.0], [0.0, radius], [1.0, radius]] {
+                let error = EdgeEdge::new(zero, zero, parts).unwrap_err();
+                assert!(matches!(error, QueryError::Radius(_)), "{parts:?}");
+            }
         }
+        let error = VertexFace::new(zero, zero, [0.5, -1.0]).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "radius is 0.5 + -1, not a finite number of at least 0"
+        );
         assert!(EdgeEdge::new(zero, zero, 0.0).is_ok());
-        assert!(EdgeEdge::new(zero, zero, f64::MAX).is_ok());
+        assert!(EdgeEdge::new(zero, zero, [f64::MAX; 2]).is_ok());
     }
 }

@@ -10,7 +10,7 @@ pub(crate) struct Shape {
     pub(crate) kind: QueryKind,
     /// x, y and z of A, B, C and D at `t = 0`, then at `t = 1`.
     pub(crate) numbers: [f64; 24],
-    pub(crate) radius: f64,
+    pub(crate) radii: [f64; 2],
 }
 
 impl Shape {
@@ -26,7 +26,7 @@ impl Shape {
         Shape {
             kind: query.kind(),
             numbers,
-            radius: query.radius(),
+            radii: query.radius().parts(),
         }
     }
 
@@ -34,7 +34,7 @@ impl Shape {
     pub(crate) fn query(&self) -> Option<Query> {
         let point = |index: usize| Point::from(self.position(index));
         let (start, end) = ([0, 1, 2, 3].map(point), [4, 5, 6, 7].map(point));
-        Query::new(self.kind, start, end, self.radius).ok()
+        Query::new(self.kind, start, end, self.radii).ok()
     }
 
     /// One of eight positions: A, B, C, D at the start and A, B, C, D at the end.
@@ -69,9 +69,9 @@ impl Shape {
         shape
     }
 
-    fn bits(&self) -> (QueryKind, [u64; 24], u64) {
+    fn bits(&self) -> (QueryKind, [u64; 24], [u64; 2]) {
         let numbers = self.numbers.map(f64::to_bits);
-        (self.kind, numbers, self.radius.to_bits())
+        (self.kind, numbers, self.radii.map(f64::to_bits))
     }
 }
 

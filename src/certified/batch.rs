@@ -46,7 +46,7 @@ impl Batch {
     ///
     /// [`Unsupported`] for a radius above 0.
     pub fn push(&mut self, query: &EdgeEdge) -> Result<(), Unsupported> {
-        if query.radius() != 0.0 {
+        if !query.radius().is_zero() {
             return Err(Unsupported::Radius(query.radius()));
         }
         let points = query.start().iter().chain(query.end());

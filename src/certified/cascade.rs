@@ -77,7 +77,7 @@ pub fn decide_observed(
     query: &EdgeEdge,
     observe: &mut impl FnMut(Stage),
 ) -> Result<Verdict, Unsupported> {
-    if query.radius() != 0.0 {
+    if !query.radius().is_zero() {
         return Err(Unsupported::Radius(query.radius()));
     }
     let positions = || Positions::new(query);

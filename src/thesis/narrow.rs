@@ -23,7 +23,7 @@ impl NarrowPhase for Thesis {
     }
 
     fn edge_edge(&self, query: &EdgeEdge) -> Result<Report, Unsupported> {
-        if query.radius() != 0.0 {
+        if !query.radius().is_zero() {
             return Err(Unsupported::Radius(query.radius()));
         }
         let points = Motion::of_query(query);
@@ -106,7 +106,7 @@ mod tests {
     fn thesis_refuses_what_the_method_does_not_take() {
         let thesis = Thesis::default();
         let refused = thesis.edge_edge(&query(&[0.0; 24], 0.5));
-        assert_eq!(refused, Err(Unsupported::Radius(0.5)));
+        assert_eq!(refused, Err(Unsupported::Radius(0.5.into())));
         let face = VertexFace::new([Point::origin(); 4], [Point::origin(); 4], 0.0).unwrap();
         let refused = thesis.vertex_face(&face);
         assert_eq!(refused, Err(Unsupported::Kind(QueryKind::VertexFace)));

@@ -255,7 +255,7 @@ fn certify_refusals_panics_and_meaningless_numbers_are_no_answers() {
     let hits = chosen.filter(|(_, truth)| truth.hit.is_some()).count() as u64;
     let lies = |query: &Query, truth: &ExactAnswer| is_chosen(query) && truth.hit.is_some();
     let (refusals, _) = judged(|query, truth| match lies(query, &truth) {
-        true => Err(Unsupported::Radius(1.0)),
+        true => Err(Unsupported::Radius(1.0.into())),
         false => Ok(honest(truth)),
     });
     let (panics, failures) = judged(|query, truth| match lies(query, &truth) {

@@ -6,12 +6,12 @@
 
 use std::fmt;
 use std::io;
-use std::num::NonZeroUsize;
+use std::num::{NonZeroUsize, ParseFloatError};
 use std::process::ExitCode;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
-use tunnelproof::query::QueryKind;
+use tunnelproof::query::{QueryKind, Radius};
 use tunnelproof_reference::certify::run::RunError;
 use tunnelproof_reference::corpus::{CorpusError, ReadOptions};
 use tunnelproof_reference::registry;
@@ -53,8 +53,10 @@ struct Reading {
     #[arg(long, value_parser = kind())]
     kind: Option<QueryKind>,
     /// Ask for a distance of at most R metres, whatever the queries say
-    #[arg(long, value_name = "R")]
-    radius: Option<f64>,
+    ///
+    /// A number, or two whose exact sum is meant: 0.01+0.02
+    #[arg(long, value_name = "R", value_parser = radius)]
+    radius: Option<Radius>,
 }
 
 /// Why a command ends early.
@@ -115,6 +117,13 @@ impl Reading {
             radius: self.radius,
         }
     }
+}
+
+fn radius(text: &str) -> Result<Radius, ParseFloatError> {
+    Ok(match text.split_once('+') {
+        Some((first, second)) => [first.trim().parse()?, second.trim().parse()?].into(),
+        None => text.parse::<f64>()?.into(),
+    })
 }
 
 fn kind() -> impl TypedValueParser<Value = QueryKind> {

@@ -12,7 +12,7 @@
 
 use std::path::{Component, Path};
 
-use tunnelproof::query::{Point, Query, QueryKind};
+use tunnelproof::query::{Point, Query, QueryKind, Radius};
 
 use super::dyadic::{exact_f64, exact_quotient};
 use super::error::{CorpusError, Problem};
@@ -60,7 +60,7 @@ pub(super) fn entries<I: Iterator<Item = Result<Line, CorpusError>>>(
         lines,
         path: path.to_owned(),
         kind,
-        radius: options.radius.unwrap_or(0.0),
+        radius: options.radius.unwrap_or_default(),
         index: 0,
     })
 }
@@ -69,7 +69,7 @@ struct Entries<I> {
     lines: I,
     path: String,
     kind: QueryKind,
-    radius: f64,
+    radius: Radius,
     index: u64,
 }
 

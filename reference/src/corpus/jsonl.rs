@@ -9,7 +9,7 @@
 //!   quotes (`"0x1.8p-3"`), which is read exactly.
 //! - `id`: any text. Without one, a query is known by the number of its line.
 //! - `kind`: `edge-edge` or `vertex-face`; may be left out where the caller gives the kind.
-//! - `radius`: in metres, 0 if left out.
+//! - `radius`: in metres, a number, or two in brackets whose exact sum it is; 0 if left out.
 //! - `label`: whether it is known to be a hit, `0`, `1`, `false` or `true`; may be left out.
 //!
 //! Other fields are ignored, so that a line can carry notes of its own.
@@ -17,9 +17,9 @@
 use std::fmt;
 
 use serde::de::{Deserialize, Deserializer, Error as _, Visitor};
-use serde_json::json;
+use serde_json::{Value, json};
 use serde_path_to_error::{Path, Segment};
-use tunnelproof::query::{Point, Query, QueryKind};
+use tunnelproof::query::{Point, Query, QueryKind, Radius};
 
 use super::error::{CorpusError, Problem, shortened};
 use super::lines::Line;
@@ -36,10 +36,7 @@ pub enum Numbers {
 
 /// A query as a line of JSON, without the line end.
 pub fn write(entry: &Entry, numbers: Numbers) -> String {
-    let number = |value: f64| match numbers {
-        Numbers::Decimal => json!(value),
-        Numbers::Hexadecimal => json!(hexfloat::format(value)),
-    };
+    let number = |value| number(value, numbers);
     let query = &entry.query;
     let points: Vec<_> = (query.start().iter().chain(query.end()))
         .map(|point| [number(point.x), number(point.y), number(point.z)])
@@ -53,8 +50,23 @@ pub fn write(entry: &Entry, numbers: Numbers) -> String {
         json!(entry.id),
         query.kind(),
         json!(points),
-        number(query.radius()),
+        radius(query.radius(), numbers),
     )
+}
+
+/// A radius as JSON: the number, or the two whose sum it is.
+pub(crate) fn radius(radius: Radius, numbers: Numbers) -> Value {
+    match radius.parts() {
+        [radius, 0.0] => number(radius, numbers),
+        parts => json!(parts.map(|part| number(part, numbers))),
+    }
+}
+
+fn number(value: f64, numbers: Numbers) -> Value {
+    match numbers {
+        Numbers::Decimal => json!(value),
+        Numbers::Hexadecimal => json!(hexfloat::format(value)),
+    }
 }
 
 /// The queries of the given lines.
@@ -86,8 +98,8 @@ fn entry(line: &Line, options: ReadOptions) -> Result<Entry, Problem> {
     }
     let [a, b, c, d, a1, b1, c1, d1] = points;
     let radius = match record.radius {
-        Some(number) => number.value(|| "radius".to_owned())?,
-        None => 0.0,
+        Some(radii) => radii.sum()?,
+        None => Radius::ZERO,
     };
     Ok(Entry {
         id: record.id.unwrap_or_else(|| line.number.to_string()),
@@ -124,7 +136,7 @@ struct Record {
     id: Option<String>,
     kind: Option<String>,
     points: Vec<Vec<Number>>,
-    radius: Option<Number>,
+    radius: Option<Radii>,
     label: Option<Label>,
 }
 
@@ -233,13 +245,34 @@ impl<'de> Deserialize<'de> for Number {
     }
 }
 
+/// A number, or two whose sum is meant.
+#[derive(serde::Deserialize)]
+#[serde(
+    untagged,
+    expecting = "neither a number nor two numbers in brackets (hexadecimal floats in quotes)"
+)]
+enum Radii {
+    One(Number),
+    Two([Number; 2]),
+}
+
+impl Radii {
+    fn sum(self) -> Result<Radius, Problem> {
+        let place = || "radius".to_owned();
+        Ok(match self {
+            Radii::One(radius) => radius.value(place)?.into(),
+            Radii::Two([first, second]) => [first.value(place)?, second.value(place)?].into(),
+        })
+    }
+}
+
 /// Whether a query is known to be a hit.
 struct Label(bool);
 
 impl<'de> Deserialize<'de> for Label {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        match serde_json::Value::deserialize(deserializer)? {
-            serde_json::Value::Bool(hit) => Ok(Label(hit)),
+        match Value::deserialize(deserializer)? {
+            Value::Bool(hit) => Ok(Label(hit)),
             value if value == json!(0) => Ok(Label(false)),
             value if value == json!(1) => Ok(Label(true)),
             value => Err(D::Error::custom(format_args!(

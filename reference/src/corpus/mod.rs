@@ -18,7 +18,7 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader};
 use std::path::Path;
 
-use tunnelproof::query::{Query, QueryKind};
+use tunnelproof::query::{Query, QueryKind, Radius};
 
 pub use dyadic::NotF64;
 pub use error::{CorpusError, Problem};
@@ -65,8 +65,8 @@ pub struct ReadOptions {
     /// The kind of the queries; needed where the corpus does not state it. A corpus that states
     /// another kind is refused.
     pub kind: Option<QueryKind>,
-    /// A radius in metres in place of the one of every query.
-    pub radius: Option<f64>,
+    /// A radius in place of the one of every query.
+    pub radius: Option<Radius>,
 }
 
 impl ReadOptions {

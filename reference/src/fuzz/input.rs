@@ -67,7 +67,7 @@ fn of_numbers(mut number: impl FnMut() -> f64) -> Query {
     let shape = Shape {
         kind: QueryKind::EdgeEdge,
         numbers: [0; 24].map(|_| number()),
-        radius: 0.0,
+        radii: [0.0; 2],
     };
     shape.query().unwrap_or_else(|| FAMILIES[0].query(0, 0))
 }

@@ -74,7 +74,7 @@ pub fn decide_query(query: &Query) -> Result<ExactAnswer, Unsupported> {
 ///
 /// [`Unsupported`] for a radius above 0.
 pub fn decide<Z: Integer>(query: &EdgeEdge) -> Result<Decision<Z>, Unsupported> {
-    if query.radius() != 0.0 {
+    if !query.radius().is_zero() {
         return Err(Unsupported::Radius(query.radius()));
     }
     let motion = Motion::new(&Scaled::new(&Query::EdgeEdge(*query)));

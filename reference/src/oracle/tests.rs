@@ -167,7 +167,7 @@ fn oracle_refuses_a_radius() {
     let query = EdgeEdge::new(zero, zero, 0.5).unwrap();
     assert_eq!(
         decide::<BigInt>(&query).err(),
-        Some(Unsupported::Radius(0.5))
+        Some(Unsupported::Radius(0.5.into()))
     );
 }
 

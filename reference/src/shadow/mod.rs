@@ -76,7 +76,7 @@ impl Shadow {
         let Query::EdgeEdge(query) = query else {
             return Err(Unsupported::Kind(query.kind()));
         };
-        if query.radius() > 0.0 {
+        if !query.radius().is_zero() {
             return Err(Unsupported::Radius(query.radius()));
         }
         Ok(edge_edge::<field::Default>(query, self.repairs))

@@ -9,7 +9,7 @@ use crate::shape::Shape;
 ///
 /// In this order:
 ///
-/// 1. the bits of all coordinates and the radius. 0 takes none, an odd integer times `2^e` the bits of
+/// 1. the bits of all coordinates and radii. 0 takes none, an odd integer times `2^e` the bits of
 ///    the integer, and `e` more if `e` is above 0, `-2 e` more if it is below: an integer takes as
 ///    many as it has binary digits, and small integers are simpler than fractions;
 /// 2. how many different positions the points take, of at most eight;
@@ -26,8 +26,8 @@ pub struct Complexity {
     signs: u32,
 }
 
-/// 24 coordinates and the radius.
-const NUMBERS: usize = 25;
+/// 24 coordinates and two radii.
+const NUMBERS: usize = 26;
 
 impl Complexity {
     /// How complex this query is.
@@ -43,7 +43,7 @@ impl Complexity {
     pub(super) fn new(shape: &Shape) -> Self {
         let mut numbers = [0.0; NUMBERS];
         numbers[..24].copy_from_slice(&shape.numbers);
-        numbers[24] = shape.radius;
+        numbers[24..].copy_from_slice(&shape.radii);
         let signs = numbers.iter().fold(0, |signs, number| {
             signs << 1 | u32::from(number.is_sign_negative())
         });

@@ -11,7 +11,7 @@ pub(super) type Step = fn(&Shape) -> Box<dyn Iterator<Item = Shape>>;
 
 /// Every step, in the order in which they are taken.
 pub(super) const STEPS: &[Step] = &[
-    without_radius,
+    simpler_radius,
     zeros,
     at_rest,
     equal_positions,
@@ -48,12 +48,17 @@ const GROUPS: [&[usize]; 13] = [
     &[3, 7],
 ];
 
-fn without_radius(shape: &Shape) -> Box<dyn Iterator<Item = Shape>> {
+/// No radius, one, or one in place of two.
+fn simpler_radius(shape: &Shape) -> Box<dyn Iterator<Item = Shape>> {
     let shape = *shape;
+    let [first, second] = shape.radii;
     Box::new(
-        [0.0, 1.0]
+        [0.0, 1.0, first, second, first + second]
             .into_iter()
-            .map(move |radius| Shape { radius, ..shape }),
+            .map(move |radius| Shape {
+                radii: [radius, 0.0],
+                ..shape
+            }),
     )
 }
 
@@ -171,7 +176,7 @@ fn scaled(shape: &Shape) -> Box<dyn Iterator<Item = Shape>> {
         exponents.map(move |exponent| {
             let result = shape.changed(indices(), |number| scale(number, exponent));
             Shape {
-                radius: scale(shape.radius, exponent),
+                radii: shape.radii.map(|radius| scale(radius, exponent)),
                 ..result
             }
         })

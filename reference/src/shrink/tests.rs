@@ -176,11 +176,11 @@ fn shrink_asks_no_more_often_than_it_may() {
 fn shrink_without_a_condition_ends_at_nothing_but_zeros() {
     for kind in [QueryKind::EdgeEdge, QueryKind::VertexFace] {
         let numbers = FAMILIES[0].query(5, 5);
-        let query = Query::new(kind, *numbers.start(), *numbers.end(), 0.25).unwrap();
+        let query = Query::new(kind, *numbers.start(), *numbers.end(), [0.25, 0.5]).unwrap();
         let shrunk = shrink(&query, MOST_CALLS, |query| query.kind() == kind);
         assert_eq!(shrunk.after.bits(), 0);
         assert_eq!(shrunk.query.start(), &[Point::origin(); 4]);
-        assert_eq!(shrunk.query.radius(), 0.0);
+        assert!(shrunk.query.radius().is_zero());
         assert!(shrunk.calls < 5);
     }
 }

@@ -7,6 +7,7 @@ use super::assessment::Assessment;
 use super::exact_time::ExactTime;
 use super::flag::Flag;
 use crate::corpus::hexfloat;
+use crate::corpus::jsonl::{self, Numbers};
 use crate::report::answer::Fields;
 
 /// A query and what its source says of it.
@@ -37,7 +38,7 @@ pub(super) struct Vector {
     comment: String,
     flags: Vec<String>,
     wire: Option<Wire>,
-    radius: f64,
+    radius: serde_json::Value,
     /// A, B, C and D at the start and at the end.
     points: Vec<[f64; 3]>,
     points_hex: Vec<[String; 3]>,
@@ -57,7 +58,7 @@ impl Vector {
         let points: Vec<[f64; 3]> = points.map(|point: &Point| (*point).into()).collect();
         Vector {
             flags: own_flags.iter().map(|flag| flag.name()).collect(),
-            radius: query.radius(),
+            radius: jsonl::radius(query.radius(), Numbers::Decimal),
             points_hex: points
                 .iter()
                 .map(|point| point.map(hexfloat::format))

@@ -88,7 +88,7 @@ pub struct Decision {
 ///
 /// [`Unsupported`] for a radius above 0.
 pub fn decide_exactly(query: &EdgeEdge) -> Result<Decision, Unsupported> {
-    if query.radius() != 0.0 {
+    if !query.radius().is_zero() {
         return Err(Unsupported::Radius(query.radius()));
     }
     Ok(decide(&Positions::new(query)))

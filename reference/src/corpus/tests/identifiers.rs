@@ -26,11 +26,11 @@ fn locate_finds_what_the_identifier_names() {
     assert_eq!(entry.query, family.query(1, 4711));
     assert_eq!((entry.id.as_str(), entry.line), ("lattice:1:4711", None));
     let options = ReadOptions {
-        radius: Some(0.25),
+        radius: Some(0.25.into()),
         ..EDGE_EDGE
     };
     let entry = locate::locate("lattice:1:4711", options).unwrap();
-    assert_eq!(entry.query.radius(), 0.25);
+    assert_eq!(entry.query.radius(), 0.25.into());
 }
 
 #[test]

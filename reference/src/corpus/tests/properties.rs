@@ -25,7 +25,7 @@ fn eight_points() -> impl Strategy<Value = [Point; 8]> {
         .prop_map(|points| points.map(Point::from))
 }
 
-fn query(kind: QueryKind, points: [Point; 8], radius: f64) -> Query {
+fn query(kind: QueryKind, points: [Point; 8], radius: [f64; 2]) -> Query {
     let [a, b, c, d, a1, b1, c1, d1] = points;
     Query::new(kind, [a, b, c, d], [a1, b1, c1, d1], radius).unwrap()
 }
@@ -34,7 +34,7 @@ fn bits(query: &Query) -> Vec<u64> {
     let points = query.start().iter().chain(query.end());
     let coordinates = points.flat_map(|point| [point.x, point.y, point.z]);
     coordinates
-        .chain([query.radius()])
+        .chain(query.radius().parts())
         .map(f64::to_bits)
         .collect()
 }
@@ -63,12 +63,12 @@ proptest! {
         id: String,
         is_vertex_face: bool,
         points in eight_points(),
-        radius in finite(),
+        radii in [finite(), finite()],
         label: Option<bool>,
         is_hexadecimal: bool,
     ) {
         let kind = if is_vertex_face { QueryKind::VertexFace } else { QueryKind::EdgeEdge };
-        let query = query(kind, points, radius.abs());
+        let query = query(kind, points, radii.map(f64::abs));
         let entry = Entry { id, query, label, line: Some(1) };
         let numbers = if is_hexadecimal { Numbers::Hexadecimal } else { Numbers::Decimal };
         let line = jsonl::write(&entry, numbers);
@@ -97,7 +97,7 @@ proptest! {
         // A fraction has no zero with a sign.
         let points = points.map(|point| Point::from(point.coords.map(|value| value + 0.0)));
         let read = entries("a.csv", text, EDGE_EDGE);
-        prop_assert_eq!(bits(&read[0].query), bits(&query(QueryKind::EdgeEdge, points, 0.0)));
+        prop_assert_eq!(bits(&read[0].query), bits(&query(QueryKind::EdgeEdge, points, [0.0; 2])));
         prop_assert_eq!(read[0].label, Some(label));
     }
 

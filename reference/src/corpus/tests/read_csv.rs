@@ -164,12 +164,12 @@ fn csv_kind_missing_or_contradictory_is_an_error() {
 #[test]
 fn csv_radius_option_is_checked() {
     let options = ReadOptions {
-        radius: Some(-1.0),
+        radius: Some([0.5, -1.0].into()),
         ..EDGE_EDGE
     };
     assert_eq!(
         read_text("a.csv", csv_with(ROW), options),
-        ["a.csv:1: radius is -1, not a finite number of at least 0"]
+        ["a.csv:1: radius is 0.5 + -1, not a finite number of at least 0"]
     );
 }
 

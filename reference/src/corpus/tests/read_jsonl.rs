@@ -1,4 +1,4 @@
-use tunnelproof::query::Point;
+use tunnelproof::query::{Point, Radius};
 
 use super::*;
 
@@ -25,7 +25,7 @@ fn jsonl_read_every_field() {
     assert_eq!(entry.label, Some(true));
     assert_eq!(entry.line, Some(1));
     assert_eq!(entry.query.kind(), QueryKind::VertexFace);
-    assert_eq!(entry.query.radius(), 0.25);
+    assert_eq!(entry.query.radius(), 0.25.into());
     let [a, b, ..] = entry.query.start();
     assert_eq!(
         (a.x, a.y.to_bits(), a.z),
@@ -45,7 +45,7 @@ fn jsonl_read_leaves_out_what_has_a_default() {
         .collect();
     assert_eq!(ids, [(Some(3), "3"), (Some(5), "5")]);
     assert_eq!(read[0].label, None);
-    assert_eq!(read[0].query.radius(), 0.0);
+    assert_eq!(read[0].query.radius(), Radius::ZERO);
     assert_eq!(read[0].query.kind(), QueryKind::EdgeEdge);
 }
 
@@ -70,15 +70,18 @@ fn jsonl_read_label_is_a_truth_value() {
 #[test]
 fn jsonl_read_radius_option_overrides() {
     let options = ReadOptions {
-        radius: Some(0.5),
+        radius: Some([0.5, 0.25].into()),
         ..EDGE_EDGE
     };
     let text = format!(r#"{{"radius": 2, "points": {EIGHT}}}"#);
     assert_eq!(
         entries("a.jsonl", text.as_str(), options)[0].query.radius(),
-        0.5
+        [0.5, 0.25].into()
     );
-    assert_eq!(entries("a.jsonl", text, EDGE_EDGE)[0].query.radius(), 2.0);
+    assert_eq!(
+        entries("a.jsonl", text, EDGE_EDGE)[0].query.radius(),
+        2.0.into()
+    );
 }
 
 #[test]
@@ -150,8 +153,17 @@ fn jsonl_errors_name_the_value() {
         ),
         (
             field(r#""radius": []"#),
-            "radius: invalid type: sequence, expected a number or a hexadecimal float in quotes \
+            "radius: neither a number nor two numbers in brackets (hexadecimal floats in quotes) \
              at column 13",
+        ),
+        (
+            field(r#""radius": [1, 2, 3]"#),
+            "radius: neither a number nor two numbers in brackets (hexadecimal floats in quotes) \
+             at column 20",
+        ),
+        (
+            field(r#""radius": [1, -2]"#),
+            "radius is 1 + -2, not a finite number of at least 0",
         ),
         (
             field(r#""kind": "edge""#),

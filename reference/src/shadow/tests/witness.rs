@@ -215,7 +215,7 @@ fn subject_refuses_what_it_does_not_take() {
     let wide = EdgeEdge::new(start, end, 0.5).unwrap();
     assert_eq!(
         shadow.answer(&Query::EdgeEdge(wide)),
-        Err(Unsupported::Radius(0.5))
+        Err(Unsupported::Radius(0.5.into()))
     );
     let answer = shadow.answer(&Query::EdgeEdge(edges));
     let expected = edge_edge::<BigInt>(&edges, Repairs::ALL);
