@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use rand::{Rng, RngExt};
 
-use super::motion::{Motion, vector};
+use super::motion::{Motion, metres, placed, renamed, vector};
 
 /// Two edges at a time of the step and how they move there, in integers.
 ///
@@ -65,6 +65,13 @@ impl Meeting {
             [Vector3::zeros(), k * 8, c, c + l * 8]
         })
     }
+
+    /// The motion in metres, seen from anywhere.
+    pub(super) fn anywhere(&self, rng: &mut dyn Rng) -> Motion<f64> {
+        let motion = placed(rng, self.motion());
+        let motion = metres(rng, motion);
+        renamed(rng, motion)
+    }
 }
 
 /// [`times`](Meeting::times) inside the step.
@@ -85,7 +92,6 @@ mod tests {
     use rand_chacha::rand_core::SeedableRng;
     use tunnelproof::contact::{Case, ContactKind};
 
-    use super::super::motion::{metres, placed, renamed};
     use super::super::{edge_edge, grazing, temporarily_parallel, temporarily_point, triple_root};
     use super::*;
     use crate::answer::{Enclosure, ExactAnswer, ExactHit};
@@ -99,9 +105,7 @@ mod tests {
             let mut rng = ChaCha8Rng::seed_from_u64(1);
             rng.set_stream(stream);
             let meeting = exact(&mut rng);
-            let motion = placed(&mut rng, meeting.motion());
-            let motion = metres(&mut rng, motion);
-            let query = edge_edge(renamed(&mut rng, motion));
+            let query = edge_edge(meeting.anywhere(&mut rng));
             (meeting, decide_query(&query).unwrap())
         })
     }

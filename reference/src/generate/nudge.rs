@@ -39,6 +39,15 @@ pub(super) fn nudged<const N: usize>(rng: &mut dyn Rng, motion: Motion<f64, N>) 
     })
 }
 
+/// The motion, [`nudged`] if so chosen.
+pub(super) fn nudged_if(is_nudged: bool, rng: &mut dyn Rng, motion: Motion<f64>) -> Motion<f64> {
+    if is_nudged {
+        nudged(rng, motion)
+    } else {
+        motion
+    }
+}
+
 /// The motion with the coordinate at `[end, point, axis]` off by so many ulp. An ulp is that of the
 /// coordinate, and for 0 that of the largest coordinate.
 pub(super) fn off_by<const N: usize>(

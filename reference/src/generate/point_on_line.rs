@@ -15,7 +15,7 @@ use tunnelproof::query::Query;
 
 use super::confine::{Reach, confined, swing};
 use super::motion::{Motion, metres, renamed, vector};
-use super::nudge::nudged;
+use super::nudge::nudged_if;
 use super::{Draw, Family, edge_edge};
 
 pub(super) const FAMILY: Family = Family {
@@ -28,10 +28,7 @@ fn draw(rng: &mut dyn Rng) -> Query {
     let motion = exact(rng);
     let motion = metres(rng, motion);
     let motion = renamed(rng, motion);
-    edge_edge(match rng.random_range(0..3) {
-        0 => nudged(rng, motion),
-        _ => motion,
-    })
+    edge_edge(nudged_if(rng.random_range(0..3) == 0, rng, motion))
 }
 
 /// A motion with A on the line of CD.

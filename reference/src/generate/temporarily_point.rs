@@ -11,8 +11,8 @@ use rand::{Rng, RngExt};
 use tunnelproof::query::Query;
 
 use super::meeting::{Meeting, end_of_step};
-use super::motion::{metres, not_zero, placed, power_of_two, renamed};
-use super::nudge::nudged;
+use super::motion::{not_zero, power_of_two};
+use super::nudge::nudged_if;
 use super::{Draw, Family, edge_edge};
 
 pub(super) const FAMILY: Family = Family {
@@ -22,14 +22,8 @@ pub(super) const FAMILY: Family = Family {
 };
 
 fn draw(rng: &mut dyn Rng) -> Query {
-    let motion = exact(rng).motion();
-    let motion = placed(rng, motion);
-    let motion = metres(rng, motion);
-    let motion = renamed(rng, motion);
-    edge_edge(match rng.random_range(0..3) {
-        0 => nudged(rng, motion),
-        _ => motion,
-    })
+    let motion = exact(rng).anywhere(rng);
+    edge_edge(nudged_if(rng.random_range(0..3) == 0, rng, motion))
 }
 
 /// Edges of which AB is a point at the time of the meeting alone.

@@ -16,8 +16,8 @@ use rand::{Rng, RngExt};
 use tunnelproof::query::Query;
 
 use super::meeting::Meeting;
-use super::motion::{metres, not_zero, placed, power_of_two, renamed};
-use super::nudge::nudged;
+use super::motion::{not_zero, power_of_two};
+use super::nudge::nudged_if;
 use super::{Draw, Family, edge_edge};
 
 pub(super) const FAMILY: Family = Family {
@@ -27,15 +27,9 @@ pub(super) const FAMILY: Family = Family {
 };
 
 fn draw(rng: &mut dyn Rng) -> Query {
-    let motion = exact(rng).motion();
-    let motion = placed(rng, motion);
-    let motion = metres(rng, motion);
-    let motion = renamed(rng, motion);
-    edge_edge(if rng.random() {
-        motion
-    } else {
-        nudged(rng, motion)
-    })
+    let motion = exact(rng).anywhere(rng);
+    let is_exact: bool = rng.random();
+    edge_edge(nudged_if(!is_exact, rng, motion))
 }
 
 /// Edges with a cubic that has a triple root at the time of the meeting.
