@@ -1,7 +1,7 @@
 //! Energy and momentum of a world.
 
 use super::Vector;
-use super::model::{Wire, World};
+use super::model::{Node, NodeKind, Wire, World};
 
 /// Energies in J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -33,47 +33,36 @@ impl World {
             energy.kinetic += body.mass * body.velocity.norm_squared() / 2.0 + spin / 2.0;
             energy.potential -= body.mass * body.position.coords.dot(gravity);
         }
-        for wire in &self.wires {
-            for (i, node) in wire
-                .nodes
-                .iter()
-                .enumerate()
-                .filter(|(i, _)| self.moves(wire, *i))
-            {
-                let mass = wire.node_mass(i);
-                energy.kinetic += mass * node.velocity.norm_squared() / 2.0;
-                energy.potential -= mass * node.position.coords.dot(gravity);
-            }
-            energy.elastic += elastic(wire);
+        for (mass, node) in self.moving_nodes() {
+            energy.kinetic += mass * node.velocity.norm_squared() / 2.0;
+            energy.potential -= mass * node.position.coords.dot(gravity);
         }
+        energy.elastic = self.wires.iter().map(elastic).sum();
         energy
     }
 
     /// Linear momentum of all that forces move, in N s.
     pub fn momentum(&self) -> Vector {
         let bodies = self.bodies.iter().filter(|body| body.dynamic);
-        let mut sum: Vector = bodies.map(|body| body.velocity * body.mass).sum();
-        for wire in &self.wires {
-            for (i, node) in wire
-                .nodes
-                .iter()
-                .enumerate()
-                .filter(|(i, _)| self.moves(wire, *i))
-            {
-                sum += node.velocity * wire.node_mass(i);
-            }
-        }
-        sum
+        let of_bodies: Vector = bodies.map(|body| body.velocity * body.mass).sum();
+        let nodes = self.moving_nodes();
+        of_bodies
+            + nodes
+                .map(|(mass, node)| node.velocity * mass)
+                .sum::<Vector>()
     }
 
-    /// Whether forces move a node: it is free or on a dynamic body.
-    fn moves(&self, wire: &Wire, node: usize) -> bool {
-        match wire.nodes[node].kind {
-            super::model::NodeKind::Free => true,
-            kind => kind
-                .carrier()
-                .is_some_and(|(body, _)| self.bodies[body.0].dynamic),
-        }
+    /// Mass and state of every node that forces move: free ones and those on dynamic bodies.
+    fn moving_nodes(&self) -> impl Iterator<Item = (f64, &Node)> {
+        let moves = |node: &Node| match node.kind.carrier() {
+            Some((body, _)) => self.bodies[body.0].dynamic,
+            None => node.kind == NodeKind::Free,
+        };
+        let nodes = self.wires.iter().flat_map(|wire| {
+            let nodes = wire.nodes.iter().enumerate();
+            nodes.map(|(i, node)| (wire.node_mass(i), node))
+        });
+        nodes.filter(move |(_, node)| moves(node))
     }
 }
 
