@@ -1,3 +1,5 @@
 //! Queries and scenes that are defined once, for tests, benches, the command line and the docs.
 
+#[cfg(feature = "wire")]
+pub mod analytic;
 pub mod figures;

@@ -1,0 +1,32 @@
+//! Prints what the wire stepper makes of cases with known answers, beside the formulas.
+//!
+//! `cargo run --release --example wire_table`
+
+use std::error::Error;
+
+use tunnelproof::scenario::analytic::CASES;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    println!("| case | what | expected | measured | deviation | tolerance |");
+    println!("| --- | --- | --- | --- | --- | --- |");
+    let mut missed = 0;
+    for case in CASES {
+        for row in (case.run)()? {
+            println!(
+                "| {} | {} | {:.6e} | {:.6e} | {:.1e} | {:.0e} |{}",
+                case.name,
+                row.what,
+                row.expected,
+                row.measured,
+                row.deviation(),
+                row.tolerance,
+                if row.holds() { "" } else { " missed" }
+            );
+            missed += usize::from(!row.holds());
+        }
+    }
+    match missed {
+        0 => Ok(()),
+        count => Err(format!("{count} rows are out of tolerance").into()),
+    }
+}

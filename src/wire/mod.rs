@@ -1,0 +1,46 @@
+//! The wire stepper: wires, ropes and chains under large tension, with rigid bodies.
+//!
+//! A [`World`] holds bodies and wires; [`World::step`] moves them by one time step. A wire is a row of
+//! point masses with rows that resist stretch and bending; contacts with friction are given to each
+//! step as data. SI units throughout. The equations, the defaults and where they come from are in
+//! `docs/wires.md`.
+//!
+//! The same input gives the same bits, whatever the build and the machine: one thread, no
+//! order that depends on addresses, no fused operations, and of transcendental functions only the sine
+//! and cosine of the `libm` crate.
+//!
+//! ```
+//! use tunnelproof::query::Point;
+//! use tunnelproof::wire::{Material, Settings, Stop, WirePlan, World};
+//!
+//! let mut world = World::new(Settings::default())?;
+//! let ends = [Point::new(0.0, 0.0, 0.0), Point::new(2.0, 0.0, 0.0)];
+//! let route = ends.map(Stop::Pinned).to_vec();
+//! let wire = world.add_wire(&WirePlan::new(Material::steel(0.02), 0.25, route))?;
+//! let record = world.step(&[])?;
+//! assert_eq!(record.wires[wire.0].after.len(), 9);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod capstan;
+mod energy;
+mod model;
+mod record;
+mod resolution;
+mod settings;
+mod solve;
+mod step;
+
+pub use capstan::Slide;
+pub use energy::Energy;
+pub use model::{
+    Body, BodyId, BodyPlan, Drive, MassProperties, Material, Mesh, ModelError, Node, NodeKind,
+    Phase, Resolution, Segment, Shape, Stop, Wire, WireId, WirePlan, World,
+};
+pub use record::{BodyRecord, ContactRecord, Phases, Pose, SolverRecord, StepRecord, WireRecord};
+pub use resolution::{Remesh, RemeshGuard, RemeshKind};
+pub use settings::Settings;
+pub use step::{Contact, Place, Reason, StepError};
+
+/// A vector in space: m, m/s, N or N s.
+pub type Vector = nalgebra::Vector3<f64>;

@@ -1,0 +1,20 @@
+//! What is simulated: bodies, wires, and the world that holds them.
+
+mod body;
+pub(in crate::wire) mod check;
+mod error;
+mod material;
+mod mesh;
+mod plan;
+mod shape;
+pub(in crate::wire) mod strand;
+mod world;
+
+pub use body::{Body, BodyId, BodyPlan, Drive, Phase};
+pub use error::ModelError;
+pub use material::Material;
+pub use mesh::Mesh;
+pub use plan::{Stop, WirePlan};
+pub use shape::{MassProperties, Shape};
+pub use strand::{Node, NodeKind, Resolution, Segment, Wire, WireId};
+pub use world::World;

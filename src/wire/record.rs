@@ -1,0 +1,169 @@
+//! What is observed of a step.
+
+use nalgebra::UnitQuaternion;
+
+use super::capstan::Slide;
+use super::model::World;
+use super::resolution::Remesh;
+use super::{Contact, Energy, Vector};
+use crate::query::Point;
+
+/// Everything that happened in one step.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StepRecord {
+    /// The step, from 0.
+    pub step: u64,
+    /// Time at its end in s.
+    pub time: f64,
+    /// Each wire.
+    pub wires: Vec<WireRecord>,
+    /// Each body.
+    pub bodies: Vec<BodyRecord>,
+    /// The contacts of the step.
+    pub contacts: Vec<ContactRecord>,
+    /// Wires that slid over contact nodes, after the motion.
+    pub slides: Vec<Slide>,
+    /// Changes of resolution, after the slides.
+    pub remeshes: Vec<Remesh>,
+    /// Energies after the motion.
+    pub energy: Energy,
+    /// How the system was solved.
+    pub solver: SolverRecord,
+    /// How long the phases took.
+    pub phases: Phases,
+}
+
+/// A wire in a step. Its nodes move on straight lines.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WireRecord {
+    /// Arc length of each node in m.
+    pub arcs: Vec<f64>,
+    /// Position of each node before the motion, in m.
+    pub before: Vec<Point>,
+    /// Position of each node after it, in m.
+    pub after: Vec<Point>,
+    /// Tension of each segment in N.
+    pub tensions: Vec<f64>,
+}
+
+/// A body in a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyRecord {
+    /// Before the motion.
+    pub before: Pose,
+    /// After it.
+    pub after: Pose,
+}
+
+/// Position and orientation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Centre of mass in m.
+    pub position: Point,
+    /// From the body's frame to the world.
+    pub orientation: UnitQuaternion<f64>,
+}
+
+/// A contact and what it did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactRecord {
+    /// The contact as it was given.
+    pub contact: Contact,
+    /// Force on its place A in N, friction included.
+    pub force: Vector,
+}
+
+impl ContactRecord {
+    /// The force along the normal in N, at least 0.
+    pub fn normal_force(&self) -> f64 {
+        self.force.dot(&self.contact.normal)
+    }
+}
+
+/// How a system was solved.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SolverRecord {
+    /// Backward error of the solution.
+    pub residual: f64,
+    /// Factorisations: 1, and one more for every wrong guess of which segments of chains pull.
+    pub tries: usize,
+    /// Sweeps over the contacts.
+    pub sweeps: usize,
+    /// Change of a contact's velocity in the last sweep at most, in m/s; above the tolerance of the
+    /// settings if the sweeps were not enough.
+    pub contact_residual: f64,
+}
+
+/// Wall-clock time in s by phase.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Phases {
+    /// Putting the system together.
+    pub assembly: f64,
+    /// Factoring it.
+    pub factor: f64,
+    /// Solving it without contacts.
+    pub solve: f64,
+    /// Contacts and friction.
+    pub contacts: f64,
+    /// Moving everything.
+    pub commit: f64,
+    /// Sliding and changes of resolution.
+    pub resolution: f64,
+}
+
+impl StepRecord {
+    /// What is known before the motion.
+    pub(super) fn before(world: &World) -> Self {
+        let wires = world.wires.iter().map(|wire| WireRecord {
+            arcs: wire.nodes.iter().map(|node| node.arc).collect(),
+            before: wire.nodes.iter().map(|node| node.position).collect(),
+            ..WireRecord::default()
+        });
+        let poses = poses(world).map(|before| BodyRecord {
+            before,
+            after: before,
+        });
+        StepRecord {
+            step: world.steps,
+            wires: wires.collect(),
+            bodies: poses.collect(),
+            ..StepRecord::default()
+        }
+    }
+
+    /// Adds what the motion came to.
+    pub(super) fn after(&mut self, world: &World) {
+        for (record, wire) in self.wires.iter_mut().zip(&world.wires) {
+            record.after = wire.nodes.iter().map(|node| node.position).collect();
+            record.tensions = wire.segments.iter().map(|s| s.tension).collect();
+        }
+        for (record, pose) in self.bodies.iter_mut().zip(poses(world)) {
+            record.after = pose;
+        }
+        self.time = world.time();
+        self.energy = world.energy();
+    }
+}
+
+fn poses(world: &World) -> impl Iterator<Item = Pose> {
+    world.bodies.iter().map(|body| Pose {
+        position: body.position,
+        orientation: body.orientation,
+    })
+}
+
+impl World {
+    pub(super) fn contact_records(
+        &self,
+        contacts: &[Contact],
+        impulses: &[Vector],
+    ) -> Vec<ContactRecord> {
+        let pairs = contacts.iter().zip(impulses);
+        pairs
+            .map(|(&contact, impulse)| ContactRecord {
+                contact,
+                force: impulse / self.settings.step,
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,171 @@
+//! Resolution that follows tension.
+//!
+//! Waves across a wire under tension `T` run at `sqrt(T/mu)`; the step is stable as long as they do not
+//! cross a segment in less than `h`. So nodes are taken out where segments are shorter than
+//! `l_min = max(l_user, h sqrt(T/mu) / margin)` with the largest `T` of the last [`MEMORY`] steps, and put in
+//! where they are longer than a multiple of it. At one node at least [`MEMORY`] steps lie between two
+//! changes.
+
+use super::model::strand::MEMORY;
+use super::model::{Node, NodeKind, Segment, Wire, WireId, World};
+use super::step::system::shortest;
+use crate::query::Point;
+
+/// A change of resolution, as the motion that it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Remesh {
+    /// The wire.
+    pub wire: WireId,
+    /// Whether the node in the middle is taken out or put in.
+    pub kind: RemeshKind,
+    /// The nodes before, in and after the middle. The wire sweeps this triangle. For a node put in it
+    /// is as flat as rounding allows.
+    pub triangle: [Point; 3],
+    /// Their arc lengths in m.
+    pub arcs: [f64; 3],
+}
+
+/// What happens to a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RemeshKind {
+    /// It is taken out.
+    Merge,
+    /// It is put in.
+    Split,
+}
+
+/// Who may refuse a change of resolution, for example because its motion meets something.
+pub trait RemeshGuard {
+    /// Whether the change may be made now. One that is refused is tried again in the next step.
+    fn permits(&mut self, world: &World, change: &Remesh) -> bool;
+}
+
+impl<F: FnMut(&World, &Remesh) -> bool> RemeshGuard for F {
+    fn permits(&mut self, world: &World, change: &Remesh) -> bool {
+        self(world, change)
+    }
+}
+
+/// Permits every change.
+pub(super) struct Permit;
+
+impl RemeshGuard for Permit {
+    fn permits(&mut self, _world: &World, _change: &Remesh) -> bool {
+        true
+    }
+}
+
+/// Changes the resolution of every adaptive wire where its tension asks for it and `guard` permits it.
+pub(super) fn adapt(world: &mut World, guard: &mut dyn RemeshGuard) -> Vec<Remesh> {
+    let mut changes = Vec::new();
+    for wire in 0..world.wires.len() {
+        if world.wires[wire].resolution.adaptive {
+            merge(world, wire, guard, &mut changes);
+            split(world, wire, guard, &mut changes);
+        }
+    }
+    changes
+}
+
+/// The shortest segment wanted under the largest tension that two segments remember, in m.
+fn wanted(world: &World, wire: &Wire, segments: [usize; 2]) -> f64 {
+    let tension = segments.map(|segment| wire.segments[segment].largest_tension());
+    let stable = shortest(wire, tension[0].max(tension[1]), world);
+    stable.max(wire.resolution.length)
+}
+
+fn merge(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mut Vec<Remesh>) {
+    // A segment as long as wanted may be shorter by the rounding of arc lengths.
+    const ROUNDING: f64 = 1e-9;
+    let mut node = 1;
+    while node + 1 < world.wires[at].nodes.len() {
+        let wire = &world.wires[at];
+        let this = &wire.nodes[node];
+        let length = wire.rest_length(node - 1).min(wire.rest_length(node));
+        let short = length < wanted(world, wire, [node - 1, node]) * (1.0 - ROUNDING);
+        if this.kind == NodeKind::Free && this.settled <= world.steps && short {
+            let nodes = [node - 1, node, node + 1].map(|i| wire.nodes[i]);
+            let change = remesh(at, RemeshKind::Merge, &nodes);
+            if guard.permits(world, &change) {
+                let settled = world.steps + MEMORY as u64;
+                take_out(&mut world.wires[at], node, settled);
+                changes.push(change);
+            }
+        }
+        node += 1;
+    }
+}
+
+fn split(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mut Vec<Remesh>) {
+    let mut segment = 0;
+    while segment < world.wires[at].segments.len() {
+        let wire = &world.wires[at];
+        let long = wanted(world, wire, [segment; 2]) * world.settings.split_ratio;
+        let ends = [wire.nodes[segment], wire.nodes[segment + 1]];
+        let settled = ends.iter().all(|node| node.settled <= world.steps);
+        if settled && wire.rest_length(segment) > long {
+            let until = world.steps + MEMORY as u64;
+            let middle = between(&ends, until);
+            let change = remesh(at, RemeshKind::Split, &[ends[0], middle, ends[1]]);
+            if guard.permits(world, &change) {
+                put_in(&mut world.wires[at], segment, middle);
+                changes.push(change);
+                segment += 1;
+            }
+        }
+        segment += 1;
+    }
+}
+
+fn remesh(wire: usize, kind: RemeshKind, nodes: &[Node; 3]) -> Remesh {
+    Remesh {
+        wire: WireId(wire),
+        kind,
+        triangle: nodes.map(|node| node.position),
+        arcs: nodes.map(|node| node.arc),
+    }
+}
+
+/// Takes a node out. Each neighbour takes over the mass of the segment beyond the node, half of it, and the
+/// momentum that comes with it, so linear momentum stays.
+fn take_out(wire: &mut Wire, node: usize, settled: u64) {
+    let masses = [node - 1, node + 1].map(|neighbour| wire.node_mass(neighbour));
+    let lengths = [wire.rest_length(node), wire.rest_length(node - 1)];
+    let half = wire.material.mass_per_length() / 2.0;
+    let taken = wire.nodes.remove(node);
+    for (neighbour, (mass, length)) in [node - 1, node]
+        .into_iter()
+        .zip(masses.into_iter().zip(lengths))
+    {
+        let neighbour = &mut wire.nodes[neighbour];
+        let added = half * length;
+        let momentum = neighbour.velocity * mass + taken.velocity * added;
+        neighbour.velocity = momentum / (mass + added);
+        neighbour.settled = settled;
+    }
+    let after = wire.segments.remove(node);
+    wire.segments[node - 1] = Segment::larger(&wire.segments[node - 1], &after);
+}
+
+/// The node halfway between two others. Its velocity is the mean, so linear momentum stays: it takes a
+/// quarter of the segment's mass from each.
+fn between(ends: &[Node; 2], settled: u64) -> Node {
+    Node {
+        position: nalgebra::center(&ends[0].position, &ends[1].position),
+        velocity: (ends[0].velocity + ends[1].velocity) / 2.0,
+        arc: (ends[0].arc + ends[1].arc) / 2.0,
+        kind: NodeKind::Free,
+        settled,
+    }
+}
+
+fn put_in(wire: &mut Wire, segment: usize, middle: Node) {
+    for end in [segment, segment + 1] {
+        wire.nodes[end].settled = middle.settled;
+    }
+    wire.nodes.insert(segment + 1, middle);
+    wire.segments.insert(segment + 1, wire.segments[segment]);
+}
+
+#[cfg(test)]
+mod tests;

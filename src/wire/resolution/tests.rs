@@ -1,0 +1,114 @@
+use super::*;
+use crate::wire::{Material, Settings, Stop, Vector, WirePlan};
+
+/// A free chain of 8 segments of 1 m whose nodes all move differently.
+fn chain() -> World {
+    let settings = Settings {
+        gravity: Vector::zeros(),
+        ..Settings::default()
+    };
+    let mut world = World::new(settings).unwrap();
+    let stop = |i: i32| Stop::Free(Point::new(f64::from(i), f64::from(i % 2) * 0.1, 0.0));
+    let route = (0..=8).map(stop).collect();
+    let plan = WirePlan::new(Material::steel(0.02).chain(), 0.9, route).adaptive();
+    world.add_wire(&plan).unwrap();
+    for (i, node) in world.wires[0].nodes.iter_mut().enumerate() {
+        node.velocity = Vector::new(i as f64, -2.0, (i * i) as f64);
+    }
+    world
+}
+
+fn tense(world: &mut World, tension: f64) {
+    for segment in &mut world.wires[0].segments {
+        segment.memory[0] = tension;
+    }
+}
+
+fn rest_lengths(world: &World) -> Vec<f64> {
+    let wire = &world.wires[0];
+    (0..wire.segments.len())
+        .map(|i| wire.rest_length(i))
+        .collect()
+}
+
+/// The tension under which segments of a length are just stable.
+fn tension_for(world: &World, length: f64) -> f64 {
+    let speed = length * world.settings.stability_margin / world.settings.step;
+    world.wires[0].material.mass_per_length() * speed * speed
+}
+
+#[test]
+fn tension_merges_short_segments_and_keeps_momentum() {
+    let mut world = chain();
+    assert!(adapt(&mut world, &mut Permit).is_empty());
+    let before = world.momentum();
+    let tension = tension_for(&world, 1.5);
+    tense(&mut world, tension);
+    let changes = adapt(&mut world, &mut Permit);
+    assert_eq!(changes.len(), 4);
+    assert!(
+        changes
+            .iter()
+            .all(|change| change.kind == RemeshKind::Merge)
+    );
+    assert_eq!(changes[0].triangle.map(|p| p.x), [0.0, 1.0, 2.0]);
+    assert!(rest_lengths(&world).iter().all(|&l| l > 2.0 && l < 2.02));
+    assert!((world.momentum() - before).norm() < 1e-13 * before.norm());
+}
+
+#[test]
+fn slackening_splits_long_segments_and_keeps_momentum() {
+    let mut world = chain();
+    let tension = tension_for(&world, 1.5);
+    tense(&mut world, tension);
+    adapt(&mut world, &mut Permit);
+    tense(&mut world, 0.0);
+    world.wires[0].resolution.length = 0.5;
+    let before = world.momentum();
+    // Not within ten steps of the change before.
+    world.steps += MEMORY as u64 - 1;
+    assert!(adapt(&mut world, &mut Permit).is_empty());
+    world.steps += 1;
+    let changes = adapt(&mut world, &mut Permit);
+    // The four segments touch: two can be split now, the others ten steps later.
+    assert_eq!(changes.len(), 2);
+    assert!(
+        changes
+            .iter()
+            .all(|change| change.kind == RemeshKind::Split)
+    );
+    assert_eq!(rest_lengths(&world).len(), 6);
+    assert!((world.momentum() - before).norm() < 1e-13 * before.norm());
+}
+
+#[test]
+fn change_that_is_refused_is_not_made_and_asked_for_again() {
+    let mut world = chain();
+    let tension = tension_for(&world, 1.5);
+    tense(&mut world, tension);
+    let mut asked = Vec::new();
+    let mut refuse = |_: &World, change: &Remesh| {
+        asked.push(change.arcs[1]);
+        false
+    };
+    assert!(adapt(&mut world, &mut refuse).is_empty());
+    world.steps += 1;
+    assert!(adapt(&mut world, &mut refuse).is_empty());
+    assert_eq!(rest_lengths(&world).len(), 8);
+    assert!(asked.len() == 14 && asked[0] == asked[7]);
+}
+
+#[test]
+fn fixed_nodes_and_fixed_resolutions_stay() {
+    let mut world = chain();
+    for node in &mut world.wires[0].nodes {
+        node.kind = NodeKind::Pinned;
+    }
+    let tension = tension_for(&world, 1.5);
+    tense(&mut world, tension);
+    assert!(adapt(&mut world, &mut Permit).is_empty());
+    let mut world = chain();
+    world.wires[0].resolution.adaptive = false;
+    tense(&mut world, tension);
+    assert!(adapt(&mut world, &mut Permit).is_empty());
+}

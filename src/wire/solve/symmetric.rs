@@ -1,0 +1,105 @@
+//! A sparse symmetric matrix, put together from entries that add up.
+
+/// Entries of a symmetric matrix in the order in which they were added.
+#[derive(Clone, Debug, Default)]
+pub(in crate::wire) struct Triplets {
+    /// Row and column, the row not below the diagonal.
+    pub(in crate::wire) index: Vec<(u32, u32)>,
+    pub(in crate::wire) value: Vec<f64>,
+}
+
+impl Triplets {
+    /// Adds `value` to the entries `(i, j)` and `(j, i)`, which are one.
+    pub(in crate::wire) fn add(&mut self, i: usize, j: usize, value: f64) {
+        self.index.push((i.min(j) as u32, i.max(j) as u32));
+        self.value.push(value);
+    }
+
+    /// Adds `weight` times `row^T row`, where a row is columns and values.
+    pub(in crate::wire) fn add_outer(&mut self, row: &[(usize, f64)], weight: f64) {
+        for &(i, a) in row {
+            for &(j, b) in row.iter().filter(|(j, _)| i <= *j) {
+                self.add(i, j, weight * a * b);
+            }
+        }
+    }
+}
+
+/// The upper triangle by columns: rows ascend within each.
+#[derive(Clone, Debug)]
+pub(in crate::wire) struct Symmetric {
+    pub(super) starts: Vec<usize>,
+    pub(super) rows: Vec<u32>,
+    pub(super) values: Vec<f64>,
+    /// Where each triplet goes.
+    slots: Vec<u32>,
+}
+
+impl Symmetric {
+    /// The structure of the matrix of size `n` with these entries; all are 0.
+    pub(in crate::wire) fn new(n: usize, index: &[(u32, u32)]) -> Self {
+        let mut sorted: Vec<(u32, u32, u32)> = (0..)
+            .zip(index)
+            .map(|(triplet, &(row, column))| (column, row, triplet))
+            .collect();
+        sorted.sort_unstable();
+        let mut matrix = Symmetric {
+            starts: vec![0; n + 1],
+            rows: Vec::new(),
+            values: Vec::new(),
+            slots: vec![0; index.len()],
+        };
+        let mut last = None;
+        for (column, row, triplet) in sorted {
+            if last != Some((column, row)) {
+                last = Some((column, row));
+                matrix.rows.push(row);
+                matrix.starts[column as usize + 1] = matrix.rows.len();
+            }
+            matrix.slots[triplet as usize] = matrix.rows.len() as u32 - 1;
+        }
+        for column in 0..n {
+            matrix.starts[column + 1] = matrix.starts[column + 1].max(matrix.starts[column]);
+        }
+        matrix.values = vec![0.0; matrix.rows.len()];
+        matrix
+    }
+
+    /// Takes the values of the triplets it was made from.
+    pub(in crate::wire) fn fill(&mut self, values: &[f64]) {
+        self.values.fill(0.0);
+        for (&slot, value) in self.slots.iter().zip(values) {
+            self.values[slot as usize] += value;
+        }
+    }
+
+    pub(super) fn size(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// The rows above or on the diagonal and the values of a column.
+    pub(super) fn column(&self, column: usize) -> impl Iterator<Item = (usize, f64)> {
+        let range = self.starts[column]..self.starts[column + 1];
+        let rows = self.rows[range.clone()].iter().map(|&row| row as usize);
+        rows.zip(self.values[range].iter().copied())
+    }
+
+    /// `b - A x`, and for each row `|b| + |A| |x|`, the magnitude of what was summed up.
+    pub(in crate::wire) fn residual(&self, b: &[f64], x: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let mut residual = b.to_vec();
+        let mut magnitude: Vec<f64> = b.iter().map(|value| value.abs()).collect();
+        let mut take = |row: usize, term: f64| {
+            residual[row] -= term;
+            magnitude[row] += term.abs();
+        };
+        for column in 0..self.size() {
+            for (row, value) in self.column(column) {
+                take(row, value * x[column]);
+                if row != column {
+                    take(column, value * x[row]);
+                }
+            }
+        }
+        (residual, magnitude)
+    }
+}

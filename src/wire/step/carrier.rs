@@ -1,0 +1,203 @@
+//! Where points get their velocity from, and the numbering of the unknowns.
+
+use smallvec::SmallVec;
+
+use crate::wire::model::{BodyId, NodeKind, World};
+use crate::wire::solve::dissect;
+use crate::wire::{Place, Vector};
+
+/// What the velocity of a point is made of.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Carrier {
+    /// Three unknowns from here on.
+    Free(usize),
+    /// Six unknowns of a body from here on, velocity and angular velocity, and the point seen from
+    /// the centre of mass.
+    Body(usize, Vector),
+    /// Prescribed.
+    Given(Vector),
+}
+
+/// Columns and values of one row of a Jacobian.
+pub(super) type Columns = SmallVec<[(usize, f64); 24]>;
+
+impl Carrier {
+    /// Adds the row of `direction . velocity` to `columns`. A prescribed velocity has no columns.
+    pub(super) fn columns(&self, direction: &Vector, columns: &mut Columns) {
+        let mut push = |first: usize, vector: &Vector| {
+            columns.extend((0..3).map(|axis| (first + axis, vector[axis])));
+        };
+        match self {
+            Carrier::Free(first) => push(*first, direction),
+            Carrier::Body(first, arm) => {
+                push(*first, direction);
+                push(first + 3, &arm.cross(direction));
+            }
+            Carrier::Given(_) => {}
+        }
+    }
+
+    /// The velocity that is prescribed; 0 if it is unknown.
+    pub(super) fn given(&self) -> Vector {
+        match self {
+            Carrier::Given(velocity) => *velocity,
+            _ => Vector::zeros(),
+        }
+    }
+
+    /// The velocity for a solution `x`.
+    pub(super) fn velocity(&self, x: &[f64]) -> Vector {
+        let three = |first: usize| Vector::new(x[first], x[first + 1], x[first + 2]);
+        match self {
+            Carrier::Free(first) => three(*first),
+            Carrier::Body(first, arm) => three(*first) + three(first + 3).cross(arm),
+            Carrier::Given(velocity) => *velocity,
+        }
+    }
+}
+
+/// The numbering of the unknowns: velocities and multipliers in order of elimination.
+///
+/// Each wire's free nodes go by nested dissection, each followed by the rows that it can eliminate;
+/// then come the bodies, and last the rows without a free node.
+#[derive(Clone, Debug)]
+pub(super) struct Layout {
+    /// How many unknowns there are.
+    pub(super) size: usize,
+    /// Where wire `w` starts in `nodes`; its segments start at `first_node[w] - w`.
+    pub(super) first_node: Vec<usize>,
+    /// What carries each node of each wire.
+    pub(super) nodes: Vec<Carrier>,
+    /// The first unknown of each dynamic body.
+    pub(super) bodies: Vec<Option<usize>>,
+    /// The multiplier of each segment's stretch row.
+    pub(super) stretch: Vec<usize>,
+    /// The first multiplier of each node's bend rows.
+    pub(super) bend: Vec<Option<usize>>,
+}
+
+const UNSET: usize = usize::MAX;
+
+impl Layout {
+    pub(super) fn new(world: &World) -> Self {
+        let mut layout = Layout::carried(world);
+        let mut order = Vec::new();
+        for (w, wire) in world.wires.iter().enumerate() {
+            order.clear();
+            let free = |node: usize| wire.nodes[node].kind == NodeKind::Free;
+            let mut start = 0;
+            for node in 0..=wire.nodes.len() {
+                if node == wire.nodes.len() || !free(node) {
+                    dissect(start..node, &mut order);
+                    start = node + 1;
+                }
+            }
+            for &node in &order {
+                layout.eliminate_node(w, node, wire.nodes.len());
+            }
+        }
+        for (at, body) in world.bodies.iter().enumerate() {
+            if body.dynamic {
+                layout.bodies[at] = Some(layout.take(6));
+            }
+        }
+        layout.rest(world);
+        layout
+    }
+
+    /// No unknown has a number yet; what is prescribed is there.
+    fn carried(world: &World) -> Self {
+        let mut nodes = Vec::new();
+        let mut first_node = Vec::new();
+        let mut bend = Vec::new();
+        for wire in &world.wires {
+            first_node.push(nodes.len());
+            for (i, node) in wire.nodes.iter().enumerate() {
+                nodes.push(match node.kind {
+                    NodeKind::Free => Carrier::Free(UNSET),
+                    _ => Carrier::Given(Vector::zeros()),
+                });
+                let ends = i == 0 || i + 1 == wire.nodes.len();
+                bend.push((!ends && !wire.material.is_chain()).then_some(UNSET));
+            }
+        }
+        Layout {
+            size: 0,
+            stretch: vec![UNSET; nodes.len() - first_node.len()],
+            bend,
+            nodes,
+            first_node,
+            bodies: vec![None; world.bodies.len()],
+        }
+    }
+
+    fn take(&mut self, count: usize) -> usize {
+        self.size += count;
+        self.size - count
+    }
+
+    fn eliminate_node(&mut self, wire: usize, node: usize, count: usize) {
+        let at = self.first_node[wire] + node;
+        self.nodes[at] = Carrier::Free(self.take(3));
+        let before = (node > 0).then(|| at - wire - 1);
+        let after = (node + 1 < count).then_some(at - wire);
+        for segment in [before, after].into_iter().flatten() {
+            if self.stretch[segment] == UNSET {
+                self.stretch[segment] = self.take(1);
+            }
+        }
+        if self.bend[at].is_some() {
+            self.bend[at] = Some(self.take(3));
+        }
+    }
+
+    /// Numbers the rows that no free node took, and ties the nodes of bodies to them.
+    fn rest(&mut self, world: &World) {
+        for segment in 0..self.stretch.len() {
+            if self.stretch[segment] == UNSET {
+                self.stretch[segment] = self.take(1);
+            }
+        }
+        for at in 0..self.bend.len() {
+            if self.bend[at] == Some(UNSET) {
+                self.bend[at] = Some(self.take(3));
+            }
+        }
+        for (wire, &first) in world.wires.iter().zip(&self.first_node) {
+            for (i, node) in wire.nodes.iter().enumerate() {
+                if let Some((body, local)) = node.kind.carrier() {
+                    self.nodes[first + i] = self.body(world, body, &local);
+                }
+            }
+        }
+    }
+
+    fn body(&self, world: &World, id: BodyId, local: &Vector) -> Carrier {
+        let body = &world.bodies[id.0];
+        let arm = body.arm(local);
+        match self.bodies[id.0] {
+            Some(first) => Carrier::Body(first, arm),
+            None => {
+                let (velocity, spin) = body.prescribed(world.time(), world.settings.step);
+                Carrier::Given(velocity + spin.cross(&arm))
+            }
+        }
+    }
+
+    /// What carries a place, by at most two carriers and their shares.
+    pub(super) fn place(&self, world: &World, place: &Place) -> SmallVec<[(Carrier, f64); 2]> {
+        match *place {
+            Place::World => SmallVec::new(),
+            Place::Body { body, local } => {
+                let carrier = self.body(world, body, &local);
+                SmallVec::from_slice(&[(carrier, 1.0)])
+            }
+            Place::Wire { wire, arc } => {
+                let (segment, share) = world.wires[wire.0].at(arc);
+                let first = self.first_node[wire.0] + segment;
+                let (start, end) = (self.nodes[first], self.nodes[first + 1]);
+                SmallVec::from_slice(&[(start, 1.0 - share), (end, share)])
+            }
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Contacts as data.
+
+use super::error::Reason;
+use crate::wire::Vector;
+use crate::wire::model::check::{finite, finite_vector, not_negative};
+use crate::wire::model::{BodyId, ModelError, WireId, World};
+
+/// A place on something that can touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// A place that never moves.
+    World,
+    /// A point of a body, in its frame relative to the centre of mass, in m.
+    Body {
+        /// The body.
+        body: BodyId,
+        /// The point.
+        local: Vector,
+    },
+    /// A point of a wire's midline by arc length in m, so that it outlives changes of resolution.
+    Wire {
+        /// The wire.
+        wire: WireId,
+        /// The arc length.
+        arc: f64,
+    },
+}
+
+/// Two places that must not come closer, with friction between them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// What the contact is known by from step to step. Two at a time must not share it.
+    pub key: u64,
+    /// Place A.
+    pub a: Place,
+    /// Place B.
+    pub b: Place,
+    /// Unit normal from B to A.
+    pub normal: Vector,
+    /// Distance of the surfaces along the normal in m, below 0 where they penetrate.
+    pub gap: f64,
+    /// Coefficient of friction.
+    pub friction: f64,
+}
+
+impl Contact {
+    fn check(&self, world: &World) -> Result<(), ModelError> {
+        finite_vector("normal", &self.normal)?;
+        let length = self.normal.norm();
+        if (length - 1.0).abs() > 1e-9 {
+            return Err(ModelError::value(
+                "length of the normal",
+                length,
+                "1 within 1e-9",
+            ));
+        }
+        finite("gap", self.gap)?;
+        not_negative("friction", self.friction)?;
+        for place in [&self.a, &self.b] {
+            match *place {
+                Place::World => {}
+                Place::Body { body, local } => {
+                    finite_vector("local", &local)?;
+                    world.body(body)?;
+                }
+                Place::Wire { wire, arc } => {
+                    let nodes = world.wire(wire)?.nodes();
+                    finite("arc", arc)?;
+                    not_negative("arc", arc)?;
+                    if nodes.last().is_some_and(|last| arc > last.arc) {
+                        return Err(ModelError::value(
+                            "arc",
+                            arc,
+                            "at most the length of the wire",
+                        ));
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+pub(super) fn check(world: &World, contacts: &[Contact]) -> Result<(), Reason> {
+    for (index, contact) in contacts.iter().enumerate() {
+        contact
+            .check(world)
+            .map_err(|error| Reason::Contact { index, error })?;
+    }
+    Ok(())
+}
+
+/// Impulses of the last step in N s along x, y, z, by key: where the next solve starts.
+#[derive(Clone, Debug, Default)]
+pub(in crate::wire) struct Warm(Vec<(u64, Vector)>);
+
+impl Warm {
+    pub(super) fn new(contacts: &[Contact], impulses: &[Vector]) -> Self {
+        let keys = contacts.iter().map(|contact| contact.key);
+        let mut sorted: Vec<_> = keys.zip(impulses.iter().copied()).collect();
+        sorted.sort_by_key(|(key, _)| *key);
+        Warm(sorted)
+    }
+
+    pub(super) fn impulse(&self, key: u64) -> Vector {
+        match self.0.binary_search_by_key(&key, |(key, _)| *key) {
+            Ok(at) => self.0[at].1,
+            Err(_) => Vector::zeros(),
+        }
+    }
+}

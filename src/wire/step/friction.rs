@@ -1,0 +1,238 @@
+//! Contacts and friction: projected Gauss-Seidel on 3x3 blocks, in the space of the factor.
+//!
+//! Contact impulses `lambda` change the contact velocities by `S lambda` with the Schur complement
+//! `S = C K^-1 C^T = Y^T D^-1 Y`, `L Y = C^T`. `S` is never formed: the sum `z = D^-1 Y lambda` is kept, and
+//! a block reads and writes the few entries of `z` on the path of its points to the root of the
+//! elimination tree. So a sweep costs in proportion to the number of contacts.
+
+use nalgebra::{Matrix3, Vector2};
+use smallvec::SmallVec;
+
+use super::carrier::{Carrier, Columns};
+use super::contact::{Contact, Place};
+use super::rows::Spook;
+use super::system::{System, frame};
+use crate::wire::Vector;
+use crate::wire::model::World;
+use crate::wire::settings::Settings;
+use crate::wire::solve::SparseColumns;
+
+/// One contact as a block of three rows: normal and two tangents.
+struct Block {
+    /// Normal and tangents.
+    frame: Matrix3<f64>,
+    terms: SmallVec<[(Carrier, f64); 4]>,
+    sparse: SparseColumns,
+    pivots: Vec<f64>,
+    /// `Y^T D^-1 Y`, with the regularisation of the normal row.
+    mobility: Matrix3<f64>,
+    sigma: f64,
+    /// Velocity without contact impulses, less what is asked for.
+    bias: Vector,
+    friction: f64,
+    impulse: Vector,
+}
+
+/// What the sweeps came to.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Swept {
+    /// Impulse of each contact on its place A, along x, y, z, in N s.
+    pub(super) impulses: Vec<Vector>,
+    /// The same as columns and values, both places.
+    pub(super) columns: Vec<(usize, f64)>,
+    /// Sweeps done.
+    pub(super) sweeps: usize,
+    /// The largest change of a contact's velocity in the last sweep, in m/s.
+    pub(super) residual: f64,
+}
+
+/// Contact impulses for the system as factored, starting from those of the step before. `free` is the
+/// solution without contacts.
+pub(super) fn sweep(world: &World, system: &System, contacts: &[Contact], free: &[f64]) -> Swept {
+    let mut blocks: Vec<Block> = contacts
+        .iter()
+        .map(|contact| Block::new(world, system, contact, free))
+        .collect();
+    let mut z = vec![0.0; free.len()];
+    for block in &blocks {
+        block.push(&block.impulse, &mut z);
+    }
+    let mut swept = Swept::default();
+    while swept.sweeps < world.settings.sweeps {
+        let changes = blocks.iter_mut().map(|block| block.relax(&mut z));
+        swept.residual = changes.fold(0.0, f64::max);
+        swept.sweeps += 1;
+        if swept.residual <= world.settings.contact_tolerance {
+            break;
+        }
+    }
+    for block in &blocks {
+        let impulse = block.frame.tr_mul(&block.impulse);
+        for (carrier, share) in &block.terms {
+            let mut columns = Columns::new();
+            carrier.columns(&(impulse * *share), &mut columns);
+            swept.columns.extend(columns);
+        }
+        swept.impulses.push(impulse);
+    }
+    swept
+}
+
+impl Block {
+    fn new(world: &World, system: &System, contact: &Contact, free: &[f64]) -> Self {
+        let frame = frame(&contact.normal);
+        let place = |place: &Place, sign: f64| {
+            let carriers = system.layout.place(world, place).into_iter();
+            carriers.map(move |(carrier, share)| (carrier, sign * share))
+        };
+        let terms: SmallVec<[(Carrier, f64); 4]> = place(&contact.a, 1.0)
+            .chain(place(&contact.b, -1.0))
+            .collect();
+        let (sparse, pivots) = system.forward(&columns(&frame, &terms));
+        let mut mobility = Matrix3::zeros();
+        for (three, pivot) in sparse.values.iter().zip(&pivots) {
+            let row = Vector::from_row_slice(three);
+            mobility += row * row.transpose() / *pivot;
+        }
+        let speed = velocity_of(world, &contact.a) - velocity_of(world, &contact.b);
+        let (target, sigma) = normal_row(&world.settings, contact, speed.dot(&contact.normal));
+        mobility[(0, 0)] += sigma;
+        let velocity: Vector = terms
+            .iter()
+            .map(|(carrier, share)| carrier.velocity(free) * *share)
+            .sum();
+        Block {
+            bias: frame * velocity - Vector::new(target, 0.0, 0.0),
+            impulse: frame * world.warm.impulse(contact.key),
+            friction: contact.friction,
+            frame,
+            terms,
+            sparse,
+            pivots,
+            mobility,
+            sigma,
+        }
+    }
+
+    /// Adds `D^-1 Y impulse` to `z`.
+    fn push(&self, impulse: &Vector, z: &mut [f64]) {
+        let entries = self.sparse.rows.iter().zip(&self.sparse.values);
+        for ((&row, three), pivot) in entries.zip(&self.pivots) {
+            let sum = three[0] * impulse.x + three[1] * impulse.y + three[2] * impulse.z;
+            z[row as usize] += sum / pivot;
+        }
+    }
+
+    /// Velocity less what is asked for, at the impulses so far.
+    fn excess(&self, z: &[f64]) -> Vector {
+        let mut sum = self.bias;
+        sum.x += self.sigma * self.impulse.x;
+        for (&row, three) in self.sparse.rows.iter().zip(&self.sparse.values) {
+            sum += Vector::from_row_slice(three) * z[row as usize];
+        }
+        sum
+    }
+
+    /// Solves the block with all others held; returns by how much its velocity changes.
+    fn relax(&mut self, z: &mut [f64]) -> f64 {
+        let others = self.excess(z) - self.mobility * self.impulse;
+        let impulse = solve_block(&self.mobility, &others, self.friction, &self.impulse);
+        let change = impulse - self.impulse;
+        self.impulse = impulse;
+        self.push(&change, z);
+        (self.mobility * change).amax()
+    }
+}
+
+/// The three rows of a contact by columns.
+fn columns(
+    frame: &Matrix3<f64>,
+    terms: &SmallVec<[(Carrier, f64); 4]>,
+) -> SmallVec<[(usize, [f64; 3]); 24]> {
+    let mut all: SmallVec<[(usize, [f64; 3]); 24]> = SmallVec::new();
+    for (carrier, share) in terms {
+        let rows = [0, 1, 2].map(|row| {
+            let mut columns = Columns::new();
+            let direction = frame.row(row).transpose() * *share;
+            carrier.columns(&direction, &mut columns);
+            columns
+        });
+        let entries = (0..rows[0].len()).map(|i| (rows[0][i].0, [0, 1, 2].map(|r| rows[r][i].1)));
+        all.extend(entries);
+    }
+    all
+}
+
+/// What the normal row asks for and its regularisation. Apart, `J v+ >= -g/h`; where the two penetrate,
+/// a SPOOK row, which forgets the velocity of an impact.
+fn normal_row(settings: &Settings, contact: &Contact, speed: f64) -> (f64, f64) {
+    if contact.gap >= 0.0 {
+        return (-contact.gap / settings.step, 0.0);
+    }
+    let damping = settings.contact_damping * settings.step;
+    let spook = Spook::new(settings.contact_compliance, damping, settings.step);
+    let kept = if speed < -settings.impact_speed {
+        0.0
+    } else {
+        speed
+    };
+    (spook.target(contact.gap, kept), spook.sigma)
+}
+
+/// The velocity of a place before the step.
+fn velocity_of(world: &World, place: &Place) -> Vector {
+    match *place {
+        Place::World => Vector::zeros(),
+        Place::Body { body, local } => world.bodies[body.0].velocity_at(&local),
+        Place::Wire { wire, arc } => {
+            let wire = &world.wires[wire.0];
+            let (segment, share) = wire.at(arc);
+            let nodes = &wire.nodes[segment..segment + 2];
+            nodes[0].velocity * (1.0 - share) + nodes[1].velocity * share
+        }
+    }
+}
+
+/// Impulse of one contact by Coulomb's law: `u = mobility impulse + others`; apart (`u_n >= 0`) without
+/// impulse, or `u_n = 0` and the tangential impulse within the cone, against the sliding on its border.
+fn solve_block(mobility: &Matrix3<f64>, others: &Vector, friction: f64, start: &Vector) -> Vector {
+    if others.x >= 0.0 || mobility[(0, 0)] <= 0.0 {
+        return Vector::zeros();
+    }
+    if let Some(factor) = mobility.cholesky() {
+        let stick = -factor.solve(others);
+        if stick.x >= 0.0 && stick.yz().norm() <= friction * stick.x {
+            return stick;
+        }
+    }
+    slide(mobility, others, friction, start)
+}
+
+/// The sliding solution: normal impulse and projection of the tangential one in turn. Only a scalar step
+/// keeps the fixed point that in which the impulse is opposite to the sliding.
+fn slide(mobility: &Matrix3<f64>, others: &Vector, friction: f64, start: &Vector) -> Vector {
+    const ITERATIONS: usize = 20;
+    let step = 1.0 / (mobility[(1, 1)] + mobility[(2, 2)]).max(f64::MIN_POSITIVE);
+    let mut impulse = *start;
+    for _ in 0..ITERATIONS {
+        let without = others.x + mobility[(0, 1)] * impulse.y + mobility[(0, 2)] * impulse.z;
+        impulse.x = (-without / mobility[(0, 0)]).max(0.0);
+        let sliding = (mobility * impulse + others).yz();
+        let tangential = to_disk(impulse.yz() - sliding * step, friction * impulse.x);
+        let change = (tangential - impulse.yz()).amax();
+        (impulse.y, impulse.z) = (tangential.x, tangential.y);
+        if change <= 1e-15 * impulse.x {
+            break;
+        }
+    }
+    impulse
+}
+
+fn to_disk(vector: Vector2<f64>, radius: f64) -> Vector2<f64> {
+    let length = vector.norm();
+    if length > radius {
+        vector * (radius / length)
+    } else {
+        vector
+    }
+}

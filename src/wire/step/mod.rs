@@ -1,0 +1,13 @@
+//! One step: SPOOK with contacts.
+
+mod advance;
+mod carrier;
+pub(super) mod contact;
+mod error;
+mod friction;
+mod rows;
+mod spin;
+pub(super) mod system;
+
+pub use contact::{Contact, Place};
+pub use error::{Reason, StepError};

@@ -1,0 +1,180 @@
+//! The rows of stretch and bend.
+
+use nalgebra::Matrix3;
+use smallvec::{SmallVec, smallvec};
+
+use super::carrier::{Carrier, Columns, Layout};
+use crate::wire::Vector;
+use crate::wire::model::{Wire, World};
+use crate::wire::settings::Settings;
+
+/// One row of `G v+ + Sigma lambda = target`.
+#[derive(Clone, Debug)]
+pub(super) struct Row {
+    /// The unknown that is its multiplier.
+    pub(super) multiplier: usize,
+    /// Carriers, and the direction along which each one's velocity counts.
+    pub(super) terms: SmallVec<[(Carrier, Vector); 3]>,
+    /// Regularisation in 1/kg.
+    pub(super) sigma: f64,
+    /// What the row asks for, in m/s or 1/s, prescribed velocities included on the left.
+    pub(super) target: f64,
+    /// The multiplier is not above 0: a pull, never a push.
+    pub(super) pulls_only: bool,
+    /// The row counts. One that does not has multiplier 0.
+    pub(super) active: bool,
+}
+
+impl Row {
+    /// Columns and values of the row.
+    pub(super) fn columns(&self) -> Columns {
+        let mut columns = Columns::new();
+        for (carrier, direction) in &self.terms {
+            carrier.columns(direction, &mut columns);
+        }
+        columns
+    }
+
+    /// `G v` of the velocities that are prescribed.
+    pub(super) fn given(&self) -> f64 {
+        let terms = self.terms.iter();
+        terms.fold(0.0, |sum, (carrier, direction)| {
+            sum + carrier.given().dot(direction)
+        })
+    }
+
+    /// `G v` for a solution.
+    pub(super) fn velocity(&self, x: &[f64]) -> f64 {
+        let terms = self.terms.iter();
+        terms.fold(0.0, |sum, (carrier, direction)| {
+            sum + carrier.velocity(x).dot(direction)
+        })
+    }
+}
+
+/// The numbers of SPOOK for one kind of row.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spook {
+    /// `Sigma = 4/h^2 eps / (1 + 4 tau/h)`.
+    pub(super) sigma: f64,
+    /// `Upsilon = 1 / (1 + 4 tau/h)`.
+    pub(super) upsilon: f64,
+    step: f64,
+}
+
+impl Spook {
+    /// `compliance` is eps, `damping` the damping time tau in s.
+    pub(super) fn new(compliance: f64, damping: f64, step: f64) -> Self {
+        let upsilon = 1.0 / (1.0 + 4.0 * damping / step);
+        Spook {
+            sigma: 4.0 / (step * step) * compliance * upsilon,
+            upsilon,
+            step,
+        }
+    }
+
+    /// `-(4/h) Upsilon g + Upsilon G v`, what the row asks for.
+    pub(super) fn target(&self, violation: f64, velocity: f64) -> f64 {
+        self.upsilon * (velocity - 4.0 / self.step * violation)
+    }
+}
+
+/// A direction, and its length; a direction of 0 where there is no length.
+pub(super) fn unit(vector: &Vector) -> (Vector, f64) {
+    let length = vector.norm();
+    if length > 0.0 {
+        (vector / length, length)
+    } else {
+        (Vector::zeros(), 0.0)
+    }
+}
+
+/// All rows: first those of stretch, one for each segment in order, then those of bend.
+pub(super) fn rows(world: &World, layout: &Layout) -> Vec<Row> {
+    let mut rows = Vec::with_capacity(layout.stretch.len() + 3 * layout.bend.len());
+    for (wire, &first) in world.wires.iter().zip(&layout.first_node) {
+        for segment in 0..wire.segments.len() {
+            let multiplier = layout.stretch[rows.len()];
+            let ends = [
+                layout.nodes[first + segment],
+                layout.nodes[first + segment + 1],
+            ];
+            rows.push(stretch(wire, segment, ends, multiplier, &world.settings));
+        }
+    }
+    for (wire, &first) in world.wires.iter().zip(&layout.first_node) {
+        for node in 0..wire.nodes.len() {
+            if let Some(multiplier) = layout.bend[first + node] {
+                let at = first + node;
+                let three = [layout.nodes[at - 1], layout.nodes[at], layout.nodes[at + 1]];
+                rows.extend(bend(wire, node, three, multiplier, &world.settings));
+            }
+        }
+    }
+    rows
+}
+
+/// `g = |d| - l0`, `G = [-t, t]`, `eps = l0 / (E A)`. A segment without length has no direction: its
+/// row does not count.
+fn stretch(
+    wire: &Wire,
+    segment: usize,
+    [start, end]: [Carrier; 2],
+    multiplier: usize,
+    settings: &Settings,
+) -> Row {
+    let (t, length) = unit(&wire.span(segment));
+    let rest = wire.rest_length(segment);
+    let material = &wire.material;
+    let compliance = rest / material.stretch_stiffness();
+    let spook = Spook::new(compliance, material.stretch_damping, settings.step);
+    let nodes = &wire.nodes[segment..segment + 2];
+    let speed = (nodes[1].velocity - nodes[0].velocity).dot(&t);
+    let slack = wire.segments[segment].tension <= 0.0 && length < rest;
+    Row {
+        multiplier,
+        terms: smallvec![(start, -t), (end, t)],
+        sigma: spook.sigma,
+        target: spook.target(length - rest, speed),
+        pulls_only: material.is_chain(),
+        active: length > 0.0 && !(material.is_chain() && slack),
+    }
+}
+
+/// `g = t2 - t1`, `d t1 = [-P1/l1, P1/l1, 0]`, `d t2 = [0, -P2/l2, P2/l2]`, `eps = l_mean / (E I)`.
+fn bend(
+    wire: &Wire,
+    node: usize,
+    carriers: [Carrier; 3],
+    multiplier: usize,
+    settings: &Settings,
+) -> [Row; 3] {
+    let [(t1, l1), (t2, l2)] = [wire.span(node - 1), wire.span(node)].map(|span| unit(&span));
+    let mean = (wire.rest_length(node - 1) + wire.rest_length(node)) / 2.0;
+    let compliance = mean / wire.material.bend_stiffness();
+    let spook = Spook::new(compliance, wire.material.bend_damping, settings.step);
+    let active = l1 > 0.0 && l2 > 0.0;
+    let across = |t: &Vector, l: f64| {
+        let projection = Matrix3::identity() - t * t.transpose();
+        if active {
+            projection / l
+        } else {
+            Matrix3::zeros()
+        }
+    };
+    let (p1, p2) = (across(&t1, l1), across(&t2, l2));
+    let jacobian = [p1, -(p1 + p2), p2];
+    let nodes = &wire.nodes[node - 1..node + 2];
+    let turning = p1 * nodes[0].velocity + p2 * nodes[2].velocity - (p1 + p2) * nodes[1].velocity;
+    [0, 1, 2].map(|axis| {
+        let term = |i: usize| (carriers[i], jacobian[i].row(axis).transpose());
+        Row {
+            multiplier: multiplier + axis,
+            terms: smallvec![term(0), term(1), term(2)],
+            sigma: spook.sigma,
+            target: spook.target((t2 - t1)[axis], turning[axis]),
+            pulls_only: false,
+            active,
+        }
+    })
+}

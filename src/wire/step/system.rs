@@ -1,0 +1,242 @@
+//! The system of one step: `[[M~, G^T], [G, -Sigma]] [v+; -lambda] = [M v + h f; target]`.
+
+use nalgebra::Matrix3;
+
+use super::carrier::{Columns, Layout};
+use super::error::Reason;
+use super::rows::{Row, rows, unit};
+use super::spin::spin_freely;
+use crate::wire::Vector;
+use crate::wire::model::{Wire, World};
+use crate::wire::solve::{Ldl, SparseColumns, Symmetric, Triplets};
+
+/// The largest backward error of a solution that is accepted.
+const RESIDUAL: f64 = 1e-10;
+
+/// What depends on the structure of a system alone: as long as it stands, the elimination tree and the
+/// storage are used again.
+#[derive(Clone, Debug)]
+pub(in crate::wire) struct Structure {
+    index: Vec<(u32, u32)>,
+    matrix: Symmetric,
+    ldl: Ldl,
+}
+
+/// The equations of motion and the rows of all wires, ready to be factored.
+pub(super) struct System {
+    pub(super) layout: Layout,
+    pub(super) rows: Vec<Row>,
+    /// Entries: first those of masses, then those of rows.
+    triplets: Triplets,
+    mass_entries: usize,
+    /// Whether an unknown is a velocity.
+    is_velocity: Vec<bool>,
+    right: Vec<f64>,
+    structure: Option<Structure>,
+}
+
+impl System {
+    /// Puts the system of the next step together. `structure` is that of the step before.
+    pub(super) fn new(world: &World, structure: Option<Structure>) -> Self {
+        let layout = Layout::new(world);
+        let rows = rows(world, &layout);
+        let mut system = System {
+            triplets: Triplets::default(),
+            mass_entries: 0,
+            is_velocity: vec![true; layout.size],
+            right: vec![0.0; layout.size],
+            structure,
+            layout,
+            rows,
+        };
+        for row in &system.rows {
+            system.is_velocity[row.multiplier] = false;
+        }
+        system.add_nodes(world);
+        system.add_bodies(world);
+        system.add_geometric_stiffness(world);
+        system.mass_entries = system.triplets.index.len();
+        system
+    }
+
+    /// Mass and momentum of every node, to whatever carries it.
+    fn add_nodes(&mut self, world: &World) {
+        let fall = world.settings.gravity * world.settings.step;
+        for (wire, &first) in world.wires.iter().zip(&self.layout.first_node) {
+            for (i, node) in wire.nodes.iter().enumerate() {
+                let mass = wire.node_mass(i);
+                let velocity = node.velocity + fall;
+                for axis in 0..3 {
+                    let mut columns = Columns::new();
+                    let along = Vector::ith(axis, 1.0);
+                    self.layout.nodes[first + i].columns(&along, &mut columns);
+                    self.triplets.add_outer(&columns, mass);
+                    push(&mut self.right, &columns, mass * velocity[axis]);
+                }
+            }
+        }
+    }
+
+    fn add_bodies(&mut self, world: &World) {
+        let step = world.settings.step;
+        for (body, first) in world.bodies.iter().zip(&self.layout.bodies) {
+            let Some(first) = *first else { continue };
+            let inertia = body.world_inertia();
+            let local = body
+                .orientation
+                .inverse_transform_vector(&body.angular_velocity);
+            let spin = body.orientation * spin_freely(&body.inertia, &local, step);
+            let momentum = (body.velocity + world.settings.gravity * step) * body.mass;
+            let spinning = inertia * spin;
+            for i in 0..3 {
+                self.triplets.add(first + i, first + i, body.mass);
+                for j in i..3 {
+                    self.triplets
+                        .add(first + 3 + i, first + 3 + j, inertia[(i, j)]);
+                }
+                self.right[first + i] += momentum[i];
+                self.right[first + 3 + i] += spinning[i];
+            }
+        }
+    }
+
+    /// `M~ = M + h^2 sum (T/l) P` over the segments that are shorter than their tension allows.
+    fn add_geometric_stiffness(&mut self, world: &World) {
+        for (w, wire) in world.wires.iter().enumerate() {
+            let first = self.layout.first_node[w];
+            for segment in 0..wire.segments.len() {
+                let tension = wire.segments[segment].tension;
+                let (t, length) = unit(&wire.span(segment));
+                if length > 0.0 && wire.rest_length(segment) < shortest(wire, tension, world) {
+                    let step = world.settings.step;
+                    let weight = step * step * tension / length;
+                    self.stiffen(first + segment, &t, weight);
+                }
+            }
+        }
+    }
+
+    fn stiffen(&mut self, node: usize, t: &Vector, weight: f64) {
+        let frame = frame(t);
+        for axis in [1, 2] {
+            let across = frame.row(axis).transpose();
+            let (start, end) = (self.layout.nodes[node], self.layout.nodes[node + 1]);
+            let mut columns = Columns::new();
+            start.columns(&-across, &mut columns);
+            end.columns(&across, &mut columns);
+            let given = (end.given() - start.given()).dot(&across);
+            self.triplets.add_outer(&columns, weight);
+            push(&mut self.right, &columns, -weight * given);
+        }
+    }
+
+    /// Factors the system with the rows that are active now.
+    pub(super) fn factor(&mut self) -> Result<(), Reason> {
+        self.triplets.index.truncate(self.mass_entries);
+        self.triplets.value.truncate(self.mass_entries);
+        for row in &self.rows {
+            // A row that is not active keeps its place in the structure: -1 x multiplier = 0.
+            let weight = if row.active { 1.0 } else { 0.0 };
+            for (column, value) in row.columns() {
+                self.triplets.add(column, row.multiplier, weight * value);
+            }
+            let sigma = if row.active { row.sigma } else { 1.0 };
+            self.triplets.add(row.multiplier, row.multiplier, -sigma);
+            self.right[row.multiplier] = weight * (row.target - row.given());
+        }
+        let stands = |s: &Structure| s.index == self.triplets.index;
+        let structure = self.structure.take().filter(stands);
+        let mut structure = structure.unwrap_or_else(|| {
+            let matrix = Symmetric::new(self.layout.size, &self.triplets.index);
+            let ldl = Ldl::analyse(&matrix);
+            let index = self.triplets.index.clone();
+            Structure { index, matrix, ldl }
+        });
+        structure.matrix.fill(&self.triplets.value);
+        let factored = structure.ldl.factor(&structure.matrix, &self.is_velocity);
+        self.structure = Some(structure);
+        factored.map_err(|unknown| Reason::Pivot { unknown })
+    }
+
+    /// The solution with impulses on velocities, given as columns and values, and its backward error.
+    pub(super) fn solve(&self, impulses: &[(usize, f64)]) -> Result<(Vec<f64>, f64), Reason> {
+        let Some(structure) = &self.structure else {
+            return Ok((Vec::new(), 0.0));
+        };
+        let mut right = self.right.clone();
+        for &(column, impulse) in impulses {
+            right[column] += impulse;
+        }
+        let mut x = right.clone();
+        structure.ldl.solve(&mut x);
+        let (mut correction, _) = structure.matrix.residual(&right, &x);
+        structure.ldl.solve(&mut correction);
+        for (x, correction) in x.iter_mut().zip(&correction) {
+            *x += correction;
+        }
+        let (residual, magnitude) = structure.matrix.residual(&right, &x);
+        let error = self.backward_error(&residual, &magnitude);
+        if error <= RESIDUAL {
+            Ok((x, error))
+        } else {
+            let limit = RESIDUAL;
+            Err(Reason::Residual { error, limit })
+        }
+    }
+
+    /// `L Y = C` for the rows of one contact, and the pivots of the rows of `Y`.
+    pub(super) fn forward(&self, columns: &[(usize, [f64; 3])]) -> (SparseColumns, Vec<f64>) {
+        let Some(structure) = &self.structure else {
+            let (rows, values) = (Vec::new(), Vec::new());
+            return (SparseColumns { rows, values }, Vec::new());
+        };
+        let sparse = structure.ldl.forward(columns);
+        let pivots = sparse
+            .rows
+            .iter()
+            .map(|&row| structure.ldl.pivot(row))
+            .collect();
+        (sparse, pivots)
+    }
+
+    /// The largest residual relative to the largest magnitude that was summed up: equations of motion among
+    /// each other (N s), rows among each other (m/s). NaN if there is one.
+    fn backward_error(&self, residual: &[f64], magnitude: &[f64]) -> f64 {
+        let worst = |of_motion: bool| {
+            let rows = residual.iter().zip(magnitude).zip(&self.is_velocity);
+            let kind = rows.filter(|(_, velocity)| **velocity == of_motion);
+            // Not `f64::max`, which passes over NaN.
+            let larger = |a: f64, b: f64| if a >= b { a } else { b };
+            let (r, m) = kind.fold((0.0, f64::MIN_POSITIVE), |(r, m), ((residual, sum), _)| {
+                (larger(r, residual.abs()), larger(m, *sum))
+            });
+            r / m
+        };
+        let [motion, rows] = [worst(true), worst(false)];
+        if motion >= rows { motion } else { rows }
+    }
+
+    pub(super) fn into_structure(self) -> Option<Structure> {
+        self.structure
+    }
+}
+
+fn push(right: &mut [f64], columns: &Columns, impulse: f64) {
+    for (column, value) in columns {
+        right[*column] += value * impulse;
+    }
+}
+
+/// The shortest segment that is stable under a tension, in m: `h sqrt(T / mu)` over the margin.
+pub(in crate::wire) fn shortest(wire: &Wire, tension: f64, world: &World) -> f64 {
+    let speed = (tension.max(0.0) / wire.material.mass_per_length()).sqrt();
+    world.settings.step * speed / world.settings.stability_margin
+}
+
+/// A right-handed frame with `normal` as its first row.
+pub(super) fn frame(normal: &Vector) -> Matrix3<f64> {
+    let axis = normal.iamin();
+    let first = normal.cross(&Vector::ith(axis, 1.0)).normalize();
+    let second = normal.cross(&first);
+    Matrix3::from_rows(&[normal.transpose(), first.transpose(), second.transpose()])
+}

@@ -1,0 +1,84 @@
+//! The same world gives the same bits in every build: a hash of all positions after 300 steps.
+//!
+//! It runs optimised (`cargo test --release`) and not (`CARGO_PROFILE_TEST_OPT_LEVEL=0 cargo test --test
+//! wire_determinism`): a transformation that changed floating-point results would show here. A change of
+//! the stepper that changes results on purpose changes the hash.
+
+#![cfg(feature = "wire")]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use tunnelproof::query::Point;
+use tunnelproof::wire::{
+    BodyPlan, Contact, Drive, Material, Place, Settings, Shape, Stop, Vector, WirePlan, World,
+};
+
+/// A tumbling box between an adaptive steel wire and a chain, which hits the ground.
+fn world() -> World {
+    let mut world = World::new(Settings::default()).unwrap();
+    let half = Vector::new(0.3, 0.4, 0.5);
+    let plan = BodyPlan {
+        drive: Drive::Dynamic {
+            density: 2000.0,
+            velocity: Vector::new(1.0, 2.0, 3.0),
+            angular_velocity: Vector::new(4.0, 5.0, -6.0),
+        },
+        ..BodyPlan::dynamic(Shape::Box { half }, 2000.0, Point::new(0.0, 0.0, 0.7))
+    };
+    let body = world.add_body(plan).unwrap();
+    let local = Vector::new(0.3, 0.4, 0.5);
+    let top = Stop::Pinned(Point::new(0.0, 1.0, 5.0));
+    let steel = Material::steel(0.01);
+    let plan = WirePlan::new(steel, 0.25, vec![top, Stop::Eye { body, local }]);
+    world.add_wire(&plan.adaptive()).unwrap();
+    let local = -local;
+    let side = Stop::Free(Point::new(4.0, 1.0, 3.0));
+    let plan = WirePlan::new(steel.chain(), 0.25, vec![side, Stop::Eye { body, local }]);
+    world.add_wire(&plan).unwrap();
+    world
+}
+
+/// Every corner of the box against the ground.
+fn contacts(world: &World) -> Vec<Contact> {
+    let corner = |key: u64| {
+        let sign = |bit: u64| if key >> bit & 1 == 1 { 1.0 } else { -1.0 };
+        let local = Vector::new(0.3 * sign(0), 0.4 * sign(1), 0.5 * sign(2));
+        let body = tunnelproof::wire::BodyId(0);
+        Contact {
+            key,
+            a: Place::Body { body, local },
+            b: Place::World,
+            normal: Vector::z(),
+            gap: world.bodies()[0].point(&local).z,
+            friction: 0.5,
+        }
+    };
+    (0..8).map(corner).collect()
+}
+
+/// FNV-1a over the bits of every coordinate.
+fn hash(world: &World) -> u64 {
+    let nodes = world.wires().iter().flat_map(|wire| wire.nodes());
+    let points = nodes.map(|node| node.position);
+    let points = points.chain(world.bodies().iter().map(|body| body.position()));
+    let bytes = points.flat_map(|p| [p.x, p.y, p.z].map(f64::to_bits));
+    let bytes = bytes.flat_map(u64::to_le_bytes);
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)
+    })
+}
+
+#[test]
+fn steps_give_the_same_bits_in_every_build() {
+    let mut world = world();
+    let mut touched = false;
+    let mut remeshed = 0;
+    for _ in 0..300 {
+        let list = contacts(&world);
+        let record = world.step(&list).unwrap();
+        touched |= record.contacts.iter().any(|c| c.normal_force() > 0.0);
+        remeshed += record.remeshes.len();
+    }
+    // All parts of a step took part.
+    assert!(touched && remeshed > 0, "{touched} {remeshed}");
+    assert_eq!(hash(&world), 0x43cc_60db_b5f0_8464, "{:#x}", hash(&world));
+}

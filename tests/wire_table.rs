@@ -1,0 +1,42 @@
+//! Every case with a known answer, within its tolerance.
+
+#![cfg(feature = "wire")]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use tunnelproof::scenario::analytic::CASES;
+
+/// One test for each case, so that they run side by side and fail one by one.
+macro_rules! cases {
+    ($($test:ident: $name:literal,)*) => {
+        $(#[test]
+        fn $test() {
+            let case = CASES.iter().find(|case| case.name == $name).unwrap();
+            let rows = (case.run)().unwrap();
+            assert!(!rows.is_empty());
+            for row in rows {
+                assert!(row.holds(), "{}: {row:?}, off by {:e}", case.name, row.deviation());
+            }
+        })*
+
+        #[test]
+        fn table_has_a_test_for_every_case() {
+            let tested = [$($name),*];
+            assert!(CASES.iter().all(|case| tested.contains(&case.name)));
+        }
+    };
+}
+
+cases! {
+    free_fall_is_exact_for_the_integrator: "free fall",
+    stretch_is_hookes: "elastic stretch",
+    pendulum_has_its_period: "pendulum",
+    string_has_the_modes_of_its_segments: "string modes",
+    chain_hangs_in_a_catenary: "catenary",
+    cantilever_bends_as_a_beam: "cantilever",
+    capstan_holds_the_ratio_of_tensions: "capstan",
+    incline_holds_up_to_the_coefficient_of_friction: "incline",
+    crossing_wires_rest_on_each_other: "crossing wires at rest",
+    twisted_wires_lift_and_turn_their_load: "four wires twisted",
+    momentum_of_an_isolated_system_stays: "momentum",
+    energy_never_rises_but_for_the_order_of_the_step: "energy",
+}
