@@ -8,6 +8,7 @@
 
 pub mod additive;
 pub mod certified;
+mod closest;
 pub mod contact;
 pub mod narrow;
 pub mod query;
