@@ -7,6 +7,7 @@
 //! by the crate `tunnelproof-reference`, which the engine never uses.
 
 pub mod additive;
+pub mod broad;
 pub mod certified;
 mod closest;
 pub mod contact;
