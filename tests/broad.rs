@@ -163,6 +163,47 @@ proptest! {
     }
 }
 
+/// Whether exclusion leaves a pair of segments at rest in, the sum of their radii given.
+fn remains([a, b, c, d]: [Point; 4], radius: f64) -> bool {
+    let mut broad = BroadPhase::new(Method::BruteForce);
+    let mut slow = SlowPairs::default();
+    let still = Aabb::swept(&[a], &[a], 0.0).unwrap();
+    for (ends, radius) in [([a, b], radius), ([c, d], 0.0)] {
+        let item = broad.insert(still);
+        slow.place(item, ends, radius).unwrap();
+    }
+    slow.remaining(broad.pairs(|_| true)).len() == 1
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 300,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn exclusion_takes_no_distance_for_larger_than_it_is_and_wastes_little(
+        points in prop::array::uniform4(prop::array::uniform3(-1.0..1.0f64)),
+    ) {
+        let points = points.map(Point::from);
+        let still = EdgeEdge::new(points, points, 0.0).unwrap();
+        // The least radius at which they touch, to the last bit.
+        let (mut apart, mut within) = (0, 4f64.to_bits());
+        while within - apart > 1 {
+            let middle = apart + (within - apart) / 2;
+            if comes_within(&still, f64::from_bits(middle)) {
+                within = middle;
+            } else {
+                apart = middle;
+            }
+        }
+        let least = f64::from_bits(within);
+        prop_assert!(remains(points, least));
+        prop_assert!(least < 1e-3 || !remains(points, least * (1.0 - 1e-9)));
+    }
+}
+
 #[test]
 fn exclusion_leaves_out_most_of_a_slow_scene_and_stops_in_time() {
     // Two segments whose boxes overlap all the time; one comes down on the other at 1/64 a step.

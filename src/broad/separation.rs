@@ -60,3 +60,34 @@ fn norm_above(v: &[f64; 3]) -> f64 {
     let sum = (squares[0] + squares[1]).next_up() + squares[2];
     sum.next_up().sqrt().next_up()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distance_below_is_within_rounding_of_a_distance_from_either_end() {
+        let p = Point::new;
+        let upright = [p(0.0, 0.0, -5.0), p(0.0, 0.0, 0.0)];
+        let across = [p(0.0, -1.0, 1.0), p(0.0, 7.0, 1.0)];
+        for first in [upright, [upright[1], upright[0]]] {
+            for second in [across, [across[1], across[0]]] {
+                for bound in [
+                    distance_below(&first, &second),
+                    distance_below(&second, &first),
+                ] {
+                    assert!((1.0 - 1e-14..=1.0).contains(&bound), "{bound}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn distance_above_is_within_rounding_of_a_distance() {
+        let far = distance_above(&Point::new(1.0, 2.0, 3.0), &Point::new(3.0, 5.0, 9.0));
+        assert!((7.0..7.0 + 1e-14).contains(&far), "{far}");
+        let [most, least] = [f64::MAX, -f64::MAX].map(|x| Point::new(x, x, x));
+        assert_eq!(distance_above(&most, &least), f64::INFINITY);
+        assert!(distance_above(&Point::origin(), &Point::new(0.0, 5e-324, 0.0)) >= 5e-324);
+    }
+}
