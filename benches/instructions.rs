@@ -1,8 +1,10 @@
-//! Instructions per query by callgrind: a count that repeats exactly, whatever else the machine does.
+//! Instructions per query of the narrow phases, and per segment and step of the broad phases, by
+//! callgrind: a count that repeats exactly, whatever else the machine does.
 //!
 //! `cargo bench --bench instructions`, where `valgrind` is present; elsewhere it says so and ends. Each
 //! method runs over each set under `valgrind --tool=callgrind`, and once more without doing anything, to
-//! take off what reading the queries costs.
+//! take off what reading the queries costs. A broad phase runs for one step, which sorts and fills, and
+//! for [`STEPS`] more.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
@@ -14,27 +16,44 @@ use std::hint::black_box;
 use std::process::Command;
 
 use tunnelproof::additive::Additive;
+use tunnelproof::broad::Method;
 use tunnelproof::certified::{self, Batch};
 use tunnelproof::narrow::NarrowPhase;
 use tunnelproof::query::EdgeEdge;
 use tunnelproof::thesis::Thesis;
 
 mod data;
+mod scenes;
+
+/// Steps of a broad phase that are counted.
+const STEPS: usize = 4;
 
 const METHODS: [&str; 4] = ["thesis", "additive", "certified", "certified-batch"];
 
 fn main() {
     let arguments: Vec<String> = env::args().skip(1).collect();
-    if let [run, set, method] = arguments.as_slice()
-        && run == "run"
-    {
-        work(set, method);
-        return;
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match arguments[..] {
+        ["run", set, method] => return work(set, method),
+        ["step", scene, count, method, steps] => {
+            return step(
+                scene,
+                count.parse().unwrap(),
+                method,
+                steps.parse().unwrap(),
+            );
+        }
+        _ => {}
     }
     if Command::new("valgrind").arg("--version").output().is_err() {
         println!("valgrind is not here: no instructions counted");
         return;
     }
+    narrow_phases();
+    broad_phases();
+}
+
+fn narrow_phases() {
     println!("instructions per query");
     println!(
         "{:<24}{:>10}{}",
@@ -43,27 +62,47 @@ fn main() {
         METHODS.map(|m| format!("{m:>17}")).concat()
     );
     for (set, queries) in data::sets() {
-        let idle = instructions(set, "none");
-        let idle_batch = instructions(set, "none-batch");
+        let idle = instructions(&["run", set, "none"]);
+        let idle_batch = instructions(&["run", set, "none-batch"]);
         let cells = METHODS.map(|method| {
             let base = if method.ends_with("batch") {
                 idle_batch
             } else {
                 idle
             };
-            let each = (instructions(set, method) - base) / queries.len() as u64;
+            let each = (instructions(&["run", set, method]) - base) / queries.len() as u64;
             format!("{each:>17}")
         });
         println!("{set:<24}{:>10}{}", queries.len(), cells.concat());
     }
 }
 
-/// The instructions of one run over a set, all included.
-fn instructions(set: &str, method: &str) -> u64 {
+fn broad_phases() {
+    println!("\ninstructions per segment and step, and pairs that need a test in the last step");
+    let names = scenes::METHODS.map(|(name, ..)| format!("{name:>26}"));
+    println!("{:<8}{:>9}{}", "scene", "segments", names.concat());
+    for (name, scene) in scenes::SCENES {
+        for count in scenes::SIZES {
+            let cells = scenes::METHODS.map(|method| {
+                let steps = |steps: usize| {
+                    let (count, steps) = (count.to_string(), steps.to_string());
+                    instructions(&["step", name, &count, method.0, &steps])
+                };
+                let each = (steps(1 + STEPS) - steps(1)) / (STEPS * count) as u64;
+                let pairs = last_step(scene(count), method, 1 + STEPS);
+                format!("{each:>16}{pairs:>10}")
+            });
+            println!("{name:<8}{count:>9}{}", cells.concat());
+        }
+    }
+}
+
+/// The instructions of one run of this program, all included.
+fn instructions(arguments: &[&str]) -> u64 {
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
         .arg(env::current_exe().unwrap())
-        .args(["run", set, method])
+        .args(arguments)
         .output()
         .unwrap();
     let report = String::from_utf8_lossy(&output.stderr);
@@ -93,6 +132,20 @@ fn work(set: &str, method: &str) {
         "certified-batch" => batch().decide(|_, hit| consume(hit)),
         _ => panic!("no such method: {method}"),
     }
+}
+
+fn step(scene: &str, count: usize, method: &str, steps: usize) {
+    let mut scenes = scenes::SCENES.into_iter();
+    let (_, scene) = scenes.find(|(name, _)| *name == scene).unwrap();
+    let mut methods = scenes::METHODS.into_iter();
+    let method = methods.find(|(name, ..)| *name == method).unwrap();
+    consume(last_step(scene(count), method, steps));
+}
+
+/// The pairs that need a test in the last of some steps.
+fn last_step(scene: scenes::Scene, method: (&str, Method, bool), steps: usize) -> usize {
+    let mut run = scenes::Run::new(scene, method);
+    (0..steps).map(|_| run.step()).last().unwrap_or(0)
 }
 
 fn consume<T>(value: T) {

@@ -7,6 +7,7 @@
 
 use nalgebra::Vector3;
 
+use crate::closest::{closest, distance};
 use crate::contact::{Contact, ContactPoint, Flags, Verdict};
 use crate::narrow::{NarrowPhase, Report, Unsupported};
 use crate::query::{EdgeEdge, Point};
@@ -88,45 +89,6 @@ impl Additive {
     }
 }
 
-/// The distance of two segments.
-fn distance(x: &[Vector3<f64>; 4]) -> f64 {
-    let (u, v) = closest(x);
-    let [a, b, c, d] = x;
-    (a + (b - a) * u - c - (d - c) * v).norm()
-}
-
-/// The parameters of the closest points of two segments (Ericson, Real-Time Collision Detection,
-/// 5.1.9).
-fn closest([a, b, c, d]: &[Vector3<f64>; 4]) -> (f64, f64) {
-    let (k, l, r) = (b - a, d - c, a - c);
-    let (kk, ll, lr) = (k.dot(&k), l.dot(&l), l.dot(&r));
-    if kk == 0.0 && ll == 0.0 {
-        return (0.0, 0.0);
-    }
-    if kk == 0.0 {
-        return (0.0, (lr / ll).clamp(0.0, 1.0));
-    }
-    let kr = k.dot(&r);
-    if ll == 0.0 {
-        return ((-kr / kk).clamp(0.0, 1.0), 0.0);
-    }
-    let kl = k.dot(&l);
-    let determinant = kk * ll - kl * kl;
-    let u = if determinant > 0.0 {
-        ((kl * lr - kr * ll) / determinant).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
-    let v = (kl * u + lr) / ll;
-    if v < 0.0 {
-        ((-kr / kk).clamp(0.0, 1.0), 0.0)
-    } else if v > 1.0 {
-        (((kl - kr) / kk).clamp(0.0, 1.0), 1.0)
-    } else {
-        (u, v)
-    }
-}
-
 fn contact_at(query: &EdgeEdge, toi: f64) -> Contact {
     let at = |i: usize| query.start()[i].coords.lerp(&query.end()[i].coords, toi);
     let positions = [at(0), at(1), at(2), at(3)];
@@ -181,17 +143,5 @@ mod tests {
     fn additive_calls_a_near_approach_a_hit() {
         // It comes down to 1/32 of the first distance and no farther.
         assert!(toi(&falling(1.0, 0.03125)).is_some());
-    }
-
-    #[test]
-    fn closest_points_of_parallel_and_point_segments() {
-        let v = Vector3::new;
-        let (a, b) = (v(0.0, 0.0, 0.0), v(1.0, 0.0, 0.0));
-        assert_eq!(
-            distance(&[a, b, v(3.0, 1.0, 0.0), v(2.0, 1.0, 0.0)]),
-            2f64.sqrt()
-        );
-        assert_eq!(distance(&[a, a, v(-1.0, 2.0, 0.0), v(1.0, 2.0, 0.0)]), 2.0);
-        assert_eq!(distance(&[a, b, v(0.25, 0.0, 3.0), v(0.25, 0.0, 3.0)]), 3.0);
     }
 }

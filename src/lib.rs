@@ -7,7 +7,9 @@
 //! by the crate `tunnelproof-reference`, which the engine never uses.
 
 pub mod additive;
+pub mod broad;
 pub mod certified;
+mod closest;
 pub mod contact;
 pub mod narrow;
 pub mod query;
