@@ -11,14 +11,14 @@ use std::error::Error;
 use std::path::PathBuf;
 use std::{env, fs};
 
-use tunnelproof_reference::fuzz::TARGETS;
+use tunnelproof_reference::fuzz::{SEEDS, TARGETS};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = PathBuf::from(env::args().nth(1).unwrap_or("fuzz/corpus".to_owned()));
     for target in TARGETS {
         let folder = folder.join(target.name);
         fs::create_dir_all(&folder)?;
-        let seeds = target.seeds();
+        let seeds = target.seeds(SEEDS);
         for (index, seed) in seeds.iter().enumerate() {
             fs::write(folder.join(format!("seed-{index:02}")), seed)?;
         }

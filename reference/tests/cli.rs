@@ -504,6 +504,15 @@ fn replay_takes_the_target_from_the_folder_and_shows_the_query() {
     assert_eq!(code(&with_input(&["eval", "-"], line)), 0);
     let output = tunnelproof(&["replay", "--target", "parsers", path]);
     assert!(stdout(&output).ends_with(": parsers finds nothing\n"));
+    fs::write(target.join("crash-2"), [0, 2, 1]).unwrap();
+    let output = tunnelproof(&["replay", target.to_str().unwrap()]);
+    assert_eq!(code(&output), 0);
+    assert_eq!(
+        stdout(&output)
+            .matches(": oracle_vs_shadow finds nothing")
+            .count(),
+        2
+    );
     let (_other, stray) = file("bytes", [1, 2, 3]);
     let output = tunnelproof(&["replay", &stray]);
     assert_refused(&output, &stray, None, "pass --target");

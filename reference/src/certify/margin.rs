@@ -18,6 +18,8 @@ use crate::oracle::{self, Step};
 use crate::poly::Poly;
 use crate::scaled::Scaled;
 
+mod confined;
+
 type Z = field::Default;
 
 /// The unit roundoff of `f64`.
@@ -40,8 +42,9 @@ pub fn is_clear(query: &EdgeEdge, thresholds: &Thresholds) -> bool {
         // Points that are equal at both ends of the step are so in `f64`, and nothing more is asked.
         Case::Degenerate => true,
         Case::SharedStart => same(0, 1) && same(2, 3),
-        // Here every answer is one of several thresholds.
-        Case::Parallel | Case::Collinear | Case::Coplanar => false,
+        case @ (Case::Parallel | Case::Collinear | Case::Coplanar) => {
+            confined::is_clear(query, case, thresholds)
+        }
         Case::General => {
             let unit = Scaled::<Z>::new(&Query::EdgeEdge(*query)).exponent;
             let f = TripleProduct::new(decision.f(), unit, sizes.error_of_f());

@@ -22,10 +22,11 @@ Examples:
   tunnelproof explain figure:4.3
   tunnelproof explain lattice:1:4711 --svg picture.svg
   tunnelproof explain 'unit-tests/edge-edge/data_0_1.csv#12'
+  tunnelproof explain vectors/errata.json#erratum:strict-skip --svg picture.svg
   head -1 queries.jsonl | tunnelproof explain -")]
 pub(super) struct Explain {
-    /// figure:NAME, FAMILY:SEED:INDEX, PATH.csv#INDEX, PATH.jsonl#ID, or - for a line on the
-    /// standard input
+    /// figure:NAME, FAMILY:SEED:INDEX, PATH.csv#INDEX, PATH.jsonl#ID, PATH.json#ID of a test vector, or
+    /// - for a line on the standard input
     query: String,
     /// Write a picture to this file
     #[arg(long, value_name = "OUT")]

@@ -17,12 +17,13 @@ use super::output::print;
 #[command(after_help = "\
 Examples:
   tunnelproof replay fuzz/artifacts/oracle_vs_shadow/crash-0a1b2c
+  tunnelproof replay fuzz/corpus/thesis_vs_shadow
   tunnelproof replay --target parsers bytes
 
-For each file: what is found, with the query, everyone's answer, the smallest query that shows the same
+For each file, or each file in a folder: what is found, with the query, everyone's answer, the smallest query that shows the same
 and the commands that explain both; or that nothing is found. Exit code 1 if anything is.")]
 pub(super) struct Replay {
-    /// Files of bytes, as the fuzzer writes them
+    /// Files of bytes, as the fuzzer writes them, or folders of such files
     #[arg(required = true, value_name = "FILE")]
     files: Vec<String>,
     /// Which target; by default the one that the file's folder is called after
@@ -33,7 +34,7 @@ pub(super) struct Replay {
 impl Replay {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
         let mut code = ExitCode::SUCCESS;
-        for path in &self.files {
+        for path in &files(&self.files)? {
             let target = match self.target.or_else(|| target_of(path)) {
                 Some(target) => target,
                 None => return Err(Failure::Target(path.clone())),
@@ -50,6 +51,26 @@ impl Replay {
         }
         Ok(code)
     }
+}
+
+/// The paths, and instead of a folder the files in it, in the order of their names.
+fn files(paths: &[String]) -> Result<Vec<String>, CorpusError> {
+    let mut files = Vec::new();
+    for path in paths {
+        let failed = |error| CorpusError::new(path, Problem::Io(error));
+        if !Path::new(path).is_dir() {
+            files.push(path.clone());
+            continue;
+        }
+        let entries = std::fs::read_dir(path).map_err(failed)?;
+        let names: Result<Vec<_>, _> = entries
+            .map(|entry| entry.map(|entry| entry.path()))
+            .collect();
+        let mut names = names.map_err(failed)?;
+        names.sort();
+        files.extend(names.iter().map(|name| name.to_string_lossy().into_owned()));
+    }
+    Ok(files)
 }
 
 fn nothing(path: &str, target: &Target, bytes: &[u8]) -> String {

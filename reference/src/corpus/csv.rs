@@ -20,6 +20,10 @@ use super::lines::Line;
 use super::{Entry, ReadOptions};
 use crate::field::{self, Integer};
 
+/// The longest integer that is read, in characters: that of a subnormal `f64` takes 1,100, a fraction
+/// need not be in lowest terms, and the time that conversion takes grows with the square.
+pub(super) const LONGEST_INTEGER: usize = 1 << 13;
+
 const COLUMNS: [&str; 7] = [
     "x_num", "x_den", "y_num", "y_den", "z_num", "z_den", "label",
 ];
@@ -157,6 +161,9 @@ fn coordinate(axis: usize, numerator: &str, denominator: &str) -> Result<f64, Pr
         return Ok(value);
     }
     let integer = |column: usize, text: &str| {
+        if text.len() > LONGEST_INTEGER {
+            return Err(Problem::IntegerTooLong(COLUMNS[column]));
+        }
         field::Default::from_decimal(text).ok_or_else(|| Problem::NotInteger {
             column: COLUMNS[column],
             text: text.to_owned(),

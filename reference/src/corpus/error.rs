@@ -6,6 +6,7 @@ use std::io;
 use tunnelproof::query::{QueryError, QueryKind};
 use tunnelproof::scenario::figures::FIGURES;
 
+use super::csv::LONGEST_INTEGER;
 use super::dyadic::NotF64;
 use super::hexfloat::HexFloatError;
 use super::lines::LONGEST_LINE;
@@ -102,6 +103,9 @@ pub enum Problem {
         /// What it holds.
         text: String,
     },
+    /// A column holds more characters than any coordinate needs.
+    #[error("{0} is longer than {LONGEST_INTEGER} characters")]
+    IntegerTooLong(&'static str),
     /// A denominator is 0.
     #[error("{0} is 0")]
     ZeroDenominator(&'static str),
@@ -142,8 +146,8 @@ pub enum Problem {
     },
     /// The text is not of the form of an identifier.
     #[error(
-        "not a query: that is PATH.csv#INDEX, PATH.jsonl#ID, FAMILY:SEED:INDEX, figure:NAME, or - \
-         for the standard input"
+        "not a query: that is PATH.csv#INDEX, PATH.jsonl#ID, PATH.json#ID, FAMILY:SEED:INDEX, \
+         figure:NAME, or - for the standard input"
     )]
     Identifier,
     /// The text has the form of a figure, but names none.

@@ -82,7 +82,8 @@ pub(super) fn entries<I: Iterator<Item = Result<Line, CorpusError>>>(
     })
 }
 
-fn entry(line: &Line, options: ReadOptions) -> Result<Entry, Problem> {
+/// The query of one line.
+pub(super) fn entry(line: &Line, options: ReadOptions) -> Result<Entry, Problem> {
     let record = Record::read(&line.text)?;
     let stated = match record.kind {
         Some(name) => Some(QueryKind::from_name(&name).ok_or(Problem::KindUnknown(name))?),
@@ -153,7 +154,7 @@ impl Record {
     }
 }
 
-fn problem(place: String, error: &serde_json::Error) -> Problem {
+pub(super) fn problem(place: String, error: &serde_json::Error) -> Problem {
     let column = error.column();
     let message = error.to_string();
     let message = match message.rsplit_once(" at line ") {

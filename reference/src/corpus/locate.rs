@@ -5,8 +5,8 @@ use tunnelproof::query::Query;
 use super::{CorpusError, Entry, Format, Problem, ReadOptions, figures, open};
 use crate::generate::{GeneratedId, IdError};
 
-/// The query that `identifier` names: `PATH.csv#INDEX`, `PATH.jsonl#ID`, `FAMILY:SEED:INDEX`,
-/// `figure:NAME`, or `-` for the first one on the standard input.
+/// The query that `identifier` names: `PATH.csv#INDEX`, `PATH.jsonl#ID`, `PATH.json#ID`,
+/// `FAMILY:SEED:INDEX`, `figure:NAME`, or `-` for the first one on the standard input.
 ///
 /// `PATH` ends at the first `#` after an extension of a corpus. A file is read up to the query, and
 /// of several with one `id` the first is taken.

@@ -1,7 +1,7 @@
 //! Corpora: files of queries, and the identifiers that name a query.
 //!
-//! Two formats are read: [`jsonl`], this project's own, and [`csv`], the public CCD query format.
-//! Reading streams, so memory does not grow with the file. Input is exact: a coordinate is the
+//! Read are [`jsonl`], this project's own format, [`csv`], the public CCD query format, and files of test
+//! vectors. The first two stream, so memory does not grow with the file. Input is exact: a coordinate is the
 //! `f64` that the file states, or the file is refused.
 //!
 //! A query is known by an identifier that [`locate`](locate::locate) resolves:
@@ -10,6 +10,7 @@
 //! | --- | --- |
 //! | `PATH.csv#INDEX` | of a csv file, counted from 0 |
 //! | `PATH.jsonl#ID` | of a jsonl file, with this `id` |
+//! | `PATH.json#ID` | of a file of test vectors, with this `id` |
 //! | `FAMILY:SEED:INDEX` | of a [family](crate::generate) |
 //! | `figure:NAME` | of a [figure](figures) of the thesis |
 //! | `-` | the first on the standard input |
@@ -31,6 +32,7 @@ pub mod hexfloat;
 pub mod jsonl;
 mod lines;
 pub mod locate;
+mod vector_file;
 
 use lines::Lines;
 
@@ -84,7 +86,7 @@ impl ReadOptions {
 /// The formats of corpora.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// [`jsonl`].
+    /// [`jsonl`], or a file of test vectors.
     Jsonl,
     /// [`csv`].
     Csv,
@@ -136,7 +138,7 @@ pub fn open(path: &str, options: ReadOptions) -> Result<Entries, CorpusError> {
 ///
 /// # Errors
 ///
-/// [`CorpusError`] if the kind of a csv is not known.
+/// [`CorpusError`] if the kind of a csv is not known, or for a file of vectors that is not JSON.
 pub fn read(
     reader: impl BufRead + Send + 'static,
     path: &str,
@@ -148,7 +150,14 @@ pub fn read(
         Some(Ok(line)) => Format::of_first_line(&line.text),
         _ => Format::Jsonl,
     });
+    let is_of_vectors = match lines.peek() {
+        Some(Ok(line)) => line.text.trim_start() == vector_file::FIRST_LINE,
+        _ => false,
+    };
     Ok(match format {
+        Format::Jsonl if is_of_vectors => {
+            Box::new(until_error(vector_file::entries(lines, path, options)?))
+        }
         Format::Jsonl => Box::new(until_error(jsonl::entries(lines, path, options))),
         Format::Csv => Box::new(until_error(csv::entries(lines, path, options)?)),
     })

@@ -129,19 +129,19 @@ fn guarded(check: impl FnOnce() -> Option<String>) -> Option<String> {
     catch_unwind(AssertUnwindSafe(check)).unwrap_or_else(|_| Some("panics".to_owned()))
 }
 
-/// How many seeds of a corpus each kind of input has.
-const SEEDS: u64 = 12;
+/// How many seeds of a corpus each kind of input has, if nothing else is said.
+pub const SEEDS: u64 = 12;
 
 impl Target {
-    /// Bytes to start fuzzing with, always the same: some queries of every family, or random bytes, or
-    /// files for the readers.
-    pub fn seeds(&self) -> Vec<Vec<u8>> {
+    /// Bytes to start fuzzing with, always the same: `count` queries of every family, or that many times
+    /// random bytes, or files for the readers.
+    pub fn seeds(&self, count: u64) -> Vec<Vec<u8>> {
         match self.check {
             Check::Query(_) => (0..FAMILIES.len())
-                .flat_map(|family| (0..SEEDS).map(move |seed| input::seed(family, &random(seed))))
+                .flat_map(|family| (0..count).map(move |seed| input::seed(family, &random(seed))))
                 .collect(),
             Check::Bytes(_) if self.name == "parsers" => parsers::seeds(),
-            Check::Bytes(_) => (0..SEEDS).map(random).collect(),
+            Check::Bytes(_) => (0..count).map(random).collect(),
         }
     }
 

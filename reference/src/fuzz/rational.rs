@@ -3,8 +3,9 @@
 use std::cmp::Ordering;
 
 use num_bigint::BigInt;
+use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Zero};
 
 /// Coefficients, that of the highest power last and not 0; none for 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,17 +36,33 @@ impl Rational {
         }
     }
 
-    /// Divided by the magnitude of the leading coefficient: small numbers, the same signs.
+    /// Times a number above 0: integers without a common factor.
     fn scaled(&self) -> Self {
-        match self.0.last() {
-            Some(leading) => Rational(self.0.iter().map(|c| c / leading.abs()).collect()),
-            None => self.clone(),
-        }
+        let denominators = self.0.iter().map(|c| c.denom().clone());
+        let multiple = denominators.fold(BigInt::one(), |a, b| a.lcm(&b));
+        let integers: Vec<BigInt> = self
+            .0
+            .iter()
+            .map(|c| c.numer() * (&multiple / c.denom()))
+            .collect();
+        let divisor = integers.iter().fold(BigInt::zero(), |a, b| a.gcd(b));
+        Rational::new(
+            integers
+                .into_iter()
+                .map(|c| BigRational::from_integer(c / &divisor))
+                .collect(),
+        )
     }
 
-    fn at(&self, t: &BigRational) -> BigRational {
-        let horner = |sum: BigRational, c: &BigRational| sum * t + c;
-        self.0.iter().rev().fold(BigRational::zero(), horner)
+    /// The sign of the value at `t = n / d` of a polynomial with integer coefficients: that of the sum of
+    /// `c_i n^i d^(k - i)`, without a fraction.
+    fn sign(&self, t: &BigRational) -> Ordering {
+        let (mut sum, mut power) = (BigInt::zero(), BigInt::one());
+        for c in self.0.iter().rev() {
+            sum = sum * t.numer() + c.numer() * &power;
+            power *= t.denom();
+        }
+        sum.cmp(&BigInt::zero())
     }
 
     fn derivative(&self) -> Self {
@@ -101,14 +118,14 @@ impl Rational {
                 upper
             };
         }
-        self.at(&interval[1]).cmp(&BigRational::zero())
+        self.scaled().sign(&interval[1])
     }
 }
 
 /// `(low, high]`.
 pub(super) type Interval = [BigRational; 2];
 
-/// The Sturm chain of the polynomial with the same roots, each once.
+/// The Sturm chain of the polynomial with the same roots, each once; coefficients are integers.
 pub(super) struct Sturm(Vec<Rational>);
 
 impl Sturm {
@@ -131,11 +148,8 @@ impl Sturm {
     }
 
     fn variations(&self, t: &BigRational) -> usize {
-        let values = self.0.iter().map(|p| p.at(t));
-        let signs: Vec<bool> = values
-            .filter(|value| !value.is_zero())
-            .map(|value| value.is_positive())
-            .collect();
+        let signs = self.0.iter().map(|p| p.sign(t));
+        let signs: Vec<_> = signs.filter(|sign| sign.is_ne()).collect();
         signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
     }
 
@@ -144,17 +158,20 @@ impl Sturm {
         let width = BigRational::new(BigInt::one(), BigInt::one() << bits);
         let mut found = Vec::new();
         // `(0, 1]` does not hold 0.
-        if self.0[0].at(&BigRational::zero()).is_zero() {
+        if self.0[0].sign(&BigRational::zero()).is_eq() {
             found.push(self.around_zero(&width));
         }
-        let mut open = vec![[BigRational::zero(), BigRational::one()]];
-        while let Some(interval) = open.pop() {
-            match self.count(&interval) {
+        let unit = [BigRational::zero(), BigRational::one()];
+        let count = self.count(&unit);
+        let mut open = vec![(unit, count)];
+        while let Some((interval, count)) = open.pop() {
+            match count {
                 0 => {}
                 1 if &interval[1] - &interval[0] <= width => found.push(interval),
                 _ => {
                     let [lower, upper] = halves(&interval);
-                    open.extend([upper, lower]);
+                    let in_lower = self.count(&lower);
+                    open.extend([(upper, count - in_lower), (lower, in_lower)]);
                 }
             }
         }

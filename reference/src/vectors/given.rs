@@ -2,13 +2,17 @@
 
 use std::io::Cursor;
 
+use tunnelproof::query::Query;
 use tunnelproof::scenario::figures::FIGURES;
-use tunnelproof::thesis::Erratum;
+use tunnelproof::thesis::{Erratum, Repairs};
 
 use super::Source;
 use super::flag::Flag;
 use super::vector::Described;
 use crate::corpus::{self, Entry, Format, ReadOptions, figures};
+use crate::oracle::decide_query;
+use crate::shadow::Shadow;
+use crate::shrink::{Disagreement, MOST_CALLS};
 
 /// The page with the witnesses, each a line of JSON.
 const ERRATA: &str = include_str!("../../../docs/errata.md");
@@ -44,24 +48,47 @@ pub(super) fn errata() -> Source {
     let entries = entries.expect("the format is stated");
     Source {
         name: "errata".to_owned(),
-        description: "witnesses of the errata of the thesis' text, from docs/errata.md".to_owned(),
+        description:
+            "witnesses of the errata of the thesis' text, from docs/errata.md, and the smallest \
+                      queries that show the same"
+                .to_owned(),
         queries: entries
-            .map(|entry| witness(entry.expect("the page has a query on each such line")))
+            .flat_map(|entry| with_smallest(entry.expect("the page has a query on each such line")))
             .collect(),
     }
 }
 
-fn witness(entry: Entry) -> Described {
+/// The witness of the page, and the smallest query that shows the same.
+fn with_smallest(entry: Entry) -> impl Iterator<Item = Described> {
     let name = entry.id.split('/').next().unwrap_or_default();
     let erratum = Erratum::from_name(name).expect("a witness is called after its erratum");
-    Described {
-        comment: format!(
-            "witness of the erratum {erratum} of Algorithm {}",
-            erratum.algorithm()
-        ),
-        id: format!("erratum:{}", entry.id),
+    let algorithm = erratum.algorithm();
+    let id = format!("erratum:{}", entry.id);
+    let described = move |id, comment, query| Described {
+        id,
+        comment,
         flags: vec![Flag::Erratum(erratum)],
         wire: None,
-        query: entry.query,
-    }
+        query,
+    };
+    let smallest = smallest(erratum, &entry.query).map(|query| {
+        let comment = format!("shrunk from {id}, as long as the erratum {erratum} shows the same");
+        described(format!("{id}/shrunk"), comment, query)
+    });
+    let comment = format!("witness of the erratum {erratum} of Algorithm {algorithm}");
+    [described(id, comment, entry.query)]
+        .into_iter()
+        .chain(smallest)
+}
+
+/// The query shrunk as long as the text, all errata but this one repaired, is wrong in the same way;
+/// `None` if it is right, since it takes rounding to show this one.
+fn smallest(erratum: Erratum, query: &Query) -> Option<Query> {
+    let subject = Shadow::new(Repairs::ALL.without(erratum));
+    let disagreement = Disagreement {
+        subject: &subject,
+        truth: decide_query,
+    };
+    let fault = disagreement.fault(query).ok().flatten()?;
+    Some(disagreement.shrink(query, fault, MOST_CALLS).query)
 }

@@ -38,8 +38,8 @@ fn locate_errors_say_what_is_missing() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.csv").to_str().unwrap().to_owned();
     std::fs::write(&path, csv_with(ROW).repeat(3)).unwrap();
-    let forms = "not a query: that is PATH.csv#INDEX, PATH.jsonl#ID, FAMILY:SEED:INDEX, figure:NAME, \
-                 or - for the standard input";
+    let forms = "not a query: that is PATH.csv#INDEX, PATH.jsonl#ID, PATH.json#ID, \
+                 FAMILY:SEED:INDEX, figure:NAME, or - for the standard input";
     for (id, message) in [
         (
             format!("{path}#3"),

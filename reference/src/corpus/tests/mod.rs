@@ -7,6 +7,7 @@ mod identifiers;
 mod properties;
 mod read_csv;
 mod read_jsonl;
+mod read_vectors;
 
 const EDGE_EDGE: ReadOptions = ReadOptions {
     kind: Some(QueryKind::EdgeEdge),

@@ -131,6 +131,25 @@ fn csv_error_has_its_line_and_ends_the_corpus() {
 }
 
 #[test]
+fn csv_integers_are_read_up_to_a_length() {
+    // 10^n / 10^n, which is 1.
+    let row = |zeros: usize| {
+        let power = format!("1{}", "0".repeat(zeros));
+        csv_with(&format!("{power},{power},2,1,3,1,0"))
+    };
+    let longest = super::super::csv::LONGEST_INTEGER;
+    assert_eq!(
+        read_text("a.csv", row(longest - 1), EDGE_EDGE),
+        ["Some(1) a.csv#0"]
+    );
+    for zeros in [longest, 500_000] {
+        let read = read_text("a.csv", row(zeros), EDGE_EDGE);
+        let error = format!("x_num is longer than {longest} characters");
+        assert!(read[0].contains(&error), "{read:?}");
+    }
+}
+
+#[test]
 fn csv_kind_in_path_nearest_component_decides() {
     for (path, kind) in [
         ("edge-edge/a.csv", Some(QueryKind::EdgeEdge)),

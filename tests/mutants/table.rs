@@ -1,0 +1,136 @@
+//! The faults.
+
+/// Whose sources a fault is planted in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Culprit {
+    Thesis,
+    Shadow,
+    Oracle,
+    Certified,
+}
+
+/// A fault: a text that occurs once in a file, and what takes its place.
+pub(crate) struct Mutant {
+    pub(crate) culprit: Culprit,
+    /// In the repository.
+    pub(crate) file: &'static str,
+    pub(crate) text: &'static str,
+    pub(crate) replacement: &'static str,
+    /// What is wrong then.
+    pub(crate) fault: &'static str,
+}
+
+pub(crate) const MUTANTS: &[Mutant] = &[
+    Mutant {
+        culprit: Culprit::Thesis,
+        file: "src/thesis/parallel.rs",
+        text: "let beta = l.p - k.p;",
+        replacement: "let beta = k.p - l.p;",
+        fault: "Algorithm 10: a sign makes points meet before the step that meet in it",
+    },
+    Mutant {
+        culprit: Culprit::Thesis,
+        file: "src/thesis/parallel.rs",
+        text: "negligible(t - other, same_root)",
+        replacement: "negligible(t + other, same_root)",
+        fault: "Algorithm 12: a sign loses the common roots of two equations",
+    },
+    Mutant {
+        culprit: Culprit::Thesis,
+        file: "src/thesis/planar.rs",
+        text: "[(p0, p2, p3), (p1, p2, p3), (p2, p0, p1), (p3, p0, p1)]",
+        replacement: "[(p0, p2, p3), (p1, p2, p3), (p2, p0, p1)]",
+        fault: "Algorithm 18: one of four ends is forgotten",
+    },
+    Mutant {
+        culprit: Culprit::Thesis,
+        file: "src/thesis/solve.rs",
+        text: "} else if sign_left == -sign_right {",
+        replacement: "} else if sign_left > sign_right {",
+        fault: "Solve: roots at which the polynomial rises are dropped",
+    },
+    Mutant {
+        culprit: Culprit::Shadow,
+        file: "reference/src/shadow/parallel.rs",
+        text: "ab[0].compare(&cd[1]).is_le()",
+        replacement: "ab[0].compare(&cd[1]).is_lt()",
+        fault: "Algorithm 9: `<` for `<=`",
+    },
+    Mutant {
+        culprit: Culprit::Shadow,
+        file: "reference/src/shadow/planar.rs",
+        text: "let l = [r.dot(&b), -s.dot(&b)];",
+        replacement: "let l = [r.dot(&b), s.dot(&b)];",
+        fault: "Algorithm 16: a sign in the normal equations",
+    },
+    Mutant {
+        culprit: Culprit::Shadow,
+        file: "reference/src/shadow/kind.rs",
+        text: "before != after && edges().cut_inside_both()",
+        replacement: "edges().cut_inside_both()",
+        fault: "a double root is taken for a crossing",
+    },
+    Mutant {
+        culprit: Culprit::Oracle,
+        file: "reference/src/oracle/general.rs",
+        text: "let times = isolate_roots(&self.f).into_iter();",
+        replacement: "let times = isolate_roots(&self.f).into_iter().take(2);",
+        fault: "the third root of the cubic is dropped",
+    },
+    Mutant {
+        culprit: Culprit::Oracle,
+        file: "reference/src/oracle/confined.rs",
+        text: ".find(|time| time.sign_of(&self.between).is_le())",
+        replacement: ".find(|time| time.sign_of(&self.between).is_lt())",
+        fault: "an end that comes onto an end is no contact",
+    },
+    Mutant {
+        culprit: Culprit::Oracle,
+        file: "reference/src/oracle/locus.rs",
+        text: "let d = self.m.add(&self.l).dot(&self.k);",
+        replacement: "let d = self.m.sub(&self.l).dot(&self.k);",
+        fault: "a sign puts D on the other side of C on the common line",
+    },
+    Mutant {
+        culprit: Culprit::Certified,
+        file: "src/certified/separate.rs",
+        text: "let margin = m + l.smaller(E::both(0.0)) - k.larger(E::both(0.0));",
+        replacement: "let margin = m + l.larger(E::both(0.0)) - k.larger(E::both(0.0));",
+        fault: "a direction separates if it separates one end of CD",
+    },
+    Mutant {
+        culprit: Culprit::Certified,
+        file: "src/certified/cubic.rs",
+        text: "error: 16.0 * U * permanent,",
+        replacement: "error: 0.25 * U * permanent,",
+        fault: "the error bound of the cubic is too small",
+    },
+    Mutant {
+        culprit: Culprit::Certified,
+        file: "src/certified/root.rs",
+        text: "        self.isolate_in(lower, found)?;\n",
+        replacement: "        let _ = lower;\n",
+        fault: "roots in the lower half of a part are dropped",
+    },
+    Mutant {
+        culprit: Culprit::Certified,
+        file: "src/certified/locate.rs",
+        text: "20.0 * U + 5.0 * half_width",
+        replacement: "0.25 * half_width",
+        fault: "the error bound of the place at a root is too small",
+    },
+    Mutant {
+        culprit: Culprit::Certified,
+        file: "src/certified/refine.rs",
+        text: "            high.next_down()\n",
+        replacement: "            high\n",
+        fault: "a time of impact is rounded up",
+    },
+    Mutant {
+        culprit: Culprit::Certified,
+        file: "src/certified/exact/confined.rs",
+        text: "times.find(|time| time.sign_of(&self.between).is_le())",
+        replacement: "times.find(|time| time.sign_of(&self.between).is_lt())",
+        fault: "an end that comes onto an end is no contact",
+    },
+];
