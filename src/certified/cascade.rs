@@ -10,6 +10,7 @@ use super::motion::{Motion, Positions};
 use super::refine::Root;
 use super::root::Bracket;
 use super::separate::SweptBoxes;
+use super::start;
 use super::verdict::{Hit, Parameters, Verdict};
 use crate::contact::{Case, ContactKind, Flags};
 use crate::narrow::Unsupported;
@@ -117,6 +118,10 @@ fn decide_open<E: Ends>(
         observe(Stage::Signs);
         return Verdict::Miss;
     }
+    if let Some(hit) = start::contact(&positions, motion, cubic.as_ref()) {
+        observe(Stage::Roots);
+        return Verdict::Hit(hit);
+    }
     if let Some(verdict) = cubic.and_then(|cubic| decide_by_roots(&positions, motion, &cubic)) {
         observe(Stage::Roots);
         return verdict;
@@ -139,29 +144,48 @@ fn decide_by_roots<E: Ends>(
     motion: &Motion<E>,
     cubic: &Cubic,
 ) -> Option<Verdict> {
-    for bracket in cubic.isolate()?.as_slice() {
-        let contact = match motion.meeting(cubic, bracket).place() {
-            Place::Apart => continue,
-            Place::Inside { .. } => hit(positions, motion, cubic, bracket),
-            Place::Unclear => {
-                let (sharp, _) = cubic.sharpen(bracket)?;
-                match motion.meeting(cubic, &sharp).place() {
-                    Place::Apart => continue,
-                    Place::Inside { .. } => hit(positions, motion, cubic, &sharp),
-                    Place::Unclear => {
-                        let positions = positions();
-                        let root = Root::new(&positions, cubic, &sharp)?;
-                        match root.meeting(&positions, motion, cubic).place() {
-                            Place::Apart => continue,
-                            place => crossing(root.round_down()?, &sharp, place),
-                        }
-                    }
-                }
-            }
-        };
-        return contact.map(Verdict::Hit);
+    let is_apart = |low, high| {
+        motion
+            .meeting(cubic, &Bracket::around(low, high))
+            .is_apart()
+    };
+    for bracket in cubic.isolate(is_apart)?.as_slice() {
+        let verdict = decide_at_root(positions, motion, cubic, bracket)?;
+        if let Verdict::Hit(_) = verdict {
+            return Some(verdict);
+        }
     }
     Some(Verdict::Miss)
+}
+
+/// Whether the edges touch at the root in a bracket; `None` if that is not certain.
+#[inline(always)]
+fn decide_at_root<E: Ends>(
+    positions: &impl Fn() -> Positions,
+    motion: &Motion<E>,
+    cubic: &Cubic,
+    bracket: &Bracket,
+) -> Option<Verdict> {
+    let settled = |bracket: &Bracket, place| match place {
+        Place::Apart => Some(Verdict::Miss),
+        Place::Inside { .. } => hit(positions, motion, cubic, bracket),
+        Place::Unclear => None,
+    };
+    let place = motion.meeting(cubic, bracket).place();
+    if place != Place::Unclear {
+        return settled(bracket, place);
+    }
+    let (sharp, _) = cubic.sharpen(bracket)?;
+    let place = motion.meeting(cubic, &sharp).place();
+    if place != Place::Unclear {
+        return settled(&sharp, place);
+    }
+    let positions = positions();
+    let root = Root::new(&positions, cubic, &sharp)?;
+    match root.meeting(&positions, motion, cubic).place() {
+        Place::Apart => Some(Verdict::Miss),
+        place => crossing(root.round_down()?, &sharp, place),
+    }
 }
 
 /// The contact at a root at which the lines meet inside both edges.
@@ -170,7 +194,7 @@ fn hit<E: Ends>(
     motion: &Motion<E>,
     cubic: &Cubic,
     bracket: &Bracket,
-) -> Option<Hit> {
+) -> Option<Verdict> {
     let toi = Root::new(&positions(), cubic, bracket)?.round_down()?;
     let at_toi = Bracket {
         low: toi,
@@ -183,14 +207,14 @@ fn hit<E: Ends>(
 /// The contact at a simple root strictly inside the step, strictly inside both edges.
 ///
 /// `f` changes sign there and the lines meet at an angle: a crossing of general motion.
-fn crossing(toi: f64, bracket: &Bracket, place: Place) -> Option<Hit> {
+fn crossing(toi: f64, bracket: &Bracket, place: Place) -> Option<Verdict> {
     let Place::Inside { u, v, error } = place else {
         return None;
     };
     if error > Hit::PARAMETER_ERROR {
         return None;
     }
-    Some(Hit {
+    Some(Verdict::Hit(Hit {
         toi,
         toi_above: toi.next_up(),
         kind: ContactKind::Crossing,
@@ -200,5 +224,5 @@ fn crossing(toi: f64, bracket: &Bracket, place: Place) -> Option<Hit> {
         parameter_error: error,
         case: Case::General,
         flags: Flags::default(),
-    })
+    }))
 }

@@ -37,6 +37,7 @@ mod narrow;
 mod refine;
 mod root;
 mod separate;
+mod start;
 #[cfg(test)]
 mod testing;
 mod verdict;
