@@ -81,19 +81,27 @@ pub fn decide_observed(
     if !query.radius().is_zero() {
         return Err(Unsupported::Radius(query.radius()));
     }
-    let positions = || Positions::new(query);
+    Ok(decide_all(|| Positions::new(query), observe))
+}
+
+/// All stages.
+#[inline(always)]
+pub(super) fn decide_all(
+    positions: impl Fn() -> Positions,
+    observe: &mut impl FnMut(Stage),
+) -> Verdict {
     let points = positions().points::<f64x2>();
     let boxes = SweptBoxes::new(&points);
     if boxes.are_disjoint {
         observe(Stage::Boxes);
-        return Ok(Verdict::Miss);
+        return Verdict::Miss;
     }
     let motion = Motion::new(&points);
     if motion.is_separated_by_centres(&boxes) {
         observe(Stage::Direction);
-        return Ok(Verdict::Miss);
+        return Verdict::Miss;
     }
-    Ok(decide_open(positions, &boxes, &motion, observe))
+    decide_open(positions, &boxes, &motion, observe)
 }
 
 /// The stages after the first two, for a query that those leave open.
@@ -118,11 +126,23 @@ fn decide_open<E: Ends>(
         observe(Stage::Signs);
         return Verdict::Miss;
     }
-    if let Some(hit) = start::contact(&positions, motion, cubic.as_ref()) {
+    decide_with_roots(positions, boxes, motion, cubic.as_ref(), observe)
+}
+
+/// The stages from the roots on.
+#[inline(never)]
+fn decide_with_roots<E: Ends>(
+    positions: impl Fn() -> Positions,
+    boxes: &SweptBoxes,
+    motion: &Motion<E>,
+    cubic: Option<&Cubic>,
+    observe: &mut impl FnMut(Stage),
+) -> Verdict {
+    if let Some(hit) = start::contact(&positions, motion, cubic) {
         observe(Stage::Roots);
         return Verdict::Hit(hit);
     }
-    if let Some(verdict) = cubic.and_then(|cubic| decide_by_roots(&positions, motion, &cubic)) {
+    if let Some(verdict) = cubic.and_then(|cubic| decide_by_roots(&positions, motion, cubic)) {
         observe(Stage::Roots);
         return verdict;
     }
@@ -150,41 +170,37 @@ fn decide_by_roots<E: Ends>(
             .is_apart()
     };
     for bracket in cubic.isolate(is_apart)?.as_slice() {
-        let verdict = decide_at_root(positions, motion, cubic, bracket)?;
-        if let Verdict::Hit(_) = verdict {
-            return Some(verdict);
+        let mut bracket = *bracket;
+        let mut place = motion.meeting(cubic, &bracket).place();
+        if let Place::Unclear = place {
+            (bracket, _) = cubic.sharpen(&bracket)?;
+            place = motion.meeting(cubic, &bracket).place();
         }
+        return match place {
+            Place::Apart => continue,
+            Place::Inside { .. } => hit(positions, motion, cubic, &bracket),
+            Place::Unclear => match decide_near_end(&positions(), motion, cubic, &bracket)? {
+                Verdict::Miss => continue,
+                hit => Some(hit),
+            },
+        };
     }
     Some(Verdict::Miss)
 }
 
-/// Whether the edges touch at the root in a bracket; `None` if that is not certain.
-#[inline(always)]
-fn decide_at_root<E: Ends>(
-    positions: &impl Fn() -> Positions,
+/// Whether the edges touch at the root in a sharpened bracket where the lines meet near an edge's end;
+/// `None` if that is not certain.
+#[inline(never)]
+fn decide_near_end<E: Ends>(
+    positions: &Positions,
     motion: &Motion<E>,
     cubic: &Cubic,
     bracket: &Bracket,
 ) -> Option<Verdict> {
-    let settled = |bracket: &Bracket, place| match place {
+    let root = Root::new(positions, cubic, bracket)?;
+    match root.meeting(positions, motion, cubic).place() {
         Place::Apart => Some(Verdict::Miss),
-        Place::Inside { .. } => hit(positions, motion, cubic, bracket),
-        Place::Unclear => None,
-    };
-    let place = motion.meeting(cubic, bracket).place();
-    if place != Place::Unclear {
-        return settled(bracket, place);
-    }
-    let (sharp, _) = cubic.sharpen(bracket)?;
-    let place = motion.meeting(cubic, &sharp).place();
-    if place != Place::Unclear {
-        return settled(&sharp, place);
-    }
-    let positions = positions();
-    let root = Root::new(&positions, cubic, &sharp)?;
-    match root.meeting(&positions, motion, cubic).place() {
-        Place::Apart => Some(Verdict::Miss),
-        place => crossing(root.round_down()?, &sharp, place),
+        place => crossing(root.round_down()?, bracket, place),
     }
 }
 

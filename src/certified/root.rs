@@ -78,33 +78,32 @@ impl Cubic {
                 return Some(());
             }
         }
-        if self.is_settled(&part, is_apart)? {
+        let [b0, _, _, b3] = part.bernstein;
+        // Of the pieces one starts or ends there again, and so stays open.
+        let has_open_end = !(b0.abs() > error) || !(b3.abs() > error);
+        let may_halve = part.depth < MAX_DEPTH;
+        if (has_open_end || !may_halve) && self.is_settled(&part, is_apart)? {
             return Some(());
+        }
+        if !may_halve {
+            return None;
         }
         let [lower, upper] = part.halves();
         self.isolate_in(lower, is_apart, found)?;
         self.isolate_in(upper, is_apart, found)
     }
 
-    /// Whether no root in a part matters; `None` if halving it will not show more.
+    /// Whether no root in a part matters; `None` if halving it will not show more: `f` may be 0
+    /// throughout, or it may be 0 at an end where the edges are not certain to be apart.
     #[inline(never)]
     fn is_settled(&self, part: &Part, is_apart: &impl Fn(f64, f64) -> bool) -> Option<bool> {
         let error = self.part_error();
         let is_open = |b: f64| !(b.abs() > error);
         let [b0, _, _, b3] = part.bernstein;
-        if is_open(b0) || is_open(b3) {
-            // Of the pieces one starts or ends there again: it stays open unless the edges are apart.
-            let is_hopeless = part.bernstein.into_iter().all(is_open)
-                || is_open(b0) && !is_apart(part.low, part.low)
-                || is_open(b3) && !is_apart(part.high, part.high);
-            if is_hopeless {
-                return None;
-            }
-        } else if part.depth < MAX_DEPTH {
-            return Some(false);
-        }
-        let is_settled = is_apart(part.low, part.high);
-        (is_settled || part.depth < MAX_DEPTH).then_some(is_settled)
+        let is_hopeless = part.bernstein.into_iter().all(is_open)
+            || is_open(b0) && !is_apart(part.low, part.low)
+            || is_open(b3) && !is_apart(part.high, part.high);
+        (!is_hopeless).then(|| is_apart(part.low, part.high))
     }
 
     /// What is certain about the roots in each half of `[0, 1]`, without a branch.
