@@ -2,7 +2,11 @@
 //! every bit.
 //!
 //! `TUNNELPROOF_CASES` sets the number of queries of a kind.
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -225,6 +229,18 @@ fn certified_agrees_with_the_oracle_on_every_family() {
                 assert_eq!(difference(&query), Ok(()), "{}:7:{index}", family.name());
             }
         }
+    }
+}
+
+/// Three roots of the cubic, of which the middle one is 1/2, where an interval is halved.
+#[test]
+fn certified_agrees_with_the_oracle_where_the_middle_one_of_three_roots_is_a_half() {
+    let lattice = FAMILIES.iter().find(|family| family.name() == "lattice");
+    for index in [996, 3086] {
+        let Query::EdgeEdge(query) = lattice.unwrap().query(1, index) else {
+            panic!("lattice:1:{index} is edge-edge");
+        };
+        assert_eq!(difference(&query), Ok(()), "lattice:1:{index}");
     }
 }
 

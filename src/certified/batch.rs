@@ -12,6 +12,9 @@ use super::verdict::{Hit, Verdict};
 use crate::narrow::Unsupported;
 use crate::query::{EdgeEdge, Point, QueryError};
 
+/// How many blocks are not screened after one for which that did not pay.
+const UNSCREENED: u32 = 15;
+
 /// Edge-edge queries of radius 0 as a structure of arrays.
 #[derive(Clone, Debug, Default)]
 pub struct Batch {
@@ -120,10 +123,23 @@ impl Batch {
         mut observe: impl FnMut(Stage),
     ) {
         let mut block = Block::new();
+        let mut unscreened = 0;
         for start in range.clone().step_by(BLOCK) {
             let end = range.end.min(start + BLOCK);
+            if unscreened > 0 {
+                unscreened -= 1;
+                for index in start..end {
+                    let positions = || self.positions(index);
+                    if let Verdict::Hit(found) = cascade::decide_all(positions, &mut observe) {
+                        hit(index, found);
+                    }
+                }
+                continue;
+            }
             block.fill(self.coordinates.each_ref().map(|array| &array[start..end]));
-            block.screen(&mut observe);
+            if !block.screen(&mut observe) {
+                unscreened = UNSCREENED;
+            }
             for &i in block.open() {
                 let index = start + usize::from(i);
                 let positions = || self.positions(index);

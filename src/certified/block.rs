@@ -1,9 +1,12 @@
 //! The first stages of the cascade for many queries at once.
 //!
 //! They are arithmetic without branches, so over arrays the compiler does several queries in one
-//! instruction, as many as the registers of the target hold.
+//! instruction, as many as the registers of the processor hold: what it has is found out at run time.
+//! The answers are the same in every bit, as no operation is contracted or reordered.
 
 use std::array;
+
+use pulp::{Arch, WithSimd};
 
 use super::cascade::Stage;
 use super::cubic::Cubic;
@@ -58,55 +61,104 @@ impl Block {
     }
 
     /// The first three stages, and the fourth as far as it goes without a branch: a miss at the only
-    /// root.
-    #[inline(never)]
-    pub(super) fn screen(&mut self, observe: &mut impl FnMut(Stage)) {
-        let apart = self.each(|points| {
-            let boxes = SweptBoxes::new(points);
-            let is_separated = Motion::new(points).is_separated_by_centres(&boxes);
-            [boxes.are_disjoint, is_separated]
-        });
+    /// root. Stops after the first two where they decide little: then most of these pairs touch, and one
+    /// by one is faster. Returns whether it went on.
+    pub(super) fn screen(&mut self, observe: &mut impl FnMut(Stage)) -> bool {
+        let all = self.count;
+        let apart = self.test(Apart);
         self.take_out([Stage::Boxes, Stage::Direction], &apart, observe);
-        let signs = self.each(|points| {
-            let cubic = Cubic::unchecked(&Motion::new(points));
-            [cubic.is_valid() & cubic.has_no_root()]
-        });
+        if 4 * self.count > 3 * all {
+            return false;
+        }
+        let signs = self.test(Signs);
         self.take_out([Stage::Signs], &signs, observe);
-        let roots = self.each(|points| {
-            let motion = Motion::new(points);
-            let cubic = Cubic::unchecked(&motion);
-            let [lower, upper] = cubic.halves();
-            let is_apart = motion.is_apart_in(&cubic, &lower) & motion.is_apart_in(&cubic, &upper);
-            [cubic.is_valid() & is_apart]
-        });
+        let roots = self.test(Roots);
         self.take_out([Stage::Roots], &roots, observe);
+        true
     }
 
-    /// What tests say of each open query; beyond these it means nothing. The compiler puts several
-    /// queries into a register, as long as the tests have no branch.
+    fn test<const N: usize, T: Test<N>>(&self, test: T) -> Answers<N> {
+        Arch::new().dispatch(Each::<N, T> { block: self, test })
+    }
+}
+
+/// What tests say of each query.
+type Answers<const N: usize> = [[[bool; N]; LANES]; BLOCK / LANES];
+
+/// `N` tests of a query, without a branch.
+trait Test<const N: usize> {
+    fn of(&self, points: &[[Plain; 3]; 4]) -> [bool; N];
+}
+
+/// Stages 1 and 2.
+struct Apart;
+
+impl Test<2> for Apart {
     #[inline(always)]
-    fn each<const N: usize>(
-        &self,
-        tests: impl Fn(&[[Plain; 3]; 4]) -> [bool; N],
-    ) -> [[[bool; N]; LANES]; BLOCK / LANES] {
+    fn of(&self, points: &[[Plain; 3]; 4]) -> [bool; 2] {
+        let boxes = SweptBoxes::new(points);
+        let is_separated = Motion::new(points).is_separated_by_centres(&boxes);
+        [boxes.are_disjoint, is_separated]
+    }
+}
+
+/// Stage 3.
+struct Signs;
+
+impl Test<1> for Signs {
+    #[inline(always)]
+    fn of(&self, points: &[[Plain; 3]; 4]) -> [bool; 1] {
+        let cubic = Cubic::unchecked(&Motion::new(points));
+        [cubic.is_valid() & cubic.has_no_root()]
+    }
+}
+
+/// Stage 4, for a miss at the only root in each half of the step.
+struct Roots;
+
+impl Test<1> for Roots {
+    #[inline(always)]
+    fn of(&self, points: &[[Plain; 3]; 4]) -> [bool; 1] {
+        let motion = Motion::new(points);
+        let cubic = Cubic::unchecked(&motion);
+        let [lower, upper] = cubic.halves();
+        let is_apart = motion.is_apart_in(&cubic, &lower) & motion.is_apart_in(&cubic, &upper);
+        [cubic.is_valid() & is_apart]
+    }
+}
+
+/// A test of each open query; what it says beyond these means nothing.
+struct Each<'a, const N: usize, T> {
+    block: &'a Block,
+    test: T,
+}
+
+impl<const N: usize, T: Test<N>> WithSimd for Each<'_, N, T> {
+    type Output = Answers<N>;
+
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> Self::Output {
         let mut answers = [[[false; N]; LANES]; BLOCK / LANES];
-        let tiles = self.tiles.iter().take(self.count.div_ceil(LANES));
+        let tiles = self.block.tiles.iter();
+        let tiles = tiles.take(self.block.count.div_ceil(LANES));
         for (tile, answers) in tiles.zip(&mut answers) {
             for i in 0..LANES {
                 let of = |row: usize| Plain::new(tile[row][i], tile[row + 12][i]);
                 let at = |row: usize| [of(row), of(row + 1), of(row + 2)];
-                answers[i] = tests(&[at(0), at(3), at(6), at(9)]);
+                answers[i] = self.test.of(&[at(0), at(3), at(6), at(9)]);
             }
         }
         answers
     }
+}
 
+impl Block {
     /// Takes out the queries that a stage decided.
     #[inline(always)]
     fn take_out<const N: usize>(
         &mut self,
         stages: [Stage; N],
-        decided: &[[[bool; N]; LANES]; BLOCK / LANES],
+        decided: &Answers<N>,
         observe: &mut impl FnMut(Stage),
     ) {
         let mut kept = [0; BLOCK];

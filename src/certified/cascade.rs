@@ -10,6 +10,7 @@ use super::motion::{Motion, Positions};
 use super::refine::Root;
 use super::root::Bracket;
 use super::separate::SweptBoxes;
+use super::start;
 use super::verdict::{Hit, Parameters, Verdict};
 use crate::contact::{Case, ContactKind, Flags};
 use crate::narrow::Unsupported;
@@ -80,19 +81,27 @@ pub fn decide_observed(
     if !query.radius().is_zero() {
         return Err(Unsupported::Radius(query.radius()));
     }
-    let positions = || Positions::new(query);
+    Ok(decide_all(|| Positions::new(query), observe))
+}
+
+/// All stages.
+#[inline(always)]
+pub(super) fn decide_all(
+    positions: impl Fn() -> Positions,
+    observe: &mut impl FnMut(Stage),
+) -> Verdict {
     let points = positions().points::<f64x2>();
     let boxes = SweptBoxes::new(&points);
     if boxes.are_disjoint {
         observe(Stage::Boxes);
-        return Ok(Verdict::Miss);
+        return Verdict::Miss;
     }
     let motion = Motion::new(&points);
     if motion.is_separated_by_centres(&boxes) {
         observe(Stage::Direction);
-        return Ok(Verdict::Miss);
+        return Verdict::Miss;
     }
-    Ok(decide_open(positions, &boxes, &motion, observe))
+    decide_open(positions, &boxes, &motion, observe)
 }
 
 /// The stages after the first two, for a query that those leave open.
@@ -117,7 +126,23 @@ fn decide_open<E: Ends>(
         observe(Stage::Signs);
         return Verdict::Miss;
     }
-    if let Some(verdict) = cubic.and_then(|cubic| decide_by_roots(&positions, motion, &cubic)) {
+    decide_with_roots(positions, boxes, motion, cubic.as_ref(), observe)
+}
+
+/// The stages from the roots on.
+#[inline(never)]
+fn decide_with_roots<E: Ends>(
+    positions: impl Fn() -> Positions,
+    boxes: &SweptBoxes,
+    motion: &Motion<E>,
+    cubic: Option<&Cubic>,
+    observe: &mut impl FnMut(Stage),
+) -> Verdict {
+    if let Some(hit) = start::contact(&positions, motion, cubic) {
+        observe(Stage::Roots);
+        return Verdict::Hit(hit);
+    }
+    if let Some(verdict) = cubic.and_then(|cubic| decide_by_roots(&positions, motion, cubic)) {
         observe(Stage::Roots);
         return verdict;
     }
@@ -139,29 +164,44 @@ fn decide_by_roots<E: Ends>(
     motion: &Motion<E>,
     cubic: &Cubic,
 ) -> Option<Verdict> {
-    for bracket in cubic.isolate()?.as_slice() {
-        let contact = match motion.meeting(cubic, bracket).place() {
+    let is_apart = |low, high| {
+        motion
+            .meeting(cubic, &Bracket::around(low, high))
+            .is_apart()
+    };
+    for bracket in cubic.isolate(is_apart)?.as_slice() {
+        let mut bracket = *bracket;
+        let mut place = motion.meeting(cubic, &bracket).place();
+        if let Place::Unclear = place {
+            (bracket, _) = cubic.sharpen(&bracket)?;
+            place = motion.meeting(cubic, &bracket).place();
+        }
+        return match place {
             Place::Apart => continue,
-            Place::Inside { .. } => hit(positions, motion, cubic, bracket),
-            Place::Unclear => {
-                let (sharp, _) = cubic.sharpen(bracket)?;
-                match motion.meeting(cubic, &sharp).place() {
-                    Place::Apart => continue,
-                    Place::Inside { .. } => hit(positions, motion, cubic, &sharp),
-                    Place::Unclear => {
-                        let positions = positions();
-                        let root = Root::new(&positions, cubic, &sharp)?;
-                        match root.meeting(&positions, motion, cubic).place() {
-                            Place::Apart => continue,
-                            place => crossing(root.round_down()?, &sharp, place),
-                        }
-                    }
-                }
-            }
+            Place::Inside { .. } => hit(positions, motion, cubic, &bracket),
+            Place::Unclear => match decide_near_end(&positions(), motion, cubic, &bracket)? {
+                Verdict::Miss => continue,
+                hit => Some(hit),
+            },
         };
-        return contact.map(Verdict::Hit);
     }
     Some(Verdict::Miss)
+}
+
+/// Whether the edges touch at the root in a sharpened bracket where the lines meet near an edge's end;
+/// `None` if that is not certain.
+#[inline(never)]
+fn decide_near_end<E: Ends>(
+    positions: &Positions,
+    motion: &Motion<E>,
+    cubic: &Cubic,
+    bracket: &Bracket,
+) -> Option<Verdict> {
+    let root = Root::new(positions, cubic, bracket)?;
+    match root.meeting(positions, motion, cubic).place() {
+        Place::Apart => Some(Verdict::Miss),
+        place => crossing(root.round_down()?, bracket, place),
+    }
 }
 
 /// The contact at a root at which the lines meet inside both edges.
@@ -170,7 +210,7 @@ fn hit<E: Ends>(
     motion: &Motion<E>,
     cubic: &Cubic,
     bracket: &Bracket,
-) -> Option<Hit> {
+) -> Option<Verdict> {
     let toi = Root::new(&positions(), cubic, bracket)?.round_down()?;
     let at_toi = Bracket {
         low: toi,
@@ -183,14 +223,14 @@ fn hit<E: Ends>(
 /// The contact at a simple root strictly inside the step, strictly inside both edges.
 ///
 /// `f` changes sign there and the lines meet at an angle: a crossing of general motion.
-fn crossing(toi: f64, bracket: &Bracket, place: Place) -> Option<Hit> {
+fn crossing(toi: f64, bracket: &Bracket, place: Place) -> Option<Verdict> {
     let Place::Inside { u, v, error } = place else {
         return None;
     };
     if error > Hit::PARAMETER_ERROR {
         return None;
     }
-    Some(Hit {
+    Some(Verdict::Hit(Hit {
         toi,
         toi_above: toi.next_up(),
         kind: ContactKind::Crossing,
@@ -200,5 +240,5 @@ fn crossing(toi: f64, bracket: &Bracket, place: Place) -> Option<Hit> {
         parameter_error: error,
         case: Case::General,
         flags: Flags::default(),
-    })
+    }))
 }

@@ -74,6 +74,11 @@ impl Cubic {
         (size < LARGEST) & (self.permanent > SMALLEST)
     }
 
+    /// Whether `f` is certainly not 0 for the whole step: then not all coefficients are.
+    pub(super) fn is_not_identically_0(&self) -> bool {
+        self.bernstein.iter().any(|b| b.abs() > self.error)
+    }
+
     /// Whether `f` has no root in `[0, 1]`, so that the edges are never coplanar: it is a convex
     /// combination of its coefficients.
     #[inline(always)]

@@ -8,9 +8,10 @@
 //! 2. a direction separates the edges for the whole step (`separate`);
 //! 3. the cubic `f = (K x L) . M`, with `K = B - A`, `L = D - C`, `M = C - A`, has no root, by the signs
 //!    of its Bernstein coefficients (`cubic`): edges that touch are coplanar;
-//! 4. its roots are bracketed (`root`), the edges are inside or outside of each other there (`locate`),
-//!    and the last bit of the time, or what is near an edge's end, is settled in double-double
-//!    arithmetic (`refine`, `double`);
+//! 4. its roots are bracketed (`root`), or in a part of the step in which the edges are apart anyway;
+//!    the edges are inside or outside of each other there (`locate`), and the last bit of the time, or
+//!    what is near an edge's end, is settled in double-double arithmetic (`refine`, `double`); edges
+//!    with a common end at the start touch there (`start`);
 //! 5. a separating direction is searched for (`separate`);
 //! 6. integers decide what is left ([`decide_exactly`], `exact`): degenerate motion, contact at ends.
 //!
@@ -37,6 +38,7 @@ mod narrow;
 mod refine;
 mod root;
 mod separate;
+mod start;
 #[cfg(test)]
 mod testing;
 mod verdict;

@@ -13,7 +13,19 @@ pub(super) struct Bracket {
     pub(super) is_rising: bool,
 }
 
-/// All roots of `f` in `[0, 1]`, ascending.
+impl Bracket {
+    /// From one time to another, whatever roots there are.
+    #[inline(always)]
+    pub(super) fn around(low: f64, high: f64) -> Self {
+        Bracket {
+            low,
+            high,
+            is_rising: false,
+        }
+    }
+}
+
+/// Roots of `f` in `[0, 1]`, ascending.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Brackets {
     brackets: [Bracket; 3],
@@ -35,23 +47,24 @@ pub(super) struct Half {
 }
 
 impl Cubic {
-    /// Brackets of all roots in `[0, 1]`; `None` if some cannot be certified.
-    pub(super) fn isolate(&self) -> Option<Brackets> {
-        let empty = Bracket {
-            low: 0.0,
-            high: 1.0,
-            is_rising: false,
-        };
+    /// Brackets of all roots in `[0, 1]` but those of which `is_apart` says that the edges do not touch
+    /// at any root from one time to another; `None` if some cannot be certified.
+    pub(super) fn isolate(&self, is_apart: impl Fn(f64, f64) -> bool) -> Option<Brackets> {
         let mut found = Brackets {
-            brackets: [empty; 3],
+            brackets: [Bracket::around(0.0, 1.0); 3],
             count: 0,
         };
-        self.isolate_in(self.whole(), &mut found)?;
+        self.isolate_in(self.whole(), &is_apart, &mut found)?;
         Some(found)
     }
 
-    /// Halves `part` until each piece has no root, or one that can be bracketed.
-    fn isolate_in(&self, part: Part, found: &mut Brackets) -> Option<()> {
+    /// Halves `part` until each piece has no root, or none that matters, or one that can be bracketed.
+    fn isolate_in(
+        &self,
+        part: Part,
+        is_apart: &impl Fn(f64, f64) -> bool,
+        found: &mut Brackets,
+    ) -> Option<()> {
         let error = self.part_error();
         if have_one_sign(&part.bernstein, error) {
             return Some(());
@@ -65,12 +78,32 @@ impl Cubic {
                 return Some(());
             }
         }
-        if part.depth == MAX_DEPTH {
+        let [b0, _, _, b3] = part.bernstein;
+        // Of the pieces one starts or ends there again, and so stays open.
+        let has_open_end = !(b0.abs() > error) || !(b3.abs() > error);
+        let may_halve = part.depth < MAX_DEPTH;
+        if (has_open_end || !may_halve) && self.is_settled(&part, is_apart)? {
+            return Some(());
+        }
+        if !may_halve {
             return None;
         }
         let [lower, upper] = part.halves();
-        self.isolate_in(lower, found)?;
-        self.isolate_in(upper, found)
+        self.isolate_in(lower, is_apart, found)?;
+        self.isolate_in(upper, is_apart, found)
+    }
+
+    /// Whether no root in a part matters; `None` if halving it will not show more: `f` may be 0
+    /// throughout, or it may be 0 at an end where the edges are not certain to be apart.
+    #[inline(never)]
+    fn is_settled(&self, part: &Part, is_apart: &impl Fn(f64, f64) -> bool) -> Option<bool> {
+        let error = self.part_error();
+        let is_open = |b: f64| !(b.abs() > error);
+        let [b0, _, _, b3] = part.bernstein;
+        let is_hopeless = part.bernstein.into_iter().all(is_open)
+            || is_open(b0) && !is_apart(part.low, part.low)
+            || is_open(b3) && !is_apart(part.high, part.high);
+        (!is_hopeless).then(|| is_apart(part.low, part.high))
     }
 
     /// What is certain about the roots in each half of `[0, 1]`, without a branch.

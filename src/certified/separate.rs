@@ -72,50 +72,35 @@ impl<E: Ends> Motion<E> {
     /// differences C - A, C - B, D - A, D - B that is nearest to 0 (Gilbert 1966, "An iterative procedure
     /// for computing the minimum of a quadratic form on a convex set"). Costs more than the cubic, so it
     /// comes last, before the exact stage.
+    #[inline(never)]
     pub(super) fn is_separated_by_search(&self, boxes: &SweptBoxes) -> bool {
-        self.search(boxes, SEARCH_STEPS)
-    }
-    pub(super) fn search(&self, boxes: &SweptBoxes, n: usize) -> bool {
         let (k, l, m) = (&self.k, &self.l, &self.m);
         let to_d = add(m, l);
-        let [p, q, r, s] = [*m, to_d, sub(m, k), sub(&to_d, k)];
-        let start = |x: [E; 3]| x.map(E::start);
-        let end = |x: [E; 3]| x.map(E::end);
-        let corners = [
-            start(p),
-            start(q),
-            start(r),
-            start(s),
-            end(p),
-            end(q),
-            end(r),
-            end(s),
-        ];
-        let mut nearest = [0.0; 3];
-        for corner in &corners {
-            nearest = add(
-                &nearest,
-                &[corner[0] / 8.0, corner[1] / 8.0, corner[2] / 8.0],
-            );
-        }
-        for _ in 0..n {
-            let support = corners
-                .iter()
-                .min_by(|x, y| dot(x, &nearest).total_cmp(&dot(y, &nearest)));
-            let Some(support) = support else { return false };
-            if dot(support, &nearest) > 0.0 && self.is_separated_by(nearest, boxes) {
+        let corners = [*m, to_d, sub(m, k), sub(&to_d, k)];
+        let [p, q, r, s] = &corners;
+        let mut nearest = add(&add(p, q), &add(r, s)).map(|sum| sum.sum() / 8.0);
+        for _ in 0..SEARCH_STEPS {
+            let direction = both(&nearest);
+            let along = corners.each_ref().map(|corner| dot(corner, &direction));
+            let [p, q, r, s] = along;
+            let least = p.smaller(q).smaller(r.smaller(s)).least();
+            if least > 0.0 && self.is_separated_by(nearest, boxes) {
                 return true;
             }
-            let step = sub(support, &nearest);
+            let support = corners.iter().zip(along).find_map(|(corner, along)| {
+                if along.start() == least {
+                    Some(corner.map(E::start))
+                } else {
+                    (along.end() == least).then(|| corner.map(E::end))
+                }
+            });
+            let Some(support) = support else { return false };
+            let step = sub(&support, &nearest);
             let share = -dot(&nearest, &step) / dot(&step, &step);
             if !(share > 0.0) {
                 return false;
             }
-            let share = share.min(1.0);
-            nearest = add(
-                &nearest,
-                &[share * step[0], share * step[1], share * step[2]],
-            );
+            nearest = add(&nearest, &step.map(|x| share.min(1.0) * x));
         }
         false
     }

@@ -58,7 +58,7 @@ pub(super) fn multiple_roots(c: &[f64; 4]) -> [f64; 3] {
 }
 
 /// The roots of the derivative, `3 c3 t^2 + 2 c2 t + c1`, by the formula that does not cancel.
-fn turning_points(c: &[f64; 4]) -> [f64; 2] {
+pub(super) fn turning_points(c: &[f64; 4]) -> [f64; 2] {
     let (a, half_b) = (3.0 * c[3], c[2]);
     let root = (half_b * half_b - a * c[1]).sqrt();
     let sum = -(half_b + root.copysign(half_b));

@@ -1,7 +1,7 @@
 //! The times at which a polynomial of the motion is 0.
 //!
 //! One sign change of the Bernstein coefficients means one root, a simple one. More of them are
-//! parted in floating point ([`super::part`]), or exactly: by a value of the other sign between two, or
+//! parted in floating point ([`super::part`]), or exactly: by values of alternating signs between them, or
 //! by halving ([`super::halve`]). The rest is left to [`super::isolate`].
 
 use std::cell::OnceCell;
@@ -221,10 +221,7 @@ fn intervals<L: Lane>(
         _ => {}
     }
     let coefficients = curve.approximate();
-    let plain = part(&coefficients).or_else(|| {
-        let has_two = changes == 2;
-        has_two.then(|| cut_between(curve, first, &coefficients))?
-    });
+    let plain = part(&coefficients).or_else(|| cut_between(curve, first, changes, &coefficients));
     plain.or_else(|| match curve {
         Curve::Quadratic(_) => None,
         Curve::Cubic(c) => {
@@ -236,17 +233,34 @@ fn intervals<L: Lane>(
     })
 }
 
-/// Intervals around both roots of a polynomial with the sign `first` at both ends of the step, cut
-/// where it has the other one, if a guess finds that.
+/// Intervals around as many roots as there are sign changes, two or three, cut at the turning points
+/// between them, if a guess finds these: with alternating signs there, every interval has a root, and
+/// there are no more.
 fn cut_between<L: Lane>(
     curve: &Curve<L>,
     first: Ordering,
+    changes: u32,
     coefficients: &[f64; 4],
 ) -> Option<SmallVec<[Interval; 3]>> {
-    let cut = Tick::from_f64(guess::turning_point(coefficients, first)?)?;
-    let (sign, _) = curve.sample(cut);
-    let is_between = sign == first.reverse();
-    is_between.then(|| SmallVec::from_iter([(None, Some(cut)), (Some(cut), None)]))
+    let cuts: SmallVec<[f64; 2]> = if changes == 2 {
+        SmallVec::from_iter([guess::turning_point(coefficients, first)?])
+    } else {
+        let [s, t] = guess::turning_points(coefficients);
+        SmallVec::from_buf([s.min(t), s.max(t)])
+    };
+    let mut found = SmallVec::new();
+    let (mut low, mut sign) = (None, first);
+    for cut in cuts {
+        let cut = Tick::from_f64(cut)?;
+        sign = sign.reverse();
+        if curve.sample(cut).0 != sign {
+            return None;
+        }
+        found.push((low, Some(cut)));
+        low = Some(cut);
+    }
+    found.push((low, None));
+    Some(found)
 }
 
 /// Whether two polynomials that are not identically 0 are multiples of each other.

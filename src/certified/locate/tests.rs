@@ -29,7 +29,7 @@ impl Case {
         let positions = layout(x);
         let motion = Motion::new(&positions.points());
         let cubic = Cubic::new(&motion)?;
-        let bracket = *cubic.isolate()?.as_slice().first()?;
+        let bracket = *cubic.isolate(|_, _| false)?.as_slice().first()?;
         let [low, high] = [bracket.low, bracket.high].map(Number::from);
         let bracket = stretched(&bracket, x)?;
         let exact = Exact::new(&positions);

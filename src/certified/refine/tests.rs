@@ -7,7 +7,7 @@ use super::*;
 /// The cubic and the first bracket.
 fn first_bracket(positions: &Positions) -> Option<(Cubic, Bracket)> {
     let cubic = Cubic::new(&Motion::<f64x2>::new(&positions.points()))?;
-    let bracket = *cubic.isolate()?.as_slice().first()?;
+    let bracket = *cubic.isolate(|_, _| false)?.as_slice().first()?;
     Some((cubic, bracket))
 }
 

@@ -179,12 +179,25 @@ fn holds_one(exact: &Polynomial, bracket: &Bracket) -> bool {
 
 /// Whether the brackets are those of all roots in `[0, 1]`; `None` if there is no claim.
 fn isolates(cubic: &Cubic, exact: &Polynomial) -> Option<bool> {
-    let brackets = cubic.isolate()?;
+    let brackets = cubic.isolate(|_, _| false)?;
     let brackets = brackets.as_slice();
     let is_ascending = brackets.windows(2).all(|pair| pair[0].high <= pair[1].low);
     let count = exact.roots_in_closed(&Number::zero(), &Number::from(1.0));
     let hold = brackets.iter().all(|bracket| holds_one(exact, bracket));
     Some(is_ascending && hold && count == brackets.len())
+}
+
+/// Whether the brackets are those of all roots but some between `p` and `q`, where none matters.
+fn isolates_outside(cubic: &Cubic, exact: &Polynomial, p: f64, q: f64) -> Option<bool> {
+    let brackets = cubic.isolate(|low, high| p <= low && high <= q)?;
+    let brackets = brackets.as_slice();
+    let is_ascending = brackets.windows(2).all(|pair| pair[0].high <= pair[1].low);
+    let hold = brackets.iter().all(|bracket| holds_one(exact, bracket));
+    let [zero, p, q, one] = [0.0, p, q, 1.0].map(Number::from);
+    let all = exact.roots_in_closed(&zero, &one);
+    let between = exact.roots_in_closed(&p, &q);
+    let count = brackets.len();
+    Some(is_ascending && hold && (all - between..=all).contains(&count))
 }
 
 /// The same for each half of the step.
@@ -246,6 +259,19 @@ fn root_brackets_hold_one_root_each_and_there_is_no_other() {
 }
 
 #[test]
+fn root_brackets_leave_out_no_root_that_matters() {
+    check_all(10, 12_000, |cubic, case| {
+        let share = 0.25 * case.t;
+        let parts = [(0.0, share), (0.5 - share, 0.5 + share), (1.0 - share, 1.0)];
+        let claims = parts.map(|(p, q)| isolates_outside(cubic, &case.exact, p, q));
+        let mut claims = claims.into_iter().flatten();
+        claims
+            .next()
+            .map(|first| first && claims.all(|claim| claim))
+    });
+}
+
+#[test]
 fn root_halves_are_right() {
     check_all(7, 12_000, |cubic, case| {
         halves_are_right(cubic, &case.exact)
@@ -255,7 +281,7 @@ fn root_halves_are_right() {
 #[test]
 fn root_sharpened_brackets_keep_the_root_and_its_slope() {
     check_all(8, 12_000, |cubic, case| {
-        sharpens(cubic, &case.exact, &case.cubic.isolate()?)
+        sharpens(cubic, &case.exact, &case.cubic.isolate(|_, _| false)?)
     });
 }
 
@@ -263,7 +289,7 @@ fn root_sharpened_brackets_keep_the_root_and_its_slope() {
 fn root_sharpened_brackets_are_as_short_as_the_error_allows() {
     let claims = |x: &Input| {
         let Case { cubic, exact, .. } = Case::new(x)?;
-        let brackets = cubic.isolate()?;
+        let brackets = cubic.isolate(|_, _| false)?;
         let (sharp, _) = cubic.sharpen(brackets.as_slice().first()?)?;
         let (low, high) = (Number::from(sharp.low), Number::from(sharp.high));
         if low == high {
