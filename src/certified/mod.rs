@@ -1,6 +1,8 @@
-//! The certified path: an edge-edge test without thresholds, fast and never wrong.
+//! The certified path: edges against edges and vertices against faces without thresholds, fast and never
+//! wrong.
 //!
-//! [`decide`] answers one query, [`Batch`] many. No hit is false, no contact is missed, and the time
+//! [`decide`] answers one query of two edges, [`Batch`] many; [`decide_vertex_face`] and [`FaceBatch`] do
+//! so for a vertex and a face, by the same stages (`face`). No hit is false, no contact is missed, and the time
 //! of impact is the exact one rounded down. A query goes through a cascade ([`Stage`]) of which each
 //! stage answers only what it can prove, in `f64` with an error bound derived beside the code:
 //!
@@ -32,9 +34,11 @@ mod cubic;
 mod double;
 mod ends;
 mod exact;
+mod face;
 mod locate;
 mod motion;
 mod narrow;
+mod pair;
 mod refine;
 mod root;
 mod separate;
@@ -43,8 +47,12 @@ mod start;
 mod testing;
 mod verdict;
 
-pub use batch::{Batch, BatchError};
+pub use batch::{Batch, BatchError, FaceBatch, PairBatch};
 pub use cascade::{Stage, decide, decide_observed};
 pub use exact::{Decision, decide_exactly};
+pub use face::{
+    FaceHit, decide_vertex_face, decide_vertex_face_exactly, decide_vertex_face_observed,
+};
 pub use narrow::Certified;
+pub use pair::Batched;
 pub use verdict::{Hit, Parameters, Verdict};
