@@ -20,6 +20,8 @@
 //! [`Batch`] takes the first four stages for many queries at once, as far as they need no branch
 //! (`block`); both ends of the step are a pair of numbers (`ends`) throughout.
 //!
+//! [`decide_discrete`] is the question at one instant, with a radius (`discrete`).
+//!
 //! No stage has a threshold: an error bound is a proof, and what it cannot prove it hands on.
 
 #![allow(
@@ -31,6 +33,7 @@ mod batch;
 mod block;
 mod cascade;
 mod cubic;
+mod discrete;
 mod double;
 mod ends;
 mod exact;
@@ -49,6 +52,7 @@ mod verdict;
 
 pub use batch::{Batch, BatchError, FaceBatch, PairBatch};
 pub use cascade::{Stage, decide, decide_observed};
+pub use discrete::{Proximity, decide_discrete};
 pub use exact::{Decision, decide_exactly};
 pub use face::{
     FaceHit, decide_vertex_face, decide_vertex_face_exactly, decide_vertex_face_observed,

@@ -53,6 +53,7 @@ mod isolate;
 mod lane;
 mod locus;
 mod motion;
+mod near;
 mod part;
 mod pin;
 mod poly;
@@ -66,6 +67,7 @@ use self::motion::Motion;
 pub(super) use face::decide_face;
 use lane::{Fixed, Lane, Number, Unlimited, Wide};
 use locus::{Locus, Place};
+pub(super) use near::are_near;
 use scaled::Scaled;
 use time::Time;
 

@@ -26,7 +26,7 @@ pub(super) enum Place {
 /// Numbers in proportion to the weights of B, C and D, each up to an error.
 ///
 /// At a root of `f` let `N = (C - B) x (D - B)`. If `N` is not 0, `A` is the sum of the corners by
-/// weights that sum up to 1, and the cross products that [`weights`] and [`of_edges`] take are the weights
+/// weights that sum up to 1, and the cross products that [`shares`] and [`of_edges`] take are the weights
 /// times `N`; the shares here are their products with some vector `w`. If `N` is 0, the face is a segment
 /// or a point, and if A is on that the cross products are 0.
 ///
