@@ -10,7 +10,7 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use tunnelproof::additive::Additive;
-use tunnelproof::certified::{self, Batch, Stage};
+use tunnelproof::certified::{self, Batch, FaceBatch, Stage};
 use tunnelproof::narrow::NarrowPhase;
 use tunnelproof::query::EdgeEdge;
 use tunnelproof::thesis::Thesis;
@@ -59,6 +59,28 @@ fn bench(c: &mut Criterion) {
     }
 }
 
+fn bench_vertex_face(c: &mut Criterion) {
+    for (name, queries) in data::vertex_face_sets() {
+        let mut batch = FaceBatch::new();
+        for query in &queries {
+            batch.push(query).expect("radius 0");
+        }
+        let mut group = c.benchmark_group(format!("narrow/vertex-face-{name}"));
+        group.throughput(Throughput::Elements(queries.len() as u64));
+        group.bench_function("certified", |b| {
+            b.iter(|| {
+                for query in &queries {
+                    consume(certified::decide_vertex_face(black_box(query)));
+                }
+            });
+        });
+        group.bench_function("certified-batch", |b| {
+            b.iter(|| batch.decide(|_, hit| consume(hit)));
+        });
+        group.finish();
+    }
+}
+
 /// The floor: every coordinate is read, nothing is decided.
 fn read(query: &EdgeEdge) {
     let points = query.start().iter().chain(query.end());
@@ -92,6 +114,6 @@ fn shares(queries: &[EdgeEdge]) -> String {
 criterion_group! {
     name = benches;
     config = Criterion::default().sample_size(20);
-    targets = bench
+    targets = bench, bench_vertex_face
 }
 criterion_main!(benches);

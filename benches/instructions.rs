@@ -17,7 +17,7 @@ use std::process::Command;
 
 use tunnelproof::additive::Additive;
 use tunnelproof::broad::Method;
-use tunnelproof::certified::{self, Batch};
+use tunnelproof::certified::{self, Batch, FaceBatch};
 use tunnelproof::narrow::NarrowPhase;
 use tunnelproof::query::EdgeEdge;
 use tunnelproof::thesis::Thesis;
@@ -29,12 +29,14 @@ mod scenes;
 const STEPS: usize = 4;
 
 const METHODS: [&str; 4] = ["thesis", "additive", "certified", "certified-batch"];
+const FACE_METHODS: [&str; 2] = ["certified", "certified-batch"];
 
 fn main() {
     let arguments: Vec<String> = env::args().skip(1).collect();
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match arguments[..] {
         ["run", set, method] => return work(set, method),
+        ["run-vertex-face", set, method] => return work_vertex_face(set, method),
         ["step", scene, count, method, steps] => {
             return step(
                 scene,
@@ -54,26 +56,35 @@ fn main() {
 }
 
 fn narrow_phases() {
-    println!("instructions per query");
-    println!(
-        "{:<24}{:>10}{}",
-        "set",
-        "queries",
-        METHODS.map(|m| format!("{m:>17}")).concat()
-    );
-    for (set, queries) in data::sets() {
-        let idle = instructions(&["run", set, "none"]);
-        let idle_batch = instructions(&["run", set, "none-batch"]);
-        let cells = METHODS.map(|method| {
+    println!("instructions per query of two edges");
+    let sets = data::sets().map(|(set, queries)| (set, queries.len()));
+    table("run", METHODS, sets);
+    println!("\ninstructions per query of a vertex and a face");
+    let sets = data::vertex_face_sets();
+    let sets = sets.iter().map(|(set, queries)| (*set, queries.len()));
+    table("run-vertex-face", FACE_METHODS, sets);
+}
+
+fn table<const N: usize>(
+    kind: &str,
+    methods: [&str; N],
+    sets: impl Iterator<Item = (&'static str, usize)>,
+) {
+    let head = methods.map(|m| format!("{m:>17}")).concat();
+    println!("{:<24}{:>10}{head}", "set", "queries");
+    for (set, count) in sets {
+        let idle = instructions(&[kind, set, "none"]);
+        let idle_batch = instructions(&[kind, set, "none-batch"]);
+        let cells = methods.map(|method| {
             let base = if method.ends_with("batch") {
                 idle_batch
             } else {
                 idle
             };
-            let each = (instructions(&["run", set, method]) - base) / queries.len() as u64;
+            let each = (instructions(&[kind, set, method]) - base) / count as u64;
             format!("{each:>17}")
         });
-        println!("{set:<24}{:>10}{}", queries.len(), cells.concat());
+        println!("{set:<24}{count:>10}{}", cells.concat());
     }
 }
 
@@ -129,6 +140,27 @@ fn work(set: &str, method: &str) {
         "thesis" => each(&|query| consume(Thesis::default().edge_edge(query))),
         "additive" => each(&|query| consume(Additive::default().edge_edge(query))),
         "certified" => each(&|query| consume(certified::decide(query))),
+        "certified-batch" => batch().decide(|_, hit| consume(hit)),
+        _ => panic!("no such method: {method}"),
+    }
+}
+
+fn work_vertex_face(set: &str, method: &str) {
+    let sets = data::vertex_face_sets();
+    let (_, queries) = sets.iter().find(|(name, _)| *name == set).unwrap();
+    let batch = || {
+        let mut batch = FaceBatch::new();
+        for query in queries {
+            batch.push(query).unwrap();
+        }
+        batch
+    };
+    match method {
+        "none" => {}
+        "none-batch" => consume(batch()),
+        "certified" => queries
+            .iter()
+            .for_each(|query| consume(certified::decide_vertex_face(query))),
         "certified-batch" => batch().decide(|_, hit| consume(hit)),
         _ => panic!("no such method: {method}"),
     }

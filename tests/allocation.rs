@@ -2,8 +2,10 @@
 //! included.
 
 use allocation_counter::measure;
-use tunnelproof::certified::{Verdict, decide, decide_exactly};
-use tunnelproof::query::{EdgeEdge, Point, Query};
+use tunnelproof::certified::{
+    Verdict, decide, decide_exactly, decide_vertex_face, decide_vertex_face_exactly,
+};
+use tunnelproof::query::{EdgeEdge, Point, Query, VertexFace};
 use tunnelproof_reference::generate::FAMILIES;
 
 /// A query with its coordinates multiplied by `factor` and moved by `offset`, so that they have all
@@ -28,6 +30,12 @@ fn is_ordinary(query: &EdgeEdge) -> bool {
     is_late && sizes.fold(0.0, f64::max) <= 1e12 * least
 }
 
+/// Whether the vertex touches the face soon after the start.
+fn is_early(face: &VertexFace) -> bool {
+    let hit = decide_vertex_face(face).ok().flatten();
+    hit.is_some_and(|hit| hit.toi > 0.0 && hit.toi <= 1e-12)
+}
+
 #[test]
 fn certified_does_not_allocate_for_ordinary_coordinates() {
     for family in FAMILIES {
@@ -42,8 +50,11 @@ fn certified_does_not_allocate_for_ordinary_coordinates() {
                     continue;
                 }
                 ordinary += 1;
+                let face = VertexFace::new(*query.start(), *query.end(), 0.0).expect("finite");
                 let allocations = measure(|| {
                     assert!(decide(&query).is_ok() && decide_exactly(&query).is_ok());
+                    assert!(decide_vertex_face(&face).is_ok());
+                    assert!(is_early(&face) || decide_vertex_face_exactly(&face).is_ok());
                 });
                 let id = || format!("{}:4:{index} times {factor} plus {offset}", family.name());
                 assert_eq!(allocations.count_total, 0, "{}", id());

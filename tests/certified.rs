@@ -19,6 +19,10 @@ use tunnelproof_reference::corpus::{self, ReadOptions};
 use tunnelproof_reference::generate::FAMILIES;
 use tunnelproof_reference::{field, oracle};
 
+use corners::{Corners, all_scales, lattice, nearly_degenerate, number, ordinary_scales, uniform};
+
+mod corners;
+
 /// Queries of a kind.
 fn cases() -> u32 {
     let asked = std::env::var("TUNNELPROOF_CASES").ok();
@@ -26,8 +30,6 @@ fn cases() -> u32 {
         text.parse().expect("TUNNELPROOF_CASES is a number")
     })
 }
-
-type Corners = [[f64; 3]; 8];
 
 fn query(corners: Corners) -> EdgeEdge {
     let p = corners.map(Point::from);
@@ -88,34 +90,6 @@ fn is_same_place(place: &Parameters, expected: &answer::Parameters, error: f64) 
     error <= Hit::PARAMETER_ERROR && near(place.u, &expected.u) && near(place.v, &expected.v)
 }
 
-/// Small integers, confined to a line or a plane as often as not, with points repeated.
-fn lattice() -> impl Strategy<Value = [[i8; 3]; 8]> {
-    let point = prop::array::uniform3(-2i8..=2);
-    let points = prop::array::uniform8(point);
-    let merged = prop::option::of((0usize..8, 0usize..8));
-    (points, 0u8..7, merged).prop_map(|(mut p, confinement, merged)| {
-        if let Some((from, to)) = merged {
-            p[to] = p[from];
-        }
-        p.map(|[x, y, z]| match confinement {
-            0 => [x, y, 0],
-            1 => [x, x, x],
-            2 => [x, y, x],
-            3 => [x, y, i8::from(z > 0)],
-            4 => [x, 0, i8::from(z > 0)],
-            _ => [x, y, z],
-        })
-    })
-}
-
-fn number() -> impl Strategy<Value = f64> {
-    -1.0f64..1.0
-}
-
-fn uniform() -> impl Strategy<Value = EdgeEdge> {
-    prop::array::uniform8(prop::array::uniform3(number())).prop_map(query)
-}
-
 /// Uniform, with points of one edge put onto the other, and so contact at given times and places up
 /// to rounding.
 fn rounded_contact() -> impl Strategy<Value = EdgeEdge> {
@@ -138,66 +112,17 @@ fn rounded_contact() -> impl Strategy<Value = EdgeEdge> {
     })
 }
 
-/// Coordinates between 1e-6 and 1e6 in magnitude, with all their bits.
-fn ordinary_scales() -> impl Strategy<Value = EdgeEdge> {
-    let coordinate = (number(), -20i32..=19).prop_map(|(x, e)| x * 2f64.powi(e));
-    prop::array::uniform8(prop::array::uniform3(coordinate)).prop_map(query)
-}
-
-/// Every exponent that there is, within a band of random width.
-fn all_scales() -> impl Strategy<Value = EdgeEdge> {
-    let band = (
-        -1074i32..=1023,
-        prop::sample::select(vec![0, 10, 60, 200, 2100]),
-    );
-    let coordinate = (1.0..2.0f64, any::<bool>(), any::<u16>(), 0u8..8);
-    let points = prop::array::uniform8(prop::array::uniform3(coordinate));
-    (points, band).prop_map(|(points, (lowest, width))| {
-        query(points.map(|point| {
-            point.map(|(mantissa, is_negative, offset, zero)| {
-                let exponent = (lowest + i32::from(offset) % (width + 1)).min(1023);
-                let (half, rest) = (exponent / 2, exponent - exponent / 2);
-                let value = mantissa * 2f64.powi(half) * 2f64.powi(rest);
-                match (zero, is_negative) {
-                    (0, _) => 0.0,
-                    (_, true) => -value,
-                    (_, false) => value,
-                }
-            })
-        }))
-    })
-}
-
-/// Degenerate motion, disturbed by units in the last place.
-fn nearly_degenerate() -> impl Strategy<Value = EdgeEdge> {
-    let step = prop::sample::select(vec![0i8, 0, 0, 0, -1, 1, 2]);
-    let steps = prop::array::uniform8(prop::array::uniform3(step));
-    let scale = prop::sample::select(vec![1.0, 0.1, 1.0 / 3.0]);
-    (lattice(), steps, scale).prop_map(|(points, steps, scale)| {
-        let mut corners = points.map(|point| point.map(|x| f64::from(x) * scale));
-        for (value, step) in corners
-            .as_flattened_mut()
-            .iter_mut()
-            .zip(steps.as_flattened())
-        {
-            *value *= 1.0 + f64::from(*step) * f64::EPSILON;
-        }
-        query(corners)
-    })
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(cases()))]
 
     #[test]
-    fn certified_agrees_with_the_oracle_on_lattice(points in lattice()) {
-        let corners = points.map(|point| point.map(f64::from));
+    fn certified_agrees_with_the_oracle_on_lattice(corners in lattice()) {
         prop_assert_eq!(difference(&query(corners)), Ok(()));
     }
 
     #[test]
-    fn certified_agrees_with_the_oracle_on_uniform(query in uniform()) {
-        prop_assert_eq!(difference(&query), Ok(()));
+    fn certified_agrees_with_the_oracle_on_uniform(corners in uniform()) {
+        prop_assert_eq!(difference(&query(corners)), Ok(()));
     }
 
     #[test]
@@ -206,18 +131,18 @@ proptest! {
     }
 
     #[test]
-    fn certified_agrees_with_the_oracle_on_ordinary_scales(query in ordinary_scales()) {
-        prop_assert_eq!(difference(&query), Ok(()));
+    fn certified_agrees_with_the_oracle_on_ordinary_scales(corners in ordinary_scales()) {
+        prop_assert_eq!(difference(&query(corners)), Ok(()));
     }
 
     #[test]
-    fn certified_agrees_with_the_oracle_on_all_scales(query in all_scales()) {
-        prop_assert_eq!(difference(&query), Ok(()));
+    fn certified_agrees_with_the_oracle_on_all_scales(corners in all_scales()) {
+        prop_assert_eq!(difference(&query(corners)), Ok(()));
     }
 
     #[test]
-    fn certified_agrees_with_the_oracle_on_nearly_degenerate(query in nearly_degenerate()) {
-        prop_assert_eq!(difference(&query), Ok(()));
+    fn certified_agrees_with_the_oracle_on_nearly_degenerate(corners in nearly_degenerate()) {
+        prop_assert_eq!(difference(&query(corners)), Ok(()));
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use tunnelproof::query::{EdgeEdge, Point, Query};
+use tunnelproof::query::{EdgeEdge, Point, Query, QueryKind, VertexFace};
 use tunnelproof_reference::corpus::{self, ReadOptions};
 use tunnelproof_reference::generate;
 
@@ -34,6 +34,28 @@ pub(crate) fn set(name: &str) -> Option<Vec<EdgeEdge>> {
     Some(make())
 }
 
+/// Vertex-face queries: the points of a generated set, and the public ones that are there.
+#[allow(dead_code, reason = "not every bench asks for these")]
+pub(crate) fn vertex_face_sets() -> Vec<(&'static str, Vec<VertexFace>)> {
+    let of_points = |query: &EdgeEdge| VertexFace::new(*query.start(), *query.end(), 0.0);
+    let uniform = family("uniform", 8192);
+    let uniform = uniform
+        .iter()
+        .map(|query| of_points(query).expect("finite"));
+    let files = csv_files(&shared().join("ccd-sample-queries"), QueryKind::VertexFace);
+    let queries = files.iter().flat_map(|path| csv(path));
+    let handcrafted = queries.filter_map(|query| match query {
+        Query::VertexFace(query) => Some(query),
+        Query::EdgeEdge(_) => None,
+    });
+    let mut sets = vec![
+        ("uniform", uniform.collect()),
+        ("handcrafted", handcrafted.collect::<Vec<_>>()),
+    ];
+    sets.retain(|(_, queries)| !queries.is_empty());
+    sets
+}
+
 fn family(name: &str, count: u64) -> Vec<EdgeEdge> {
     let family = generate::by_name(name).expect("a family");
     let queries = (0..count).map(|index| family.query(1, index));
@@ -50,8 +72,9 @@ fn shared() -> PathBuf {
 }
 
 fn handcrafted() -> Vec<EdgeEdge> {
-    let files = csv_files(&shared().join("ccd-sample-queries"));
-    files.iter().flat_map(|path| csv(path)).collect()
+    let files = csv_files(&shared().join("ccd-sample-queries"), QueryKind::EdgeEdge);
+    let queries = files.iter().flat_map(|path| csv(path));
+    queries.filter_map(edge_edge).collect()
 }
 
 fn edge_edge(query: Query) -> Option<EdgeEdge> {
@@ -61,8 +84,8 @@ fn edge_edge(query: Query) -> Option<EdgeEdge> {
     }
 }
 
-/// The edge-edge csv files below a folder, in order of their paths.
-fn csv_files(folder: &Path) -> Vec<PathBuf> {
+/// The csv files with queries of a kind below a folder, in order of their paths.
+fn csv_files(folder: &Path, kind: QueryKind) -> Vec<PathBuf> {
     let mut files = Vec::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {
@@ -71,7 +94,7 @@ fn csv_files(folder: &Path) -> Vec<PathBuf> {
             if path.is_dir() {
                 folders.push(path);
             } else if path.extension().is_some_and(|e| e == "csv")
-                && path.to_string_lossy().contains("edge-edge")
+                && path.to_string_lossy().contains(kind.name())
             {
                 files.push(path);
             }
@@ -81,12 +104,11 @@ fn csv_files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-fn csv(path: &Path) -> Vec<EdgeEdge> {
+fn csv(path: &Path) -> Vec<Query> {
     let entries = corpus::open(&path.to_string_lossy(), ReadOptions::default());
     let entries = entries.expect("a public csv opens");
     entries
         .map(|entry| entry.expect("a public csv is sound").query)
-        .filter_map(edge_edge)
         .collect()
 }
 

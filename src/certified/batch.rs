@@ -3,26 +3,47 @@
 //! The first stages of the cascade are taken for a block of queries at once (`block`); what they leave
 //! goes through the rest one by one.
 
+use std::marker::PhantomData;
 use std::ops::Range;
 
 use super::block::{BLOCK, Block};
-use super::cascade::{self, Stage};
+use super::cascade::Stage;
 use super::motion::Positions;
-use super::verdict::{Hit, Verdict};
+use super::pair::Pair;
 use crate::narrow::Unsupported;
-use crate::query::{EdgeEdge, Point, QueryError};
+use crate::query::{EdgeEdge, Point, QueryError, VertexFace};
 
 /// How many blocks are not screened after one for which that did not pay.
 const UNSCREENED: u32 = 15;
 
-/// Edge-edge queries of radius 0 as a structure of arrays.
-#[derive(Clone, Debug, Default)]
-pub struct Batch {
+/// Queries of one kind and of radius 0 as a structure of arrays.
+#[derive(Clone, Debug)]
+pub struct PairBatch<Q> {
     /// Coordinate `3 p + i` is axis `i` of point `p`: A, B, C, D at `t = 0`, then at `t = 1`.
     coordinates: [Vec<f64>; 24],
+    kind: PhantomData<fn() -> Q>,
 }
 
-impl Batch {
+/// Edge-edge queries.
+pub type Batch = PairBatch<EdgeEdge>;
+
+/// Vertex-face queries.
+pub type FaceBatch = PairBatch<VertexFace>;
+
+impl<Q> Default for PairBatch<Q> {
+    fn default() -> Self {
+        PairBatch {
+            coordinates: Default::default(),
+            kind: PhantomData,
+        }
+    }
+}
+
+#[allow(
+    private_bounds,
+    reason = "there are two kinds of queries, and no more can be made"
+)]
+impl<Q: Pair> PairBatch<Q> {
     /// No queries.
     pub fn new() -> Self {
         Self::default()
@@ -48,11 +69,12 @@ impl Batch {
     /// # Errors
     ///
     /// [`Unsupported`] for a radius above 0.
-    pub fn push(&mut self, query: &EdgeEdge) -> Result<(), Unsupported> {
-        if !query.radius().is_zero() {
-            return Err(Unsupported::Radius(query.radius()));
+    pub fn push(&mut self, query: &Q) -> Result<(), Unsupported> {
+        let ([start, end], radius) = query.parts();
+        if !radius.is_zero() {
+            return Err(Unsupported::Radius(radius));
         }
-        let points = query.start().iter().chain(query.end());
+        let points = start.iter().chain(end);
         let values = points.flat_map(|point| [point.x, point.y, point.z]);
         for (array, value) in self.coordinates.iter_mut().zip(values) {
             array.push(value);
@@ -67,7 +89,8 @@ impl Batch {
     ///
     /// [`BatchError`] if the arrays differ in length or hold a number that is not finite.
     pub fn from_arrays(coordinates: [Vec<f64>; 24]) -> Result<Self, BatchError> {
-        let batch = Batch { coordinates };
+        let kind = PhantomData;
+        let batch = PairBatch { coordinates, kind };
         let length = batch.len();
         if let Some(array) = batch
             .coordinates
@@ -90,19 +113,19 @@ impl Batch {
     }
 
     /// Decides every query and calls `hit` for each that is one, in order; see
-    /// [`decide`](super::decide).
-    pub fn decide(&self, hit: impl FnMut(usize, Hit)) {
+    /// [`decide`](super::decide) and [`decide_vertex_face`](super::decide_vertex_face).
+    pub fn decide(&self, hit: impl FnMut(usize, Q::Hit)) {
         self.decide_observed(hit, |_| {});
     }
 
     /// As [`decide`](Self::decide), and says for each query, in any order, which stage decided it.
-    pub fn decide_observed(&self, hit: impl FnMut(usize, Hit), observe: impl FnMut(Stage)) {
+    pub fn decide_observed(&self, hit: impl FnMut(usize, Q::Hit), observe: impl FnMut(Stage)) {
         self.decide_range(0..self.len(), hit, observe);
     }
 
     /// All hits, in order, decided by all threads of the current pool.
     #[cfg(feature = "rayon")]
-    pub fn par_hits(&self) -> Vec<(usize, Hit)> {
+    pub fn par_hits(&self) -> Vec<(usize, Q::Hit)> {
         use rayon::prelude::*;
 
         const SHARE: usize = 16 * BLOCK;
@@ -119,7 +142,7 @@ impl Batch {
     fn decide_range(
         &self,
         range: Range<usize>,
-        mut hit: impl FnMut(usize, Hit),
+        mut hit: impl FnMut(usize, Q::Hit),
         mut observe: impl FnMut(Stage),
     ) {
         let mut block = Block::new();
@@ -130,20 +153,20 @@ impl Batch {
                 unscreened -= 1;
                 for index in start..end {
                     let positions = || self.positions(index);
-                    if let Verdict::Hit(found) = cascade::decide_all(positions, &mut observe) {
+                    if let Some(found) = Q::decide_all(positions, &mut observe) {
                         hit(index, found);
                     }
                 }
                 continue;
             }
             block.fill(self.coordinates.each_ref().map(|array| &array[start..end]));
-            if !block.screen(&mut observe) {
+            if !block.screen::<Q>(&mut observe) {
                 unscreened = UNSCREENED;
             }
             for &i in block.open() {
                 let index = start + usize::from(i);
                 let positions = || self.positions(index);
-                if let Verdict::Hit(found) = cascade::decide_rest(positions, &mut observe) {
+                if let Some(found) = Q::decide_rest(positions, &mut observe) {
                     hit(index, found);
                 }
             }
@@ -160,9 +183,9 @@ impl Batch {
         }
     }
 
-    fn query(&self, index: usize) -> Result<EdgeEdge, QueryError> {
+    fn query(&self, index: usize) -> Result<Q, QueryError> {
         let Positions { start, end } = self.positions(index);
-        EdgeEdge::new(start.map(Point::from), end.map(Point::from), 0.0)
+        Q::of_points(start.map(Point::from), end.map(Point::from))
     }
 }
 

@@ -5,14 +5,14 @@
 //! The answers are the same in every bit, as no operation is contracted or reordered.
 
 use std::array;
+use std::marker::PhantomData;
 
 use pulp::{Arch, WithSimd};
 
 use super::cascade::Stage;
 use super::cubic::Cubic;
 use super::ends::{Ends, Plain};
-use super::motion::Motion;
-use super::separate::SweptBoxes;
+use super::pair::Pair;
 
 /// How many queries go through a stage together: enough that few lanes are idle in the later stages,
 /// few enough that their coordinates stay in the cache.
@@ -63,16 +63,16 @@ impl Block {
     /// The first three stages, and the fourth as far as it goes without a branch: a miss at the only
     /// root. Stops after the first two where they decide little: then most of these pairs touch, and one
     /// by one is faster. Returns whether it went on.
-    pub(super) fn screen(&mut self, observe: &mut impl FnMut(Stage)) -> bool {
+    pub(super) fn screen<P: Pair>(&mut self, observe: &mut impl FnMut(Stage)) -> bool {
         let all = self.count;
-        let apart = self.test(Apart);
+        let apart = self.test(Apart::<P>(PhantomData));
         self.take_out([Stage::Boxes, Stage::Direction], &apart, observe);
         if 4 * self.count > 3 * all {
             return false;
         }
-        let signs = self.test(Signs);
+        let signs = self.test(Signs::<P>(PhantomData));
         self.take_out([Stage::Signs], &signs, observe);
-        let roots = self.test(Roots);
+        let roots = self.test(Roots::<P>(PhantomData));
         self.take_out([Stage::Roots], &roots, observe);
         true
     }
@@ -91,38 +91,39 @@ trait Test<const N: usize> {
 }
 
 /// Stages 1 and 2.
-struct Apart;
+struct Apart<P>(PhantomData<P>);
 
-impl Test<2> for Apart {
+impl<P: Pair> Test<2> for Apart<P> {
     #[inline(always)]
     fn of(&self, points: &[[Plain; 3]; 4]) -> [bool; 2] {
-        let boxes = SweptBoxes::new(points);
-        let is_separated = Motion::new(points).is_separated_by_centres(&boxes);
+        let boxes = P::boxes(points);
+        let is_separated = P::is_separated_by_centres(&P::motion(points), &boxes);
         [boxes.are_disjoint, is_separated]
     }
 }
 
 /// Stage 3.
-struct Signs;
+struct Signs<P>(PhantomData<P>);
 
-impl Test<1> for Signs {
+impl<P: Pair> Test<1> for Signs<P> {
     #[inline(always)]
     fn of(&self, points: &[[Plain; 3]; 4]) -> [bool; 1] {
-        let cubic = Cubic::unchecked(&Motion::new(points));
+        let cubic = Cubic::unchecked(&P::motion(points));
         [cubic.is_valid() & cubic.has_no_root()]
     }
 }
 
 /// Stage 4, for a miss at the only root in each half of the step.
-struct Roots;
+struct Roots<P>(PhantomData<P>);
 
-impl Test<1> for Roots {
+impl<P: Pair> Test<1> for Roots<P> {
     #[inline(always)]
     fn of(&self, points: &[[Plain; 3]; 4]) -> [bool; 1] {
-        let motion = Motion::new(points);
+        let motion = P::motion(points);
         let cubic = Cubic::unchecked(&motion);
         let [lower, upper] = cubic.halves();
-        let is_apart = motion.is_apart_in(&cubic, &lower) & motion.is_apart_in(&cubic, &upper);
+        let is_apart_in = |half| P::is_apart_in(&motion, &cubic, half);
+        let is_apart = is_apart_in(&lower) & is_apart_in(&upper);
         [cubic.is_valid() & is_apart]
     }
 }

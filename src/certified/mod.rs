@@ -1,6 +1,8 @@
-//! The certified path: an edge-edge test without thresholds, fast and never wrong.
+//! The certified path: edges against edges and vertices against faces without thresholds, fast and never
+//! wrong.
 //!
-//! [`decide`] answers one query, [`Batch`] many. No hit is false, no contact is missed, and the time
+//! [`decide`] answers one query of two edges, [`Batch`] many; [`decide_vertex_face`] and [`FaceBatch`] do
+//! so for a vertex and a face, by the same stages (`face`). No hit is false, no contact is missed, and the time
 //! of impact is the exact one rounded down. A query goes through a cascade ([`Stage`]) of which each
 //! stage answers only what it can prove, in `f64` with an error bound derived beside the code:
 //!
@@ -18,6 +20,8 @@
 //! [`Batch`] takes the first four stages for many queries at once, as far as they need no branch
 //! (`block`); both ends of the step are a pair of numbers (`ends`) throughout.
 //!
+//! [`decide_discrete`] is the question at one instant, with a radius (`discrete`).
+//!
 //! No stage has a threshold: an error bound is a proof, and what it cannot prove it hands on.
 
 #![allow(
@@ -29,12 +33,15 @@ mod batch;
 mod block;
 mod cascade;
 mod cubic;
+mod discrete;
 mod double;
 mod ends;
 mod exact;
+mod face;
 mod locate;
 mod motion;
 mod narrow;
+mod pair;
 mod refine;
 mod root;
 mod separate;
@@ -43,8 +50,13 @@ mod start;
 mod testing;
 mod verdict;
 
-pub use batch::{Batch, BatchError};
+pub use batch::{Batch, BatchError, FaceBatch, PairBatch};
 pub use cascade::{Stage, decide, decide_observed};
+pub use discrete::{Proximity, decide_discrete};
 pub use exact::{Decision, decide_exactly};
+pub use face::{
+    FaceHit, decide_vertex_face, decide_vertex_face_exactly, decide_vertex_face_observed,
+};
 pub use narrow::Certified;
+pub use pair::Batched;
 pub use verdict::{Hit, Parameters, Verdict};

@@ -16,11 +16,17 @@ pub(super) struct Positions {
 impl Positions {
     #[inline(always)]
     pub(super) fn new(query: &EdgeEdge) -> Self {
+        Self::of(query.start(), query.end())
+    }
+
+    /// The positions of the four points of a query at both ends of the step.
+    #[inline(always)]
+    pub(super) fn of(start: &[Point; 4], end: &[Point; 4]) -> Self {
         let plain = |p: &Point| [p.x, p.y, p.z];
         let plain = |[a, b, c, d]: &[Point; 4]| [plain(a), plain(b), plain(c), plain(d)];
         Positions {
-            start: plain(query.start()),
-            end: plain(query.end()),
+            start: plain(start),
+            end: plain(end),
         }
     }
 

@@ -16,10 +16,20 @@ pub(super) struct SweptBoxes {
 impl SweptBoxes {
     #[inline(always)]
     pub(super) fn new<E: Ends>([a, b, c, d]: &[[E; 3]; 4]) -> Self {
+        Self::around([a, b], [c, d])
+    }
+
+    /// The boxes around two sets of points.
+    #[inline(always)]
+    pub(super) fn around<E: Ends, const M: usize, const N: usize>(
+        first: [&[E; 3]; M],
+        second: [&[E; 3]; N],
+    ) -> Self {
         let axis = |i: usize| {
-            // Of AB and of CD: at both ends of the step, then over the step.
-            let [low, end_low] = a[i].smaller(b[i]).transposed(c[i].smaller(d[i]));
-            let [high, end_high] = a[i].larger(b[i]).transposed(c[i].larger(d[i]));
+            let ((low, high), (other_low, other_high)) = (span(&first, i), span(&second, i));
+            // Of both: at both ends of the step, then over the step.
+            let [low, end_low] = low.transposed(other_low);
+            let [high, end_high] = high.transposed(other_high);
             let (low, high) = (low.smaller(end_low), high.larger(end_high));
             let [x, y] = low.swapped().is_above(high);
             (x | y, high.largest() - low.least())
@@ -30,6 +40,43 @@ impl SweptBoxes {
             extent: [x_extent, y_extent, z_extent],
         }
     }
+
+    /// Whether a difference of two products of differences of the points with `d` is certainly above 0
+    /// at both ends of the step.
+    ///
+    /// Error bound: every component `i` of a difference is at most the extent `e_i` of the box around
+    /// everything, and rounded once (`u = 2^-53`). With `S` the sum of `e_i |d_i|`, a product with `d` in
+    /// three products and two sums is within `4.1 u S` of the exact one (Higham, Accuracy and
+    /// Stability of Numerical Algorithms, 3.1), with the rounded difference `5.2 u S`. There are up to
+    /// three of them, and two more sums of values up to `3 S`: below `22 u S`. `S` is computed with a
+    /// relative error below `6 u`. A product that underflows is off by at most `2^-1075`, absorbed by
+    /// `TINY`. Nothing overflows while the bound is below `2^960`, so `S` below `2^1009`; else, NaN
+    /// included, there is no claim.
+    #[inline(always)]
+    pub(super) fn is_certain<E: Ends>(&self, margin: E, d: &Vector) -> bool {
+        let bound = self.bound(d);
+        let [at_start, at_end] = margin.is_above(E::both(bound));
+        at_start & at_end & (bound < LARGEST)
+    }
+
+    /// The error bound of [`is_certain`](Self::is_certain), if nothing overflows.
+    #[inline(always)]
+    pub(super) fn bound(&self, d: &Vector) -> f64 {
+        let size = |i: usize| self.extent[i] * d[i].abs();
+        (size(0) + size(1) + size(2)) * (24.0 * U) + TINY
+    }
+}
+
+/// The least and the largest coordinate of some points on an axis.
+#[inline(always)]
+fn span<E: Ends, const N: usize>(points: &[&[E; 3]; N], axis: usize) -> (E, E) {
+    let first = points[0][axis];
+    points
+        .iter()
+        .skip(1)
+        .fold((first, first), |(low, high), point| {
+            (low.smaller(point[axis]), high.larger(point[axis]))
+        })
 }
 
 impl<E: Ends> Motion<E> {
@@ -49,23 +96,17 @@ impl<E: Ends> Motion<E> {
     /// Relative to A, the smaller one of C and D is at `M . d + min(L . d, 0)`, the larger one of A
     /// and B at `max(K . d, 0)`.
     ///
-    /// Error bound: every component `i` of `K`, `L`, `M` is at most the extent `e_i` of the box around
-    /// everything, and rounded once (`u = 2^-53`). With `S` the sum of `e_i |d_i|`, a product with `d` in
-    /// three products and two sums is within `4.1 u S` of the exact one (Higham, Accuracy and
-    /// Stability of Numerical Algorithms, 3.1), with the rounded difference `5.2 u S`. There are three
-    /// of them, and two more sums of values up to `3 S`: below `22 u S`. `S` is computed with a
-    /// relative error below `6 u`. A product that underflows is off by at most `2^-1075`, absorbed by
-    /// `TINY`. Nothing overflows while the bound is below `2^960`, so `S` below `2^1009`; else, NaN
-    /// included, there is no claim.
+    /// Three products, the error bound of [`SweptBoxes::is_certain`].
     #[inline(always)]
     fn is_separated_by(&self, d: Vector, boxes: &SweptBoxes) -> bool {
-        let size = |i: usize| boxes.extent[i] * d[i].abs();
-        let bound = (size(0) + size(1) + size(2)) * (24.0 * U) + TINY;
-        let d = both(&d);
-        let (k, l, m) = (dot(&self.k, &d), dot(&self.l, &d), dot(&self.m, &d));
+        let along = both(&d);
+        let (k, l, m) = (
+            dot(&self.k, &along),
+            dot(&self.l, &along),
+            dot(&self.m, &along),
+        );
         let margin = m + l.smaller(E::both(0.0)) - k.larger(E::both(0.0));
-        let [at_start, at_end] = margin.is_above(E::both(bound));
-        at_start & at_end & (bound < LARGEST)
+        boxes.is_certain(margin, &d)
     }
 
     /// Looks for a separating direction: a few steps towards the point of the convex hull of the eight

@@ -11,7 +11,6 @@ use crate::contact::ContactKind;
 
 use super::curve::{Curve, bernstein_signs};
 use super::lane::{Lane, Number};
-use super::locus::Locus;
 use super::motion::{End, Motion, Quadratic};
 use super::roots::Roots;
 use super::time::Time;
@@ -33,22 +32,9 @@ impl<L: Lane> Motion<L> {
         }
         let ends = self.ends();
         let mut roots = [Roots::none(), Roots::none(), Roots::none(), Roots::none()];
-        for (end, roots) in ends.iter().zip(&mut roots) {
-            if let Some(curve) = end.candidates() {
-                roots.find(curve);
-            }
-        }
-        let times = ends
-            .iter()
-            .zip(&roots)
-            .filter_map(|(end, roots)| end.first_contact(roots));
-        let toi = times.min_by(Time::compare)?;
+        let toi = first_contact(ends, &mut roots)?;
         let locus = self.locus(&toi)?;
-        let kind = if toi.is_inside() && crosses(ends, &toi, &locus) {
-            ContactKind::Crossing
-        } else {
-            ContactKind::Graze
-        };
+        let kind = kind(ends, &toi, locus.second.is_some());
         Some(Hit::exact(
             &toi,
             &locus,
@@ -59,13 +45,33 @@ impl<L: Lane> Motion<L> {
     }
 }
 
-/// Whether the first contact, strictly inside the step, is a crossing.
-fn crosses<L: Lane>(ends: &[End<L>; 4], toi: &Time<L>, locus: &Locus<L>) -> bool {
-    // On a line every contact that was not there before is one.
-    ends.iter().all(End::is_on_line)
-        || ends
-            .iter()
-            .any(|end| end.passes(toi, locus.second.is_some()))
+/// The first time at which an end is on its edge, with a place for the roots of each.
+pub(super) fn first_contact<'a, L: Lane, const N: usize>(
+    ends: &[End<L>; N],
+    roots: &'a mut [Roots<L>; N],
+) -> Option<Time<'a, L>> {
+    for (end, roots) in ends.iter().zip(&mut *roots) {
+        if let Some(curve) = end.candidates() {
+            roots.find(curve);
+        }
+    }
+    let times = ends
+        .iter()
+        .zip(&*roots)
+        .filter_map(|(end, roots)| end.first_contact(roots));
+    times.min_by(Time::compare)
+}
+
+/// What the first contact is, if it is not that of the start.
+pub(super) fn kind<L: Lane>(ends: &[End<L>], toi: &Time<L>, overlap: bool) -> ContactKind {
+    // On a line every contact that was not there before is a crossing.
+    let crosses =
+        || ends.iter().all(End::is_on_line) || ends.iter().any(|end| end.passes(toi, overlap));
+    if toi.is_inside() && crosses() {
+        ContactKind::Crossing
+    } else {
+        ContactKind::Graze
+    }
 }
 
 impl<L: Lane> End<L> {
@@ -96,9 +102,13 @@ impl<L: Lane> End<L> {
 
     /// The first of these times at which it does.
     fn first_contact<'a>(&self, candidates: &'a Roots<L>) -> Option<Time<'a, L>> {
-        let times = candidates.iter().map(|(time, _, _)| time);
-        let mut times = times.filter(|time| self.meets_line(time));
-        times.find(|time| time.sign_of(&self.between).is_le())
+        let mut times = candidates.iter().map(|(time, _, _)| time);
+        times.find(|time| self.is_on_edge(time))
+    }
+
+    /// Whether the end is on the edge at a time.
+    pub(super) fn is_on_edge(&self, time: &Time<L>) -> bool {
+        self.meets_line(time) && time.sign_of(&self.between).is_le()
     }
 
     /// Whether the turn is 0 at a time.

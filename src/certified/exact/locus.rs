@@ -40,7 +40,12 @@ const C: usize = 2;
 
 impl<L: Lane> Parameter<L> {
     /// `n / d`, if it is in `[0, 1]`, for a denominator of the given sign, which is not 0.
-    fn new(time: &Time<L>, n: Quadratic<L>, d: Quadratic<L>, sign_of_d: Ordering) -> Option<Self> {
+    pub(super) fn new(
+        time: &Time<L>,
+        n: Quadratic<L>,
+        d: Quadratic<L>,
+        sign_of_d: Ordering,
+    ) -> Option<Self> {
         let from_start = time.sign_of(&n);
         if from_start.is_eq() {
             return Some(Parameter::Start);
@@ -64,7 +69,8 @@ impl<L: Lane> Parameter<L> {
         }
     }
 
-    fn is_interior(&self) -> bool {
+    /// Whether it is strictly between 0 and 1.
+    pub(super) fn is_interior(&self) -> bool {
         matches!(self, Parameter::Quotient(..))
     }
 }
@@ -72,27 +78,10 @@ impl<L: Lane> Parameter<L> {
 impl<L: Lane> Motion<L> {
     /// Where the edges touch at a time at which `f` is 0; `None` if they do not.
     pub(super) fn locus(&self, time: &Time<L>) -> Option<Locus<L>> {
-        match self.transversal_axis(time) {
+        match nonzero_axis(&self.n, time) {
             Some((axis, sign)) => self.locus_transversal(time, axis, sign),
             None => self.locus_parallel(time),
         }
-    }
-
-    /// A component of `N` that is not 0 at the time, and its sign: the largest of those for which
-    /// floating point shows it, else any.
-    fn transversal_axis(&self, time: &Time<L>) -> Option<(usize, Ordering)> {
-        let quick = self
-            .n
-            .each_ref()
-            .map(|component| time.quick_value_of(component));
-        let values = quick.iter().map(|value| value.unwrap_or(0.0)).enumerate();
-        let largest = values.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()))?;
-        let shown = sign(largest.1).filter(|sign| sign.is_ne());
-        shown.map(|sign| (largest.0, sign)).or_else(|| {
-            let open = (0..3).filter(|&h| quick[h].is_none());
-            let exact = open.map(|h| (h, time.sign_of(&self.n[h])));
-            exact.into_iter().find(|(_, sign)| sign.is_ne())
-        })
     }
 
     /// The lines meet in one point. From `A + u K = C + v L`: `M x L = u N` and `M x K = v N`, which
@@ -230,4 +219,23 @@ impl<L: Lane> Motion<L> {
         };
         Some((first, second))
     }
+}
+
+/// A component of a vector that is not 0 at the time, and its sign: the largest of those for which
+/// floating point shows it, else any.
+pub(super) fn nonzero_axis<L: Lane>(
+    vector: &[Quadratic<L>; 3],
+    time: &Time<L>,
+) -> Option<(usize, Ordering)> {
+    let quick = vector
+        .each_ref()
+        .map(|component| time.quick_value_of(component));
+    let values = quick.iter().map(|value| value.unwrap_or(0.0)).enumerate();
+    let largest = values.max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()))?;
+    let shown = sign(largest.1).filter(|sign| sign.is_ne());
+    shown.map(|sign| (largest.0, sign)).or_else(|| {
+        let open = (0..3).filter(|&h| quick[h].is_none());
+        let exact = open.map(|h| (h, time.sign_of(&vector[h])));
+        exact.into_iter().find(|(_, sign)| sign.is_ne())
+    })
 }

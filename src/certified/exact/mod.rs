@@ -43,6 +43,7 @@ mod bracket;
 mod confined;
 mod curve;
 mod dyadic;
+mod face;
 mod fraction;
 mod general;
 mod guess;
@@ -52,6 +53,7 @@ mod isolate;
 mod lane;
 mod locus;
 mod motion;
+mod near;
 mod part;
 mod pin;
 mod poly;
@@ -62,8 +64,10 @@ mod tick;
 mod time;
 
 use self::motion::Motion;
+pub(super) use face::decide_face;
 use lane::{Fixed, Lane, Number, Unlimited, Wide};
 use locus::{Locus, Place};
+pub(super) use near::are_near;
 use scaled::Scaled;
 use time::Time;
 
@@ -96,28 +100,40 @@ pub fn decide_exactly(query: &EdgeEdge) -> Result<Decision, Unsupported> {
 
 /// The exact answer for four points.
 pub(super) fn decide(positions: &Positions) -> Decision {
+    answer::<EdgesTouch>(positions)
+}
+
+/// What is asked of the motion of four points.
+trait Question {
+    type Answer;
+
+    fn answer<L: Lane>(motion: Motion<L>) -> Self::Answer;
+}
+
+/// The answer in the narrowest integers that the coordinates allow.
+fn answer<Q: Question>(positions: &Positions) -> Q::Answer {
     match Scaled::new(positions) {
         Scaled::Short { values, bits } => {
             if bits <= Tiny::BITS {
-                decide_in::<Tiny>(|i| Wide::from(values[i]))
+                Q::answer(Motion::<Tiny>::new(|i| Wide::from(values[i])))
             } else if bits <= Small::BITS {
-                decide_in::<Small>(|i| Wide::from(values[i]))
+                Q::answer(Motion::<Small>::new(|i| Wide::from(values[i])))
             } else if bits <= Medium::BITS {
-                decide_in::<Medium>(|i| Wide::from(values[i]))
+                Q::answer(Motion::<Medium>::new(|i| Wide::from(values[i])))
             } else {
-                decide_in::<Large>(|i| Wide::from(values[i]))
+                Q::answer(Motion::<Large>::new(|i| Wide::from(values[i])))
             }
         }
         Scaled::Narrow { values, bits } => {
             if bits <= Large::BITS {
-                decide_in::<Large>(|i| Wide::from(values[i]))
+                Q::answer(Motion::<Large>::new(|i| Wide::from(values[i])))
             } else if bits <= Huge::BITS {
-                decide_in::<Huge>(|i| Wide::from(values[i]))
+                Q::answer(Motion::<Huge>::new(|i| Wide::from(values[i])))
             } else {
-                decide_in::<Unlimited>(|i| values[i].into())
+                Q::answer(Motion::<Unlimited>::new(|i| values[i].into()))
             }
         }
-        Scaled::Broad(values) => decide_in::<Unlimited>(|i| values[i].clone()),
+        Scaled::Broad(values) => Q::answer(Motion::<Unlimited>::new(|i| values[i].clone())),
     }
 }
 
@@ -130,22 +146,33 @@ type Huge = Fixed<2, 4, 6, 8, 12>;
 /// The differences in one word each fit into all widths from the large ones on.
 const _: () = assert!(Large::BITS >= 63);
 
-fn decide_in<L: Lane>(component: impl Fn(usize) -> L::Linear) -> Decision {
-    let motion = Motion::<L>::new(component);
-    if motion.f.iter().all(Number::is_zero) {
-        Decision {
-            case: motion.confined_case(),
-            hit: motion.decide_confined(),
-        }
-    } else {
-        Decision {
-            case: Case::General,
-            hit: motion.decide_general(),
+/// Whether and when two edges touch.
+struct EdgesTouch;
+
+impl Question for EdgesTouch {
+    type Answer = Decision;
+
+    fn answer<L: Lane>(motion: Motion<L>) -> Decision {
+        if motion.is_confined() {
+            Decision {
+                case: motion.confined_case(),
+                hit: motion.decide_confined(),
+            }
+        } else {
+            Decision {
+                case: Case::General,
+                hit: motion.decide_general(),
+            }
         }
     }
 }
 
 impl<L: Lane> Motion<L> {
+    /// Whether `f` is identically 0.
+    fn is_confined(&self) -> bool {
+        self.f.iter().all(Number::is_zero)
+    }
+
     /// The case of a motion with `f` identically 0; in every other case than the general one it is.
     fn confined_case(&self) -> Case {
         if self.k.is_zero() || self.l.is_zero() {

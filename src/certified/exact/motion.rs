@@ -153,7 +153,11 @@ pub(super) fn subtract<L: Lane>(a: &Quadratic<L>, b: &Quadratic<L>) -> Quadratic
     each(|i| a[i].sub(&b[i]))
 }
 
-fn subtract_vector<L: Lane>(a: &[Quadratic<L>; 3], b: &[Quadratic<L>; 3]) -> [Quadratic<L>; 3] {
+/// `a - b`, of vectors.
+pub(super) fn subtract_vector<L: Lane>(
+    a: &[Quadratic<L>; 3],
+    b: &[Quadratic<L>; 3],
+) -> [Quadratic<L>; 3] {
     each(|h| subtract::<L>(&a[h], &b[h]))
 }
 

@@ -105,7 +105,7 @@ impl Case {
                 let exact = exact_dot(&normals[i], &w);
                 Claim::within(found[i].0, &exact, Number::from(found[i].1))
             });
-            worse(x, y)
+            x.worse(y)
         };
         [
             product(0),
@@ -125,7 +125,7 @@ impl Case {
             ..
         } = self.meeting;
         if !(n > error_n) {
-            return nothing();
+            return Claim::nothing();
         }
         let (error_u1, error_v1) = self.meeting.far_errors();
         let [[exact_n, exact_u, exact_v], _] = self.products();
@@ -142,12 +142,12 @@ impl Case {
             error: Number::from(found).abs(),
             bound: Number::from(bound),
         });
-        claims.fold(nothing(), worse)
+        claims.fold(Claim::nothing(), Claim::worse)
     }
 
     fn parameters(&self) -> Claim {
         let Place::Inside { u, v, error } = self.meeting.place() else {
-            return nothing();
+            return Claim::nothing();
         };
         let [x, y] = self.products().map(|[n, exact_u, exact_v]| {
             // All times N . N.
@@ -155,24 +155,7 @@ impl Case {
             let error = (&u - &exact_u).abs().larger((&v - &exact_v).abs());
             Claim { error, bound }
         });
-        worse(x, y)
-    }
-}
-
-/// No error.
-fn nothing() -> Claim {
-    Claim {
-        error: Number::zero(),
-        bound: Number::from(1.0),
-    }
-}
-
-/// The one with the larger ratio.
-fn worse(x: Claim, y: Claim) -> Claim {
-    if &x.error * &y.bound > &y.error * &x.bound {
-        x
-    } else {
-        y
+        x.worse(y)
     }
 }
 

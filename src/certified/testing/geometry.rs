@@ -17,14 +17,19 @@ pub(in super::super) struct Exact {
 
 impl Exact {
     pub(in super::super) fn new(positions: &Positions) -> Self {
+        Self::of(positions, [(1, 0), (3, 2), (2, 0)])
+    }
+
+    /// With `K`, `L` and `M` to and from these points.
+    pub(in super::super) fn of(positions: &Positions, ends: [(usize, usize); 3]) -> Self {
         let Positions { start, end } = positions;
-        let difference = |to: usize, from: usize| {
+        let difference = |(to, from): (usize, usize)| {
             [0, 1, 2].map(|i| {
                 let at = |x: &[[f64; 3]; 4]| &Number::from(x[to][i]) - &Number::from(x[from][i]);
                 Polynomial::line(&at(start), &at(end))
             })
         };
-        let (k, l, m) = (difference(1, 0), difference(3, 2), difference(2, 0));
+        let [k, l, m] = ends.map(difference);
         let f = dot(&cross(&k, &l), &m);
         Exact { k, l, m, f }
     }

@@ -11,6 +11,23 @@ pub(in super::super) struct Claim {
 }
 
 impl Claim {
+    /// That nothing is off.
+    pub(in super::super) fn nothing() -> Self {
+        Claim {
+            error: Number::zero(),
+            bound: Number::from(1.0),
+        }
+    }
+
+    /// The one with the larger ratio of error to bound.
+    pub(in super::super) fn worse(self, other: Self) -> Self {
+        if &self.error * &other.bound > &other.error * &self.bound {
+            self
+        } else {
+            other
+        }
+    }
+
     /// That `found` is within `bound` of `exact`.
     pub(in super::super) fn within(found: f64, exact: &Number, bound: Number) -> Self {
         Claim {
