@@ -125,7 +125,9 @@ impl Counts {
 
     /// The gaps of the false hits together, in metres, by their estimates.
     pub fn total_gap(&self, sample: &Sample) -> f64 {
-        sample.estimate_gaps(&self.false_hits).iter().sum()
+        // The sum of none would be -0.
+        let gaps = sample.estimate_gaps(&self.false_hits);
+        gaps.iter().fold(0.0, |total, gap| total + gap)
     }
 
     /// What it costs, with the gaps of the false hits measured.

@@ -168,8 +168,8 @@ fn front_of_sweep(evaluated: &[Evaluated]) -> Figure {
         title: "Missed crossings against false hits".to_owned(),
         axes: [axis("missed crossings", false), axis("false hits", false)],
         series: vec![
-            series("front", BLUE, Shape::Line, front.numbers().collect()),
             series("settings", GREY, Shape::Dots, all),
+            series("front", BLUE, Shape::Line, front.numbers().collect()),
             series("table 3.1", RED, Shape::Dots, published),
         ],
         mark: None,

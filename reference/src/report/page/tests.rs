@@ -90,7 +90,7 @@ fn page_of_thresholds_alone_has_two_charts_of_each_and_the_common_ones() {
             "{name}"
         );
     }
-    for name in ["tunnel", "missed graze", "false hit"] {
+    for name in ["missed graze", "false hit"] {
         assert!(page.contains(&format!("<strong>{name}</strong>")), "{name}");
     }
     assert!(page.contains("explain -"), "the command of a witness");
