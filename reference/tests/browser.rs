@@ -23,13 +23,14 @@ addEventListener("load", () => {
   const all = (selector) => [...document.querySelectorAll(selector)];
   parent.postMessage(JSON.stringify({
     width: innerWidth,
-    overflow: document.documentElement.scrollWidth - innerWidth,
+    overflow: document.documentElement.scrollWidth - document.documentElement.clientWidth,
     paper: getComputedStyle(document.body).backgroundColor,
     ink: getComputedStyle(document.body).color,
     card: all("figure > svg > rect").map(e => getComputedStyle(e).fill)[0],
     charts: all("figure > svg").map(e => [e.parentNode.id, ...box(e), e.querySelectorAll("text").length,
       e.querySelectorAll("circle, rect, polyline").length]),
-    letters: all("figure > svg text").map(e => e.getBoundingClientRect().height),
+    letters: all("figure > svg text").filter(e => e.textContent.trim())
+      .map(e => parseFloat(getComputedStyle(e).fontSize) * e.ownerSVGElement.getScreenCTM().a),
     pictures: all("figure > img").map(e => [e.complete, e.naturalWidth]),
   }), "*");
 });
@@ -147,7 +148,7 @@ fn assert_is_drawn(browser: &str, page: &Path, charts: &[&str], pictures: usize)
         let smallest = letters
             .map(|height| height.as_f64().unwrap())
             .fold(99.0, f64::min);
-        assert!(smallest >= 8.0, "letters of {smallest} pixels: {at}");
+        assert!(smallest >= 9.0, "letters of {smallest} pixels: {at}");
         let drawn = said["pictures"].as_array().unwrap();
         assert_eq!(drawn.len(), pictures, "{at}");
         for picture in drawn {

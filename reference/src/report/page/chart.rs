@@ -267,7 +267,7 @@ fn draw_frame(
             .margin_right(14)
             .margin_bottom(4)
             .margin_left(6)
-            .x_label_area_size(40)
+            .x_label_area_size(42)
             .y_label_area_size(54)
             .build_cartesian_2d(left..right, low..high)?;
         chart
@@ -281,8 +281,8 @@ fn draw_frame(
             .y_desc(axes[1].label.as_str())
             .x_label_formatter(&|place| axes[0].tick(*place))
             .y_label_formatter(&|place| axes[1].tick(*place))
-            .label_style(("sans-serif", 12, &INK))
-            .axis_desc_style(("sans-serif", 13, &INK))
+            .label_style(("sans-serif", 14, &INK))
+            .axis_desc_style(("sans-serif", 15, &INK))
             .draw()?;
         draw(&mut chart)?;
         root.present()?;
@@ -294,16 +294,16 @@ fn draw_frame(
 }
 
 fn draw_head(root: &Area, title: &str, legend: &[(&str, RGBColor)]) -> Result<(), Failure> {
-    let bold = ("sans-serif", 15, FontStyle::Bold).into_font().color(&INK);
+    let bold = ("sans-serif", 17, FontStyle::Bold).into_font().color(&INK);
     root.draw(&Text::new(title.to_owned(), (10, 8), bold))?;
     let mut left = 12;
     for (name, colour) in legend {
         let swatch = [(left, 31), (left + 14, 37)];
         root.draw(&Rectangle::new(swatch, colour.filled()))?;
-        let plain = ("sans-serif", 12).into_font().color(&INK);
+        let plain = ("sans-serif", 14).into_font().color(&INK);
         let text = Text::new((*name).to_owned(), (left + 19, 28), plain);
         root.draw(&text)?;
-        left += 19 + 14 + (name.chars().count() as f64 * 6.4) as i32;
+        left += 19 + 11 + (name.chars().count() as f64 * 6.3) as i32;
     }
     Ok(())
 }
