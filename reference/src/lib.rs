@@ -17,4 +17,6 @@ pub mod shadow;
 mod shape;
 pub mod shrink;
 pub mod subject;
+pub mod sweep;
+pub mod tune;
 pub mod vectors;

@@ -1,4 +1,4 @@
-//! The command line: `eval`, `certify`, `explain`, `shrink`, `replay` and `vectors`.
+//! The command line: `eval`, `certify`, `explain`, `shrink`, `replay`, `vectors`, `sweep` and `tune`.
 
 use std::process::ExitCode;
 

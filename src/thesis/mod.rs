@@ -36,4 +36,4 @@ pub use motion::Motion;
 pub use narrow::Thesis;
 pub use options::{Options, Residual};
 pub use text::{Erratum, Repairs};
-pub use threshold::Thresholds;
+pub use threshold::{Threshold, Thresholds};

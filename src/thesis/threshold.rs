@@ -51,37 +51,94 @@ const COEFFICIENTS: f64 = 100.0 * f64::EPSILON;
 impl Default for Thresholds {
     /// Table 3.1, and for what it does not name the readings above.
     fn default() -> Self {
-        let dist = 1e-6;
-        let t = 1e-9;
-        Thresholds {
-            dist,
-            dist_1d: 1e-6,
-            t,
-            coefficients_quadratic: COEFFICIENTS,
-            coefficients_cubic: COEFFICIENTS,
-            same_root: t,
-            segment: 0.0,
-            direction: dist,
-            parallel: COEFFICIENTS,
-            colinear: dist,
-        }
+        Thresholds::named(Threshold::ALL.map(Threshold::published))
     }
 }
 
 impl Thresholds {
     /// Every threshold 0: the exact questions, asked in rounded arithmetic.
-    pub const ZERO: Thresholds = Thresholds {
-        dist: 0.0,
-        dist_1d: 0.0,
-        t: 0.0,
-        coefficients_quadratic: 0.0,
-        coefficients_cubic: 0.0,
-        same_root: 0.0,
-        segment: 0.0,
-        direction: 0.0,
-        parallel: 0.0,
-        colinear: 0.0,
-    };
+    pub const ZERO: Thresholds = Thresholds::named([0.0; 5]);
+
+    /// The thresholds of table 3.1 with these values, in the order of [`Threshold::ALL`], and for what
+    /// it does not name the readings above.
+    pub const fn named(
+        [dist, dist_1d, t, coefficients_quadratic, coefficients_cubic]: [f64; 5],
+    ) -> Thresholds {
+        Thresholds {
+            dist,
+            dist_1d,
+            t,
+            coefficients_quadratic,
+            coefficients_cubic,
+            same_root: t,
+            segment: 0.0,
+            direction: dist,
+            parallel: coefficients_quadratic,
+            colinear: dist,
+        }
+    }
+}
+
+/// A threshold that table 3.1 names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Threshold {
+    /// [`Thresholds::dist`].
+    Dist,
+    /// [`Thresholds::dist_1d`].
+    Dist1d,
+    /// [`Thresholds::t`].
+    T,
+    /// [`Thresholds::coefficients_quadratic`].
+    CoefficientsQuadratic,
+    /// [`Thresholds::coefficients_cubic`].
+    CoefficientsCubic,
+}
+
+impl Threshold {
+    /// Every threshold of table 3.1, in its order.
+    pub const ALL: [Threshold; 5] = [
+        Threshold::Dist,
+        Threshold::Dist1d,
+        Threshold::T,
+        Threshold::CoefficientsQuadratic,
+        Threshold::CoefficientsCubic,
+    ];
+
+    /// The name used in files and on the command line: that of the field of [`Thresholds`].
+    pub fn name(self) -> &'static str {
+        match self {
+            Threshold::Dist => "dist",
+            Threshold::Dist1d => "dist_1d",
+            Threshold::T => "t",
+            Threshold::CoefficientsQuadratic => "coefficients_quadratic",
+            Threshold::CoefficientsCubic => "coefficients_cubic",
+        }
+    }
+
+    /// The threshold with this [`name`](Self::name), if any.
+    pub fn from_name(name: &str) -> Option<Self> {
+        let mut all = Threshold::ALL.into_iter();
+        all.find(|threshold| threshold.name() == name)
+    }
+
+    /// The power of a length that it is compared with: in metres to this power.
+    pub fn dimension(self) -> i32 {
+        match self {
+            Threshold::T => 0,
+            Threshold::Dist | Threshold::Dist1d => 1,
+            Threshold::CoefficientsQuadratic => 2,
+            Threshold::CoefficientsCubic => 3,
+        }
+    }
+
+    /// Its value in table 3.1.
+    pub fn published(self) -> f64 {
+        match self {
+            Threshold::Dist | Threshold::Dist1d => 1e-6,
+            Threshold::T => 1e-9,
+            Threshold::CoefficientsQuadratic | Threshold::CoefficientsCubic => COEFFICIENTS,
+        }
+    }
 }
 
 #[cfg(test)]
@@ -97,5 +154,24 @@ mod tests {
         let printed: f64 = "2.2204460492503131e-14".parse().unwrap();
         assert_eq!(thresholds.coefficients_quadratic, printed);
         assert_eq!(thresholds.coefficients_cubic, printed);
+    }
+
+    #[test]
+    fn thresholds_have_names_that_find_them() {
+        for threshold in Threshold::ALL {
+            assert_eq!(Threshold::from_name(threshold.name()), Some(threshold));
+        }
+        assert_eq!(Threshold::from_name("epsilon"), None);
+    }
+
+    #[test]
+    fn thresholds_not_named_follow_those_they_are_read_as() {
+        let thresholds = Thresholds::named([1.0, 2.0, 3.0, 4.0, 5.0]);
+        assert_eq!([thresholds.direction, thresholds.colinear], [1.0; 2]);
+        assert_eq!(thresholds.dist_1d, 2.0);
+        assert_eq!(thresholds.same_root, 3.0);
+        assert_eq!(thresholds.parallel, 4.0);
+        assert_eq!(thresholds.coefficients_cubic, 5.0);
+        assert_eq!(thresholds.segment, 0.0);
     }
 }

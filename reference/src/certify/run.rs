@@ -14,8 +14,8 @@ use crate::subject::{Answer, Subject};
 
 use super::batch::map_in_order;
 use super::source::Source;
-use super::tally::{Fault, Finding, Tally, Witness, centrality};
-use super::verdict::judge;
+use super::tally::{Fault, Finding, Tally, Witness};
+use super::verdict::{Outline, judge};
 
 /// The names of the errata that together make an answer differ from the exact one.
 pub type Explain<'a> = &'a (dyn Fn(&Query, &ExactAnswer) -> Vec<&'static str> + Sync);
@@ -193,7 +193,8 @@ impl Judgements {
 
     /// How central the contact is; 0 for a miss.
     fn centrality(&self) -> f64 {
-        self.truth.hit.as_ref().map_or(0.0, centrality)
+        let outline = Outline::from(&self.truth);
+        outline.hit.map_or(0.0, |hit| hit.centrality)
     }
 }
 
@@ -204,21 +205,12 @@ pub struct Found {
     pub answer: Option<Answer>,
     /// Whether it reports a hit.
     pub is_hit: bool,
+    /// Whether it reports a miss.
+    pub is_miss: bool,
     /// What is wrong, each with its severity.
     pub faults: Vec<(Fault, f64)>,
     /// The errata that together explain an answer that differs.
     pub errata: Vec<&'static str>,
-}
-
-impl Found {
-    /// Whether the subject reports a miss; no answer is none.
-    fn is_miss(&self) -> bool {
-        let has_answer = self
-            .faults
-            .iter()
-            .all(|(fault, _)| *fault != Fault::NoAnswer);
-        has_answer && !self.is_hit
-    }
 }
 
 impl Judged<'_> {
@@ -238,7 +230,8 @@ impl Judged<'_> {
         Found {
             answer,
             is_hit: judgement.is_hit,
-            faults: judgement.faults(truth, gap),
+            is_miss: judgement.is_miss(),
+            faults: judgement.faults(&truth.into(), gap),
             errata: explain.map_or_else(Vec::new, |explain| explain(query, truth)),
         }
     }
@@ -286,7 +279,7 @@ impl Block {
             return;
         };
         for (i, tally) in self.tallies.iter_mut().enumerate() {
-            if members.iter().all(|member| member.subjects[i].is_miss()) {
+            if members.iter().all(|member| member.subjects[i].is_miss) {
                 let witness = shown.witness(shown.subjects[i].answer, shown.centrality());
                 tally
                     .faults

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use tunnelproof::query::Query;
 
-use crate::answer::{Enclosure, ExactAnswer, ExactHit};
+use crate::answer::ExactAnswer;
 use crate::corpus::Entry;
 use crate::subject::Answer;
 
-use super::verdict::{Judgement, Verdict};
+use super::verdict::{Judgement, Outline, Verdict};
 
 /// What can be wrong with an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -116,13 +116,13 @@ impl Fault {
 
 impl Judgement {
     /// What is wrong with the answer, each with its severity. `gap` is asked for a false hit alone.
-    pub fn faults(&self, truth: &ExactAnswer, gap: impl FnOnce() -> f64) -> Vec<(Fault, f64)> {
-        let centrality = || truth.hit.as_ref().map_or(0.0, centrality);
+    pub fn faults(&self, truth: &Outline, gap: impl FnOnce() -> f64) -> Vec<(Fault, f64)> {
+        let centrality = truth.hit.map_or(0.0, |hit| hit.centrality);
         let mut faults = Vec::new();
         match self.verdict {
             Verdict::Right => {}
-            Verdict::Tunnel => faults.push((Fault::Tunnel, centrality())),
-            Verdict::MissedGraze => faults.push((Fault::MissedGraze, centrality())),
+            Verdict::Tunnel => faults.push((Fault::Tunnel, centrality)),
+            Verdict::MissedGraze => faults.push((Fault::MissedGraze, centrality)),
             Verdict::FalseHit => faults.push((Fault::FalseHit, gap())),
             Verdict::NearHit => faults.push((Fault::NearHit, 0.0)),
             Verdict::NoAnswer => faults.push((Fault::NoAnswer, 0.0)),
@@ -138,17 +138,6 @@ impl Judgement {
         faults.extend(times.into_iter().filter(|(_, by)| *by > 0.0));
         faults
     }
-}
-
-/// How far the time and the place of a contact are from the ends of the step and of the edges: 0 if
-/// each is at an end, 1 if each is in the middle.
-pub(super) fn centrality(hit: &ExactHit) -> f64 {
-    let from_ends = |number: Enclosure| number.below.min(1.0 - number.above);
-    let sum = [hit.toi, hit.first.u, hit.first.v]
-        .map(from_ends)
-        .iter()
-        .sum::<f64>();
-    sum * 2.0 / 3.0
 }
 
 impl Witness {

@@ -1,8 +1,7 @@
 //! What one answer is worth, against the exact one.
 
 use tunnelproof::certified;
-use tunnelproof::contact::Verdict as Claim;
-use tunnelproof::narrow::Report;
+use tunnelproof::contact::Case;
 
 use crate::answer::{Enclosure, ExactAnswer, ExactHit, Parameters};
 use crate::subject::Answer;
@@ -65,6 +64,63 @@ impl Judgement {
         late: 0.0,
         early: 0.0,
     };
+
+    /// Whether the subject reports a miss; no answer is none.
+    pub fn is_miss(&self) -> bool {
+        !self.is_hit && self.verdict != Verdict::NoAnswer
+    }
+}
+
+/// What of an exact answer the verdicts depend on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outline {
+    /// The case of the motion.
+    pub case: Case,
+    /// The first contact; `None` for a miss.
+    pub hit: Option<OutlineHit>,
+}
+
+/// What of the first contact the verdicts depend on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OutlineHit {
+    /// Time of impact.
+    pub toi: Enclosure,
+    /// Whether any contact of the step is a crossing.
+    pub crosses: bool,
+    /// How far the time and the place of the contact are from the ends of the step and of the edges:
+    /// 0 if each is at an end, 1 if each is in the middle.
+    pub centrality: f64,
+}
+
+/// What a subject says, as far as everyone says it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Said {
+    /// Time of impact; `None` for a miss.
+    pub toi: Option<Enclosure>,
+    /// The case of the motion, if it is stated.
+    pub case: Option<Case>,
+}
+
+impl From<&ExactAnswer> for Outline {
+    fn from(answer: &ExactAnswer) -> Self {
+        Outline {
+            case: answer.case,
+            hit: answer.hit.as_ref().map(|hit| OutlineHit {
+                toi: hit.toi,
+                crosses: hit.crosses,
+                centrality: centrality(hit),
+            }),
+        }
+    }
+}
+
+fn centrality(hit: &ExactHit) -> f64 {
+    let from_ends = |number: Enclosure| number.below.min(1.0 - number.above);
+    let sum = [hit.toi, hit.first.u, hit.first.v]
+        .map(from_ends)
+        .iter()
+        .sum::<f64>();
+    sum * 2.0 / 3.0
 }
 
 /// Compares an answer, `None` for no answer, with the exact one.
@@ -92,12 +148,25 @@ pub fn judge(
             });
             (toi, hit.map(|hit| hit.case), !keeps_promise(hit, truth))
         }
-        Some(Answer::Engine(report)) if is_meaningful(report) => {
+        Some(Answer::Engine(report)) => {
             let toi = report.verdict.contact();
             (toi.map(|c| Enclosure::exactly(c.toi)), report.case, false)
         }
-        _ => return Judgement::NO_ANSWER,
+        None => return Judgement::NO_ANSWER,
     };
+    Judgement {
+        differs,
+        ..judge_outline(&truth.into(), &Said { toi, case }, is_near)
+    }
+}
+
+/// Compares what a subject says with the exact answer, as [`judge`]; that an exact subject differs is
+/// not seen here.
+pub fn judge_outline(truth: &Outline, said: &Said, is_near: impl FnOnce() -> bool) -> Judgement {
+    let &Said { toi, case } = said;
+    if !toi.is_none_or(is_time_of_step) {
+        return Judgement::NO_ANSWER;
+    }
     let (late, early) = match (toi, truth.hit) {
         (Some(toi), Some(hit)) => lateness(toi, hit.toi),
         _ => (0.0, 0.0),
@@ -105,14 +174,14 @@ pub fn judge(
     Judgement {
         verdict: match (toi, truth.hit) {
             (None, None) | (Some(_), Some(_)) => Verdict::Right,
-            (None, Some(ExactHit { crosses: true, .. })) => Verdict::Tunnel,
+            (None, Some(OutlineHit { crosses: true, .. })) => Verdict::Tunnel,
             (None, Some(_)) => Verdict::MissedGraze,
             (Some(_), None) if is_near() => Verdict::NearHit,
             (Some(_), None) => Verdict::FalseHit,
         },
         is_hit: toi.is_some(),
         wrong_case: case.is_some_and(|case| case != truth.case),
-        differs,
+        differs: false,
         late,
         early,
     }
@@ -145,12 +214,10 @@ fn keeps_promise(hit: Option<&certified::Hit>, truth: &ExactAnswer) -> bool {
         && seconds_agree
 }
 
-/// Whether a claimed time of impact is a time of the step.
-fn is_meaningful(report: &Report) -> bool {
-    match report.verdict {
-        Claim::Miss => true,
-        Claim::Hit(contact) => (0.0..=1.0).contains(&contact.toi),
-    }
+/// Whether a time of impact is a time of the step.
+fn is_time_of_step(toi: Enclosure) -> bool {
+    let step = 0.0..=1.0;
+    step.contains(&toi.below) && step.contains(&toi.above)
 }
 
 /// How much later and how much earlier one number may be than another.

@@ -1,18 +1,15 @@
 //! `certify`: subjects judged on files and families against the exact answer.
 
-use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
-use indicatif::{ProgressBar, ProgressStyle};
 use tunnelproof_reference::certify::run::{Block, Judged, Panel};
 use tunnelproof_reference::certify::source::Source;
 use tunnelproof_reference::certify::strict::failures;
 use tunnelproof_reference::certify::table;
 use tunnelproof_reference::field::{self, Integer};
-use tunnelproof_reference::generate::{self, FAMILIES, Family};
+use tunnelproof_reference::generate::{FAMILIES, Family};
 use tunnelproof_reference::oracle;
 use tunnelproof_reference::registry;
 use tunnelproof_reference::report::results::Results;
@@ -21,7 +18,8 @@ use tunnelproof_reference::shrink::{Disagreement, MOST_CALLS};
 use tunnelproof_reference::subject::Subject;
 
 use super::output::{OutputFile, print};
-use super::{Failure, Reading};
+use super::sources::{family, of_families, of_files};
+use super::{Failure, Reading, progress};
 
 /// Judge subjects against the exact answer
 ///
@@ -127,19 +125,8 @@ impl Certify {
             false => self.family.clone(),
         };
         let figures = is_everything.then_some(Source::Figures);
-        let (seed, count) = (self.seed, self.count);
-        let families = families
-            .into_iter()
-            .filter(|_| count > 0)
-            .map(|family| Source::Family {
-                family,
-                seed,
-                count,
-            });
-        let files = self.files.iter().map(|path| Source::File {
-            path: path.clone(),
-            options: self.reading.options(),
-        });
+        let families = of_families(&families, self.seed, self.count);
+        let files = of_files(&self.files, &self.reading);
         figures.into_iter().chain(families).chain(files).collect()
     }
 
@@ -197,11 +184,7 @@ pub(super) fn judged(subject: &'static dyn Subject) -> Judged<'static> {
 
 /// Judges every source, with a progress bar on the standard error if that is a terminal.
 fn judge(panel: &Panel, sources: &[Source]) -> Result<Vec<Block>, Failure> {
-    let progress = match sources.iter().map(Source::count).sum::<Option<u64>>() {
-        _ if !std::io::stderr().is_terminal() => ProgressBar::hidden(),
-        Some(count) => ProgressBar::new(count).with_style(style()),
-        None => ProgressBar::new_spinner(),
-    };
+    let progress = progress::of_sources(sources);
     let blocks = sources.iter().map(|source| {
         progress.set_message(source.name());
         Ok(panel.run(source, |judged| progress.inc(judged))?)
@@ -209,14 +192,4 @@ fn judge(panel: &Panel, sources: &[Source]) -> Result<Vec<Block>, Failure> {
     let blocks = blocks.collect();
     progress.finish_and_clear();
     blocks
-}
-
-fn style() -> ProgressStyle {
-    ProgressStyle::with_template("{bar:40} {human_pos} of {human_len} {msg} {eta}")
-        .unwrap_or_else(|_| ProgressStyle::default_bar())
-}
-
-fn family() -> impl TypedValueParser<Value = &'static Family> {
-    PossibleValuesParser::new(FAMILIES.iter().map(Family::name))
-        .try_map(|name| generate::by_name(&name).ok_or("unknown family"))
 }

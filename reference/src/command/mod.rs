@@ -1,7 +1,7 @@
 //! The commands, what they have in common, and how they end.
 //!
-//! Exit code 0 is success, 1 a judged failure, 2 bad input or output that cannot be written; then one
-//! line on the standard error says what is wrong. Whoever closes the standard output early wants no
+//! Exit code 0 is success, 1 a judged failure, 2 bad input or output that cannot be written, 130 that
+//! Ctrl-C ended it; then one line on the standard error says what is wrong. Whoever closes the standard output early wants no
 //! more: that is success.
 
 use std::fmt;
@@ -16,13 +16,21 @@ use tunnelproof_reference::certify::run::RunError;
 use tunnelproof_reference::corpus::{CorpusError, ReadOptions};
 use tunnelproof_reference::registry;
 use tunnelproof_reference::subject::Subject;
+use tunnelproof_reference::sweep::{AxisError, DomainError};
 
+mod axes;
 mod certify;
 mod eval;
 mod explain;
+mod keeping;
 mod output;
+mod pages;
+mod progress;
 mod replay;
 mod shrink;
+mod sources;
+mod sweep;
+mod tune;
 mod vectors;
 
 /// Judges continuous collision detection of moving edges against exact arithmetic.
@@ -44,6 +52,8 @@ enum Command {
     Shrink(shrink::Shrink),
     Replay(replay::Replay),
     Vectors(vectors::Vectors),
+    Sweep(sweep::Sweep),
+    Tune(tune::Tune),
 }
 
 /// How files are read.
@@ -74,6 +84,14 @@ enum Failure {
     Nothing,
     /// Nothing says which fuzz target the file at this path is for.
     Target(String),
+    /// The thresholds cannot be swept like that.
+    Axis(AxisError),
+    /// There is no such scene.
+    Domain(DomainError),
+    /// How bad a missed crossing is, is no such number.
+    Penalty(f64),
+    /// Ctrl-C cannot be listened to.
+    Interruption(ctrlc::Error),
     /// The threads cannot be started.
     Threads(rayon::ThreadPoolBuildError),
 }
@@ -106,6 +124,8 @@ impl Cli {
             Command::Shrink(shrink) => shrink.run(),
             Command::Replay(replay) => replay.run(),
             Command::Vectors(vectors) => vectors.run(),
+            Command::Sweep(sweep) => sweep.run(),
+            Command::Tune(tune) => tune.run(),
         }
     }
 }
@@ -149,6 +169,18 @@ impl From<CorpusError> for Failure {
     }
 }
 
+impl From<AxisError> for Failure {
+    fn from(error: AxisError) -> Self {
+        Failure::Axis(error)
+    }
+}
+
+impl From<DomainError> for Failure {
+    fn from(error: DomainError) -> Self {
+        Failure::Domain(error)
+    }
+}
+
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -158,6 +190,12 @@ impl fmt::Display for Failure {
             Failure::Target(path) => {
                 write!(f, "{path}: is in no folder of a fuzz target; pass --target")
             }
+            Failure::Axis(error) => error.fmt(f),
+            Failure::Domain(error) => error.fmt(f),
+            Failure::Penalty(value) => {
+                write!(f, "--penalty is {value}, not a finite number above 0")
+            }
+            Failure::Interruption(error) => write!(f, "Ctrl-C: {error}"),
             Failure::Threads(error) => write!(f, "--threads: {error}"),
         }
     }

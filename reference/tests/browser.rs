@@ -1,0 +1,245 @@
+//! The pages of `sweep` and `tune` in a real browser: they are drawn, on a telephone and on a desk, light
+//! and dark, without an error on the console.
+//!
+//! The browser is Chromium, without a window. Where there is none the test is skipped and says so; with
+//! `TUNNELPROOF_BROWSER=required` in the environment it fails.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use serde_json::Value;
+
+/// What a page says of itself once it is drawn.
+const MEASURE: &str = r#"<script>
+addEventListener("load", () => {
+  const box = e => { const r = e.getBoundingClientRect(); return [r.width, r.height]; };
+  const all = (selector) => [...document.querySelectorAll(selector)];
+  parent.postMessage(JSON.stringify({
+    width: innerWidth,
+    overflow: document.documentElement.scrollWidth - document.documentElement.clientWidth,
+    paper: getComputedStyle(document.body).backgroundColor,
+    ink: getComputedStyle(document.body).color,
+    card: all("figure > svg > rect").map(e => getComputedStyle(e).fill)[0],
+    charts: all("figure > svg").map(e => [e.parentNode.id, ...box(e), e.querySelectorAll("text").length,
+      e.querySelectorAll("circle, rect, polyline").length]),
+    letters: all("figure > svg text").filter(e => e.textContent.trim())
+      .map(e => parseFloat(getComputedStyle(e).fontSize) * e.ownerSVGElement.getScreenCTM().a),
+    pictures: all("figure > img").map(e => [e.complete, e.naturalWidth]),
+  }), "*");
+});
+</script></body>"#;
+
+/// The program, if there is one.
+fn browser() -> Option<&'static str> {
+    let names = ["chromium", "chromium-browser", "google-chrome"];
+    let is_there = |name: &&str| Command::new(name).arg("--version").output().is_ok();
+    let found = names.into_iter().find(|name| is_there(name));
+    let is_required = std::env::var("TUNNELPROOF_BROWSER").is_ok_and(|value| value == "required");
+    assert!(
+        found.is_some() || !is_required,
+        "none of {names:?} is installed"
+    );
+    if found.is_none() {
+        eprintln!("skipped: none of {names:?} is installed");
+    }
+    found
+}
+
+/// What a page says of itself in a frame of this width, and what stands on the console.
+fn drawn(browser: &str, page: &Path, width: u32, is_dark: bool) -> (Value, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let html = fs::read_to_string(page).unwrap();
+    assert_eq!(html.matches("</body>").count(), 1);
+    fs::write(
+        folder.path().join("page.html"),
+        html.replace("</body>", MEASURE),
+    )
+    .unwrap();
+    let frame = format!(
+        r#"<meta name="color-scheme" content="light dark"><iframe src="page.html" width="{width}" height="800" style="border:0"></iframe>
+        <pre id="said"></pre><script>onmessage = e => said.textContent = e.data</script>"#
+    );
+    let path = folder.path().join("frame.html");
+    fs::write(&path, frame).unwrap();
+    let scheme = if is_dark { 0 } else { 1 };
+    let output = Command::new(browser)
+        .args([
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-dev-shm-usage",
+        ])
+        .args([
+            "--window-size=1400,1000",
+            "--virtual-time-budget=20000",
+            "--enable-logging=stderr",
+        ])
+        .arg(format!("--blink-settings=preferredColorScheme={scheme}"))
+        .arg(format!(
+            "--user-data-dir={}",
+            folder.path().join("profile").display()
+        ))
+        .arg("--dump-dom")
+        .arg(format!("file://{}", path.display()))
+        .output()
+        .unwrap();
+    let dom = String::from_utf8(output.stdout).unwrap();
+    let log = String::from_utf8_lossy(&output.stderr).into_owned();
+    let console = log
+        .lines()
+        .filter(|line| line.contains("CONSOLE"))
+        .collect::<Vec<_>>()
+        .join("\n");
+    let said = dom
+        .split("<pre id=\"said\">")
+        .nth(1)
+        .and_then(|rest| rest.split("</pre>").next());
+    let said = said.unwrap_or_else(|| panic!("nothing was said: {dom}\n{log}"));
+    let said = said.replace("&gt;", ">").replace("&amp;", "&");
+    let said = serde_json::from_str(&said).unwrap_or_else(|_| panic!("{said:?}\n{log}"));
+    (said, console)
+}
+
+/// How bright a colour is, from 0 to 255: `rgb(R, G, B)`.
+fn brightness(colour: &Value) -> f64 {
+    let text = colour.as_str().unwrap();
+    let numbers = text
+        .trim_start_matches("rgb(")
+        .trim_end_matches(')')
+        .split(", ");
+    numbers
+        .map(|number| number.parse::<f64>().unwrap())
+        .sum::<f64>()
+        / 3.0
+}
+
+fn assert_is_drawn(browser: &str, page: &Path, charts: &[&str], pictures: usize) {
+    for (width, is_dark) in [(390, false), (390, true), (1280, false), (1280, true)] {
+        let (said, console) = drawn(browser, page, width, is_dark);
+        let at = format!("{} at {width}, dark: {is_dark}: {said:#}", page.display());
+        assert_eq!(console, "", "{at}");
+        assert_eq!(said["width"], width, "{at}");
+        assert_eq!(said["overflow"], 0, "{at}");
+        assert_eq!(brightness(&said["paper"]) < 128.0, is_dark, "{at}");
+        assert_eq!(brightness(&said["card"]) < 128.0, is_dark, "{at}");
+        assert_eq!(brightness(&said["ink"]) > 128.0, is_dark, "{at}");
+        let found: Vec<_> = said["charts"].as_array().unwrap().iter().collect();
+        let names: Vec<_> = found
+            .iter()
+            .map(|chart| chart[0].as_str().unwrap())
+            .collect();
+        assert_eq!(names, charts, "{at}");
+        for chart in found {
+            let number = |index: usize| chart[index].as_f64().unwrap();
+            assert!(
+                number(1) > 300.0 && number(2) > 200.0,
+                "too small: {chart} {at}"
+            );
+            assert!(number(3) > 6.0 && number(4) > 4.0, "empty: {chart} {at}");
+        }
+        let letters = said["letters"].as_array().unwrap().iter();
+        let smallest = letters
+            .map(|height| height.as_f64().unwrap())
+            .fold(99.0, f64::min);
+        assert!(smallest >= 9.0, "letters of {smallest} pixels: {at}");
+        let drawn = said["pictures"].as_array().unwrap();
+        assert_eq!(drawn.len(), pictures, "{at}");
+        for picture in drawn {
+            assert_eq!(picture[0], true, "{at}");
+            assert!(picture[1].as_f64().unwrap() > 0.0, "{at}");
+        }
+    }
+}
+
+fn run(arguments: &[&str], page: &Path) {
+    let output = Command::new(env!("CARGO_BIN_EXE_tunnelproof"))
+        .args(arguments)
+        .args(["--no-cache", "--html"])
+        .arg(page)
+        .output()
+        .unwrap();
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+}
+
+const SMALL: [&str; 4] = ["--family", "near_coplanar,joint", "--count", "60"];
+
+#[test]
+fn browser_draws_the_page_of_a_sweep() {
+    let Some(browser) = browser() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("sweep.html");
+    run(&[&["sweep"], &SMALL[..]].concat(), &page);
+    let thresholds = [
+        "dist",
+        "dist_1d",
+        "t",
+        "coefficients_quadratic",
+        "coefficients_cubic",
+    ];
+    let charts = thresholds.map(|name| [format!("{name}-answers"), format!("{name}-gaps")]);
+    let charts: Vec<_> = charts.as_flattened().iter().map(String::as_str).collect();
+    let html = fs::read_to_string(&page).unwrap();
+    let pictures = html.matches("<img").count();
+    assert!(pictures >= 4, "{pictures} pictures of witnesses");
+    assert_is_drawn(
+        browser,
+        &page,
+        &[&charts[..], &["front", "gaps"]].concat(),
+        pictures,
+    );
+}
+
+#[test]
+fn browser_draws_heat_maps() {
+    let Some(browser) = browser() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("heat.html");
+    let axes = [
+        "--threshold",
+        "dist",
+        "--steps",
+        "6",
+        "--threshold",
+        "t",
+        "--steps",
+        "5",
+    ];
+    run(&[&["sweep"], &SMALL[..], &axes[..]].concat(), &page);
+    let pictures = fs::read_to_string(&page).unwrap().matches("<img").count();
+    let charts = ["heat-crossings", "heat-false-hits", "front", "gaps"];
+    assert_is_drawn(browser, &page, &charts, pictures);
+}
+
+#[test]
+fn browser_draws_the_page_of_a_search() {
+    let Some(browser) = browser() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("tune.html");
+    run(
+        &[&["tune"], &SMALL[..], &["--unseen-count", "50"]].concat(),
+        &page,
+    );
+    assert_is_drawn(browser, &page, &["front-by-count", "front-by-gap"], 0);
+}
+
+#[test]
+fn browser_sees_an_error_on_the_console() {
+    let Some(browser) = browser() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("broken.html");
+    let broken = "<!DOCTYPE html><body><script>nothing.is_there()</script></body>";
+    fs::write(&page, broken).unwrap();
+    let (_, console) = drawn(browser, &page, 390, false);
+    assert!(console.contains("nothing is not defined"), "{console}");
+}
