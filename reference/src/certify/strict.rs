@@ -20,15 +20,15 @@ pub fn failures(panel: &Panel, total: &Block) -> Vec<String> {
             (!faults.is_empty()).then(|| format!("{name}: {}", faults.join(", ")))
         })
         .collect();
-    let second = panel.second_judge.map_or_else(String::new, |judge| {
-        format!("oracle and {} disagree", judge.name())
+    let judges = panel.second_judges.iter().zip(&total.agreements);
+    let seconds = judges.map(|(judge, agreement)| {
+        let what = format!("oracle and {} disagree", judge.name());
+        (what, agreement.disagreements.count)
     });
-    for (what, finding) in [
-        (second.as_str(), &total.disagreements),
-        ("labels disagree with the oracle", &total.wrong_labels),
-    ] {
-        if finding.count > 0 {
-            lines.push(format!("{what} on {} queries", grouped(finding.count)));
+    let labels = "labels disagree with the oracle".to_owned();
+    for (what, count) in seconds.chain([(labels, total.wrong_labels.count)]) {
+        if count > 0 {
+            lines.push(format!("{what} on {} queries", grouped(count)));
         }
     }
     lines

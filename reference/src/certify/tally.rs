@@ -64,6 +64,8 @@ pub struct Finding {
 /// What was found of one subject.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
+    /// How many queries it does not take.
+    pub not_asked: u64,
     /// How many hits it reports.
     pub hits: u64,
     /// What was wrong with its answers.
@@ -195,6 +197,7 @@ impl Tally {
 
     /// Adds what was found after all that is counted.
     pub fn merge(&mut self, later: Tally) {
+        self.not_asked += later.not_asked;
         self.hits += later.hits;
         for (fault, finding) in later.faults {
             self.faults.entry(fault).or_default().merge(finding);

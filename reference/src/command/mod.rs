@@ -20,6 +20,7 @@ use tunnelproof_reference::subject::Subject;
 mod certify;
 mod eval;
 mod explain;
+mod gap;
 mod output;
 mod replay;
 mod shrink;
@@ -41,6 +42,7 @@ enum Command {
     Eval(eval::Eval),
     Certify(certify::Certify),
     Explain(explain::Explain),
+    Gap(gap::Gap),
     Shrink(shrink::Shrink),
     Replay(replay::Replay),
     Vectors(vectors::Vectors),
@@ -103,6 +105,7 @@ impl Cli {
             Command::Eval(eval) => eval.run(),
             Command::Certify(certify) => certify.run(),
             Command::Explain(explain) => explain.run(),
+            Command::Gap(gap) => gap.run(),
             Command::Shrink(shrink) => shrink.run(),
             Command::Replay(replay) => replay.run(),
             Command::Vectors(vectors) => vectors.run(),
