@@ -46,7 +46,7 @@ pub enum Query {
 }
 
 /// The kind of a query, without its points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum QueryKind {
     /// Edge against edge; written `edge-edge`.
     EdgeEdge,

@@ -1,5 +1,5 @@
-//! Two independent ways to every answer, over both backends: oracle and shadow on generated queries,
-//! and on the public sets with their labels where `../shared/data` is present.
+//! Two independent ways to every answer, over both backends: oracle and shadow, or oracle and
+//! difference, on generated queries, and on the public sets with their labels where `../shared/data` is present.
 //!
 //! With the feature `gmp` the default backend is GMP, and the comparisons with `num-bigint` are
 //! between two implementations of arithmetic; without it they hold trivially.
@@ -8,34 +8,32 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use num_bigint::BigInt;
-use tunnelproof::query::{EdgeEdge, Query};
+use tunnelproof::query::{EdgeEdge, Query, QueryKind};
 use tunnelproof_reference::answer::ExactAnswer;
-use tunnelproof_reference::corpus::{self, ReadOptions};
+use tunnelproof_reference::corpus::{self, Entry, ReadOptions};
 use tunnelproof_reference::field::{self, Integer};
-use tunnelproof_reference::generate::FAMILIES;
-use tunnelproof_reference::{oracle, shadow};
+use tunnelproof_reference::generate::{self, FAMILIES};
+use tunnelproof_reference::{difference, oracle, shadow};
 
 const COUNT: u64 = 5_000;
 
 fn by_oracle<Z: Integer>(query: &EdgeEdge) -> ExactAnswer {
-    oracle::decide::<Z>(query)
-        .expect("an edge-edge query of radius 0")
-        .written()
+    oracle::decide::<Z>(&Query::EdgeEdge(*query)).written()
 }
 
 fn by_shadow<Z: Integer>(query: &EdgeEdge) -> ExactAnswer {
     shadow::edge_edge::<Z>(query, tunnelproof::thesis::Repairs::ALL)
 }
 
-/// Every edge-edge csv below a folder.
-fn csv_files(folder: &Path) -> Vec<PathBuf> {
+/// Every csv of this kind of queries below a folder.
+fn csv_files(folder: &Path, kind: QueryKind) -> Vec<PathBuf> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let path = entry.path();
         if path.is_dir() {
-            files.extend(csv_files(&path));
+            files.extend(csv_files(&path, kind));
         } else if path.extension().is_some_and(|extension| extension == "csv")
-            && path.to_string_lossy().contains("edge-edge")
+            && path.to_string_lossy().contains(kind.name())
         {
             files.push(path);
         }
@@ -44,10 +42,10 @@ fn csv_files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-#[test]
-fn oracle_shadow_and_label_agree_on_the_public_sets() {
+/// Calls `check` on every query of this kind of the public sets, which are skipped where they are not.
+fn for_every_public_query(kind: QueryKind, check: impl Fn(&Entry)) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
-    let files = csv_files(&folder);
+    let files = csv_files(&folder, kind);
     if files.is_empty() {
         eprintln!("skipped: no public sets in {}", folder.display());
         return;
@@ -56,19 +54,57 @@ fn oracle_shadow_and_label_agree_on_the_public_sets() {
     for file in files {
         let path = file.to_string_lossy();
         for entry in corpus::open(&path, ReadOptions::default()).expect("a readable file") {
-            let entry = entry.expect("a sound file");
-            let Query::EdgeEdge(query) = &entry.query else {
-                panic!("{} is not edge-edge", entry.id)
-            };
-            let answer = by_oracle::<field::Default>(query);
-            assert_eq!(Some(answer.hit.is_some()), entry.label, "{}", entry.id);
-            assert_eq!(answer, by_shadow::<field::Default>(query), "{}", entry.id);
-            assert_eq!(answer, by_oracle::<BigInt>(query), "{}", entry.id);
+            check(&entry.expect("a sound file"));
             count += 1;
         }
     }
     eprintln!("{count} labelled queries");
     assert!(count >= 1000, "only {count} queries were read");
+}
+
+#[test]
+fn oracle_shadow_and_label_agree_on_the_public_sets() {
+    for_every_public_query(QueryKind::EdgeEdge, |entry| {
+        let Query::EdgeEdge(query) = &entry.query else {
+            panic!("{} is not edge-edge", entry.id)
+        };
+        let answer = by_oracle::<field::Default>(query);
+        assert_eq!(Some(answer.hit.is_some()), entry.label, "{}", entry.id);
+        assert_eq!(answer, by_shadow::<field::Default>(query), "{}", entry.id);
+        assert_eq!(answer, by_oracle::<BigInt>(query), "{}", entry.id);
+    });
+}
+
+#[test]
+fn oracle_difference_and_label_agree_on_the_public_sets_of_faces() {
+    for_every_public_query(QueryKind::VertexFace, |entry| {
+        let answer = oracle::decide::<field::Default>(&entry.query).written();
+        assert_eq!(Some(answer.hit.is_some()), entry.label, "{}", entry.id);
+        let second = difference::decide::<field::Default>(&entry.query);
+        assert_eq!(answer, second, "{}", entry.id);
+    });
+}
+
+#[test]
+fn oracle_difference_and_backends_agree_on_every_family_of_every_kind() {
+    for family in generate::all() {
+        for index in 0..COUNT / 10 {
+            let query = family.query(1, index);
+            let answer = oracle::decide::<field::Default>(&query).written();
+            let second = difference::decide::<field::Default>(&query);
+            let id = || format!("{}:1:{index}", family.name());
+            assert_eq!(answer, second, "{}", id());
+            if index % 8 == 0 {
+                assert_eq!(
+                    answer,
+                    oracle::decide::<BigInt>(&query).written(),
+                    "{}",
+                    id()
+                );
+                assert_eq!(answer, difference::decide::<BigInt>(&query), "{}", id());
+            }
+        }
+    }
 }
 
 #[test]

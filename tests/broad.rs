@@ -5,7 +5,7 @@
 use num_bigint::BigInt;
 use proptest::prelude::*;
 use tunnelproof::broad::{Aabb, BroadPhase, ItemId, Method, SlowPairs};
-use tunnelproof::query::{EdgeEdge, Point};
+use tunnelproof::query::{Point, Query, QueryKind};
 use tunnelproof_reference::oracle::comes_within;
 
 /// A finite number in units of 2^-1074: exact.
@@ -137,7 +137,8 @@ fn run(scene: &Scene, method: Method) -> u64 {
                     .iter()
                     .any(|p| (p.first(), p.second()) == (items[i], items[j]));
                 let points = |at: &Vec<[Point; 2]>| [at[i][0], at[i][1], at[j][0], at[j][1]];
-                let query = EdgeEdge::new(points(before), points(after), 0.0).unwrap();
+                let query =
+                    Query::new(QueryKind::EdgeEdge, points(before), points(after), 0.0).unwrap();
                 // Twice a number is exact.
                 let meet = comes_within(&query, 2.0 * scene.radius);
                 assert!(is_left || !meet, "{method:?}: {i} and {j} of {scene:?}");
@@ -187,7 +188,7 @@ proptest! {
         points in prop::array::uniform4(prop::array::uniform3(-1.0..1.0f64)),
     ) {
         let points = points.map(Point::from);
-        let still = EdgeEdge::new(points, points, 0.0).unwrap();
+        let still = Query::new(QueryKind::EdgeEdge, points, points, 0.0).unwrap();
         // The least radius at which they touch, to the last bit.
         let (mut apart, mut within) = (0, 4f64.to_bits());
         while within - apart > 1 {

@@ -78,7 +78,7 @@ fn families_meet_the_cases_that_they_are_near_to_and_the_general_one() {
 
 fn certify(family: &str, subject: &str) -> Block {
     let panel = Panel {
-        second_judge: Some(&registry::SECOND_JUDGE),
+        second_judges: registry::second_judges().to_vec(),
         subjects: vec![Judged {
             subject: registry::by_name(subject).unwrap(),
             explain: None,

@@ -33,7 +33,7 @@ fn counts<const N: usize>(engine: impl NarrowPhase, family: &str, faults: [Fault
         explain: None,
     };
     let panel = Panel {
-        second_judge: Some(&SECOND_JUDGE),
+        second_judges: vec![&SECOND_JUDGE],
         subjects: vec![judged],
     };
     let family = by_name(family).expect("a family");

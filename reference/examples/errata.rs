@@ -50,7 +50,9 @@ impl Tally {
                 self.missed += 1;
                 self.tunnels += u64::from(hit.crosses);
             }
-            (None, true) if distance > 0.0 && comes_within(query, distance) => self.near_hits += 1,
+            (None, true) if distance > 0.0 && comes_within(&Query::EdgeEdge(*query), distance) => {
+                self.near_hits += 1
+            }
             (None, true) => self.false_hits += 1,
             (Some(hit), true) => match answer {
                 Answer::Exact(ExactAnswer {

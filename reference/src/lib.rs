@@ -5,6 +5,7 @@ pub mod algebraic;
 pub mod answer;
 pub mod certify;
 pub mod corpus;
+pub mod difference;
 pub mod field;
 pub mod fuzz;
 pub mod generate;

@@ -7,28 +7,43 @@ use tunnelproof::query::Query;
 use tunnelproof::thesis::{Erratum, Repairs, Thesis};
 
 use crate::answer::ExactAnswer;
+use crate::difference::{self, Difference};
+use crate::field;
 use crate::oracle::{Oracle, decide_query};
 use crate::shadow::Shadow;
 use crate::shrink::Truth;
 use crate::subject::{Answer, Certified, Engine, Subject};
 
-/// Agrees with the oracle on every query, or one of the two is wrong.
+/// Agrees with the oracle on every query that it takes, or one of the two is wrong: edges without radius.
 pub static SECOND_JUDGE: Shadow = Shadow::REPAIRED;
+
+/// The second judges: of those that take a query, the first is asked.
+pub fn second_judges() -> [&'static dyn Subject; 2] {
+    [&SECOND_JUDGE, &Difference]
+}
 
 static THESIS: LazyLock<Engine<Thesis>> = LazyLock::new(|| Engine(Thesis::default()));
 
 static ADDITIVE: LazyLock<Engine<Additive>> = LazyLock::new(|| Engine(Additive::default()));
 
 /// Every subject, in the order of tables.
-pub fn subjects() -> [&'static dyn Subject; 6] {
+pub fn subjects() -> [&'static dyn Subject; 7] {
     [
         &Oracle,
+        &Difference,
         &SECOND_JUDGE,
         &Shadow::PUBLISHED,
         &*THESIS,
         &*ADDITIVE,
         &Certified,
     ]
+}
+
+/// Every subject but the second judge that takes all queries: it is slow, and asked anyway where no
+/// other one takes them.
+pub fn judged_by_default() -> impl Iterator<Item = &'static dyn Subject> {
+    let subjects = subjects().into_iter();
+    subjects.filter(|subject| subject.name() != Difference.name())
 }
 
 /// The subject with this [`name`](Subject::name), if any.
@@ -38,9 +53,14 @@ pub fn by_name(name: &str) -> Option<&'static dyn Subject> {
 }
 
 /// Who can be taken for the truth, by the name of the subject.
-pub fn truths() -> [(&'static str, Truth); 2] {
+pub fn truths() -> [(&'static str, Truth); 3] {
     let shadow = |query: &Query| SECOND_JUDGE.decide(query);
-    [(Oracle.name(), decide_query), (SECOND_JUDGE.name(), shadow)]
+    let difference = |query: &Query| Ok(difference::decide::<field::Default>(query));
+    [
+        (Oracle.name(), decide_query),
+        (Difference.name(), difference),
+        (SECOND_JUDGE.name(), shadow),
+    ]
 }
 
 /// The names of a smallest set of errata whose repair makes the published text give the exact answer;

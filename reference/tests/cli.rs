@@ -148,18 +148,12 @@ fn eval_unsupported_queries_are_refused_with_their_place() {
         "vertex-face.jsonl",
         CROSSING.replace("edge-edge", "vertex-face"),
     );
-    for command in ["eval", "certify"] {
-        let output = tunnelproof(&[command, &path]);
-        assert_refused(
-            &output,
-            &path,
-            Some(1),
-            "vertex-face queries are not supported yet",
-        );
-    }
+    let output = tunnelproof(&["eval", "--subject", "thesis", &path]);
+    let reason = "vertex-face queries are not supported yet";
+    assert_refused(&output, &path, Some(1), reason);
     let (_folder, path) = file("a.jsonl", CROSSING);
-    let output = tunnelproof(&["eval", "--radius", "0.5", &path]);
-    assert_refused(&output, &path, Some(1), "radius");
+    let thick = ["eval", "--subject", "shadow", "--radius", "0.5", &path];
+    assert_refused(&tunnelproof(&thick), &path, Some(1), "radius");
     let output = tunnelproof(&["eval", "--kind", "vertex-face", &path]);
     assert_refused(&output, &path, Some(1), "edge-edge");
 }
@@ -168,7 +162,7 @@ fn eval_unsupported_queries_are_refused_with_their_place() {
 fn eval_exact_answer_has_the_stated_fields() {
     let output = with_input(&["eval", "-"], &format!("{CROSSING}\n{MISS}\n"));
     assert_eq!(code(&output), 0, "{}", stderr(&output));
-    let expected = r#"{"id":"a","hit":true,"toi":{"below":0.3333333333333333,"above":0.33333333333333337},"kind_of_contact":"crossing","crosses":true,"side":1,"case":"general","temporarily_parallel":false,"temporarily_point":false,"u":{"below":0.5,"above":0.5},"v":{"below":0.5,"above":0.5}}
+    let expected = r#"{"id":"a","hit":true,"toi":{"below":0.3333333333333333,"above":0.33333333333333337},"kind_of_contact":"crossing","crosses":true,"side":1,"case":"general","temporarily_parallel":false,"temporarily_point":false,"features":["AB","CD"],"u":{"below":0.5,"above":0.5},"v":{"below":0.5,"above":0.5}}
 {"id":"b","hit":false,"case":"parallel"}
 "#;
     assert_eq!(stdout(&output), expected);
@@ -393,7 +387,7 @@ fn certify_json_holds_rows_and_witnesses_that_explain_understands() {
     let results: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
     assert_eq!(results["sources"].as_array().unwrap().len(), 17);
     assert_eq!(results["total"]["queries"], 4012);
-    assert_eq!(results["total"]["disagreements"]["count"], 0);
+    assert_eq!(results["total"]["disagreements"]["shadow"]["count"], 0);
     let published = &results["total"]["subjects"][2];
     assert_eq!(published["subject"], "shadow-published");
     let tunnel = &published["faults"]["tunnel"];
@@ -596,4 +590,88 @@ fn vectors_that_cannot_be_written_are_refused() {
     let (_folder, path) = file("taken", "");
     let output = tunnelproof(&["vectors", "--out", &path]);
     assert_refused(&output, &path, None, "cannot be written");
+}
+
+#[test]
+fn eval_a_vertex_and_a_face_names_the_features_that_touch() {
+    // A falls through the middle of BC, and, with a radius, touches before.
+    let falls = r#"{"id": "f", "kind": "vertex-face", "points": [[1, 0, 1], [0, 0, 0], [2, 0, 0],
+        [0, 2, 0], [1, 0, -3], [0, 0, 0], [2, 0, 0], [0, 2, 0]]}"#
+        .replace('\n', " ");
+    let output = with_input(&["eval", "-"], &falls);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let [answer] = &lines(&output)[..] else {
+        panic!("one line: {}", stdout(&output))
+    };
+    assert_eq!(answer["toi"]["below"], 0.25);
+    assert_eq!(answer["toi"]["above"], 0.25);
+    assert_eq!(answer["kind_of_contact"], "graze");
+    assert_eq!(answer["features"], serde_json::json!(["A", "BC"]));
+    assert_eq!(
+        (&answer["u"]["below"], &answer["v"]["above"]),
+        (&0.5.into(), &0.0.into())
+    );
+    for subject in ["oracle", "difference"] {
+        let thick = ["eval", "--subject", subject, "--radius", "0.25+0.25", "-"];
+        let [answer] = &lines(&with_input(&thick, &falls))[..] else {
+            panic!("one line for {subject}")
+        };
+        assert_eq!(answer["toi"]["below"], 0.125, "{subject}");
+        assert_eq!(answer["features"][1], "BC", "{subject}");
+    }
+}
+
+#[test]
+fn gap_is_the_least_distance_beyond_the_radius() {
+    let gap = |arguments: &[&str]| -> [f64; 2] {
+        let output = tunnelproof(&[&["gap", "figure:4.7"], arguments].concat());
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        let text = stdout(&output);
+        let numbers = text
+            .split_whitespace()
+            .map(|number| number.parse().unwrap());
+        numbers.collect::<Vec<_>>().try_into().unwrap()
+    };
+    let is_enclosed = |[below, above]: [f64; 2], value: f64, width: f64| {
+        below <= value && value <= above && above - below <= width
+    };
+    assert!(is_enclosed(gap(&[]), 1.0 / 64.0, 1e-9));
+    assert!(is_enclosed(gap(&["--width", "1e-15"]), 1.0 / 64.0, 1e-15));
+    let thick = ["--radius", "0.0078125+0.00390625"];
+    assert!(is_enclosed(gap(&thick), 1.0 / 256.0, 1e-9));
+    assert_eq!(gap(&["--radius", "0.015625"]), [0.0, 0.0]);
+    for width in ["-1", "nan", "x"] {
+        let refused = tunnelproof(&["gap", "figure:4.7", &format!("--width={width}")]);
+        assert_eq!(code(&refused), 2);
+        assert!(stderr(&refused).contains("--width"), "{}", stderr(&refused));
+    }
+}
+
+#[test]
+fn certify_faces_and_radii_asks_only_those_who_take_them() {
+    let families = "face_lattice,thick_lattice,thick_face_lattice";
+    let output = tunnelproof(&[
+        "certify",
+        "--strict",
+        "--family",
+        families,
+        "--count",
+        "200",
+        "--subject",
+        "oracle,shadow,additive",
+    ]);
+    let text = stdout(&output);
+    assert!(
+        text.contains("oracle and difference agree on all "),
+        "{text}"
+    );
+    assert!(text.contains("not asked"), "{text}");
+    assert!(!text.contains("DISAGREE"), "{text}");
+    let explained = tunnelproof(&["explain", "thick_face_lattice:1:3"]);
+    assert_eq!(code(&explained), 0, "{}", stderr(&explained));
+    assert!(
+        stdout(&explained).contains("not asked"),
+        "{}",
+        stdout(&explained)
+    );
 }

@@ -31,12 +31,10 @@ const ORDINARY: std::ops::Range<f64> = 1e-60..1e60;
 /// Whether no decision of the thesis path on this query is near its border.
 pub fn is_clear(query: &EdgeEdge, thresholds: &Thresholds) -> bool {
     let sizes = Sizes::new(query);
-    let Ok(decision) = oracle::decide::<Z>(query) else {
-        return false;
-    };
     if !sizes.are_ordinary {
         return false;
     }
+    let decision = oracle::decide::<Z>(&Query::EdgeEdge(*query));
     let same = |i, j| is_clearly_same_or_not(query, i, j, thresholds, &sizes);
     match decision.case() {
         // Points that are equal at both ends of the step are so in `f64`, and nothing more is asked.

@@ -5,7 +5,7 @@ use std::iter;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use tunnelproof::narrow::Unsupported;
-use tunnelproof::query::{EdgeEdge, Query};
+use tunnelproof::query::Query;
 
 use crate::answer::ExactAnswer;
 use crate::corpus::{CorpusError, Entries, Entry};
@@ -14,7 +14,7 @@ use crate::subject::{Answer, Subject};
 
 use super::batch::map_in_order;
 use super::source::Source;
-use super::tally::{Fault, Finding, Tally, Witness};
+use super::tally::{Fault, Finding, Sort, Tally, Witness};
 use super::verdict::{Outline, judge};
 
 /// The names of the errata that together make an answer differ from the exact one.
@@ -32,8 +32,8 @@ pub struct Judged<'a> {
 /// Who judges and who is judged. A subject with the name of a judge is that judge.
 #[derive(Clone)]
 pub struct Panel<'a> {
-    /// Has to agree with the oracle on every query, if there is one.
-    pub second_judge: Option<&'a dyn Subject>,
+    /// The first of them that takes a query has to agree with the oracle on it.
+    pub second_judges: Vec<&'a dyn Subject>,
     /// Who is judged, in the order of tables.
     pub subjects: Vec<Judged<'a>>,
 }
@@ -55,10 +55,19 @@ pub struct Block {
     pub labels: u64,
     /// Labels that are not what the oracle says.
     pub wrong_labels: Finding,
-    /// Queries on which the second judge does not say what the oracle says.
-    pub disagreements: Finding,
+    /// What each second judge was asked, in the order of the panel.
+    pub agreements: Vec<Agreement>,
     /// What was found of each subject, in the order of the panel.
     pub tallies: Vec<Tally>,
+}
+
+/// What a second judge says of the oracle's answers.
+#[derive(Clone, Debug, Default)]
+pub struct Agreement {
+    /// How many queries it was asked.
+    pub queries: u64,
+    /// Queries on which it does not say what the oracle says.
+    pub disagreements: Finding,
 }
 
 /// Why judging ended early.
@@ -103,6 +112,7 @@ impl Panel<'_> {
         let mut block = Block {
             name: source.name(),
             tallies: vec![Tally::default(); self.subjects.len()],
+            agreements: vec![Agreement::default(); self.second_judges.len()],
             ..Block::default()
         };
         let size = source.group_size();
@@ -132,15 +142,13 @@ impl Panel<'_> {
             reason,
         };
         let truth = oracle::decide_query(&query).map_err(refused)?;
-        let second = self
-            .second_judge
-            .map(|judge| (judge.name(), answer(judge, &query)));
+        let second = self.second(&query);
         // What the judges said need not be asked again.
         let said = |judged: &Judged| match judged.subject.name() {
-            name if name == oracle::Oracle.name() => Some(Answer::Exact(truth)),
+            name if name == oracle::Oracle.name() => Reply::Answer(Answer::Exact(truth)),
             name => match second {
-                Some((judge, answer)) if judge == name => answer,
-                _ => answer(judged.subject, &query),
+                Some((judge, reply)) if self.second_judges[judge].name() == name => reply,
+                _ => ask(judged.subject, &query),
             },
         };
         let found = |judged: &Judged| judged.compare(&query, &truth, said(judged));
@@ -150,8 +158,15 @@ impl Panel<'_> {
             query,
             label: entry.label,
             truth,
-            second: second.map(|(_, answer)| answer),
+            second,
         })
+    }
+
+    /// The number of the second judge that takes the query, and what it says.
+    fn second(&self, query: &Query) -> Option<(usize, Reply)> {
+        let judges = self.second_judges.iter().enumerate();
+        let mut replies = judges.map(|(index, judge)| (index, ask(*judge, query)));
+        replies.find(|(_, reply)| *reply != Reply::NotAsked)
     }
 }
 
@@ -175,8 +190,8 @@ struct Judgements {
     query: Query,
     label: Option<bool>,
     truth: ExactAnswer,
-    /// What the second judge says, if there is one; `None` in it for no answer.
-    second: Option<Option<Answer>>,
+    /// The number of the second judge that takes the query, if any, and what it says.
+    second: Option<(usize, Reply)>,
     subjects: Vec<Found>,
 }
 
@@ -203,6 +218,8 @@ impl Judgements {
 pub struct Found {
     /// What the subject says; `None` for no answer.
     pub answer: Option<Answer>,
+    /// Whether it takes such queries; if not, nothing is wrong.
+    pub is_asked: bool,
     /// Whether it reports a hit.
     pub is_hit: bool,
     /// Whether it reports a miss.
@@ -213,22 +230,40 @@ pub struct Found {
     pub errata: Vec<&'static str>,
 }
 
+impl Found {
+    /// Of a subject that does not take such queries.
+    const NOT_ASKED: Found = Found {
+        answer: None,
+        is_asked: false,
+        is_hit: false,
+        is_miss: false,
+        faults: Vec::new(),
+        errata: Vec::new(),
+    };
+}
+
 impl Judged<'_> {
     /// Asks the subject and compares its answer with the exact one. The gap of a false hit is an
     /// estimate; see [`exact_gap`].
     pub fn judge(&self, query: &Query, truth: &ExactAnswer) -> Found {
-        self.compare(query, truth, answer(self.subject, query))
+        self.compare(query, truth, ask(self.subject, query))
     }
 
-    fn compare(&self, query: &Query, truth: &ExactAnswer, answer: Option<Answer>) -> Found {
+    fn compare(&self, query: &Query, truth: &ExactAnswer, reply: Reply) -> Found {
+        let answer = match reply {
+            Reply::NotAsked => return Found::NOT_ASKED,
+            Reply::Answer(answer) => Some(answer),
+            Reply::Nothing => None,
+        };
         let declared = self.subject.declared_distance();
         let judgement = judge(truth, answer.as_ref(), || {
-            declared > 0.0 && oracle_gap(query, |edges| oracle::comes_within(edges, declared))
+            declared > 0.0 && oracle::comes_within(query, declared)
         });
-        let gap = || oracle_gap(query, oracle::estimate_distance);
+        let gap = || oracle::estimate_gap(query);
         let explain = self.explain.filter(|_| judgement.differs);
         Found {
             answer,
+            is_asked: true,
             is_hit: judgement.is_hit,
             is_miss: judgement.is_miss(),
             faults: judgement.faults(&truth.into(), gap),
@@ -248,11 +283,20 @@ impl Block {
         if case.label.is_some_and(|label| label != hit.is_some()) {
             self.wrong_labels.add(witness(None, 0.0));
         }
-        let exact = Some(Answer::Exact(case.truth));
-        if let Some(second) = case.second.filter(|second| *second != exact) {
-            self.disagreements.add(witness(second, 0.0));
+        if let Some((judge, reply)) = case.second {
+            let agreement = &mut self.agreements[judge];
+            agreement.queries += 1;
+            if reply != Reply::Answer(Answer::Exact(case.truth)) {
+                agreement.disagreements.add(witness(reply.answer(), 0.0));
+            }
         }
         for (tally, found) in self.tallies.iter_mut().zip(&case.subjects) {
+            let sort = Sort::of(&case.query);
+            if found.is_asked {
+                tally.taken.insert(sort);
+            } else {
+                *tally.refused.entry(sort).or_default() += 1;
+            }
             tally.hits += u64::from(found.is_hit);
             for &(fault, severity) in &found.faults {
                 let finding = tally.faults.entry(fault).or_default();
@@ -298,7 +342,12 @@ impl Block {
         self.joints += later.joints;
         self.labels += later.labels;
         self.wrong_labels.merge(later.wrong_labels);
-        self.disagreements.merge(later.disagreements);
+        self.agreements
+            .resize_with(later.agreements.len(), Agreement::default);
+        for (agreement, later) in self.agreements.iter_mut().zip(later.agreements) {
+            agreement.queries += later.queries;
+            agreement.disagreements.merge(later.disagreements);
+        }
         self.tallies
             .resize_with(later.tallies.len(), Tally::default);
         for (tally, later) in self.tallies.iter_mut().zip(later.tallies) {
@@ -318,22 +367,43 @@ fn measure_gap(tally: &mut Tally) {
     }
 }
 
-/// The least distance of a query during its step, rounded down to about three digits.
+/// The gap of a query ([`oracle::least_gap`]), rounded down to about three digits.
 pub fn exact_gap(query: &Query) -> f64 {
-    oracle_gap(query, |edges| oracle::least_distance(edges).below)
+    oracle::least_gap(query).below
 }
 
-/// What `decide` says of an edge-edge query, the only kind that the oracle takes.
-fn oracle_gap<T: Default>(query: &Query, decide: impl FnOnce(&EdgeEdge) -> T) -> T {
-    match query {
-        Query::EdgeEdge(query) => decide(query),
-        Query::VertexFace(_) => T::default(),
+/// What comes of asking a subject.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Reply {
+    Answer(Answer),
+    /// It does not take such queries.
+    NotAsked,
+    /// It panics, or refuses for a reason that is not that of the query.
+    Nothing,
+}
+
+impl Reply {
+    fn answer(self) -> Option<Answer> {
+        match self {
+            Reply::Answer(answer) => Some(answer),
+            Reply::NotAsked | Reply::Nothing => None,
+        }
     }
 }
 
-/// The answer of a subject; `None` if it refuses or panics.
-fn answer(subject: &dyn Subject, query: &Query) -> Option<Answer> {
-    catch_unwind(AssertUnwindSafe(|| subject.answer(query)))
-        .ok()
-        .and_then(Result::ok)
+fn ask(subject: &dyn Subject, query: &Query) -> Reply {
+    match catch_unwind(AssertUnwindSafe(|| subject.answer(query))) {
+        Ok(Ok(answer)) => Reply::Answer(answer),
+        Ok(Err(refusal)) if is_of_sort(refusal, query) => Reply::NotAsked,
+        Ok(Err(_)) => Reply::Nothing,
+        Err(_) => Reply::Nothing,
+    }
+}
+
+/// Whether what a subject says it does not take is what the query is.
+fn is_of_sort(refusal: Unsupported, query: &Query) -> bool {
+    match refusal {
+        Unsupported::Kind(kind) => kind == query.kind(),
+        Unsupported::Radius(radius) => !radius.is_zero() && radius == query.radius(),
+    }
 }

@@ -8,30 +8,46 @@ use super::tally::{Fault, Tally};
 /// What fails: a line for each subject and for each disagreement among judges and labels; none if
 /// everything passes.
 ///
-/// A subject fails by a tunnel, one at a joint, a missed graze, a false hit or a missing answer, and by a near hit
+/// A subject fails if it takes none of the queries, or only some of one sort; by a tunnel, one at a joint, a missed graze, a false hit or a missing answer, and by a near hit
 /// or a late time of impact beyond what it is [`permitted`]; an exact one by any other field that
 /// differs. A wrong case alone does not fail an engine: it is a way to an answer, not the answer.
 pub fn failures(panel: &Panel, total: &Block) -> Vec<String> {
     let subjects = panel.subjects.iter().zip(&total.tallies);
     let mut lines: Vec<_> = subjects
         .filter_map(|(judged, tally)| {
-            let faults: Vec<_> = faults(judged, tally).collect();
+            let faults: Vec<_> = faults(judged, tally)
+                .chain(refusals(total, tally))
+                .collect();
             let name = judged.subject.name();
             (!faults.is_empty()).then(|| format!("{name}: {}", faults.join(", ")))
         })
         .collect();
-    let second = panel.second_judge.map_or_else(String::new, |judge| {
-        format!("oracle and {} disagree", judge.name())
+    let judges = panel.second_judges.iter().zip(&total.agreements);
+    let seconds = judges.map(|(judge, agreement)| {
+        let what = format!("oracle and {} disagree", judge.name());
+        (what, agreement.disagreements.count)
     });
-    for (what, finding) in [
-        (second.as_str(), &total.disagreements),
-        ("labels disagree with the oracle", &total.wrong_labels),
-    ] {
-        if finding.count > 0 {
-            lines.push(format!("{what} on {} queries", grouped(finding.count)));
+    let labels = "labels disagree with the oracle".to_owned();
+    for (what, count) in seconds.chain([(labels, total.wrong_labels.count)]) {
+        if count > 0 {
+            lines.push(format!("{what} on {} queries", grouped(count)));
         }
     }
     lines
+}
+
+/// Who does not answer does not pass.
+fn refusals(total: &Block, tally: &Tally) -> impl Iterator<Item = String> {
+    let refused = tally.refused_of_taken();
+    let of_taken = (refused > 0).then(|| {
+        format!(
+            "{} queries refused of a sort that it takes",
+            grouped(refused)
+        )
+    });
+    let takes_none = total.queries > 0 && tally.taken.is_empty();
+    let none = takes_none.then(|| "takes none of the queries".to_owned());
+    of_taken.into_iter().chain(none)
 }
 
 fn faults<'a>(judged: &Judged, tally: &'a Tally) -> impl Iterator<Item = String> + use<'a> {

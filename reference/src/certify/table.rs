@@ -37,7 +37,7 @@ pub fn blocks(panel: &Panel, blocks: &[Block]) -> String {
         lines.push(String::new());
         lines.push(heading(block));
         for (judged, tally) in panel.subjects.iter().zip(&block.tallies) {
-            lines.push(line(judged.subject.name(), |(.., cell)| cell(tally)));
+            lines.push(row(judged.subject.name(), block, tally));
         }
     }
     lines.push(String::new());
@@ -50,6 +50,18 @@ fn line(name: &str, cell: impl Fn(&Column) -> String) -> String {
         .iter()
         .map(|column| format!("{:>width$}", cell(column), width = column.1));
     format!("  {name:<NAME$}{}", cells.collect::<String>())
+}
+
+/// The line of a subject, with how many queries it was not asked where it takes only some.
+fn row(name: &str, block: &Block, tally: &Tally) -> String {
+    match tally.not_asked() {
+        0 => line(name, |(.., cell)| cell(tally)),
+        all if all == block.queries => format!("  {name:<NAME$}{:>9}", "not asked"),
+        some => {
+            let cells = line(name, |(.., cell)| cell(tally));
+            format!("{cells}  (not asked {})", grouped(some))
+        }
+    }
 }
 
 fn heading(block: &Block) -> String {
@@ -72,9 +84,11 @@ fn heading(block: &Block) -> String {
 /// have any.
 pub fn agreement(panel: &Panel, total: &Block) -> String {
     let mut lines = Vec::new();
-    if let Some(second) = panel.second_judge {
-        let who = format!("oracle and {}", second.name());
-        lines.push(agree(&who, total.queries, &total.disagreements));
+    for (second, agreement) in panel.second_judges.iter().zip(&total.agreements) {
+        if agreement.queries > 0 {
+            let who = format!("oracle and {}", second.name());
+            lines.push(agree(&who, agreement.queries, &agreement.disagreements));
+        }
     }
     if total.labels > 0 {
         lines.push(agree(

@@ -1,8 +1,8 @@
 //! What was found: counts, and the worst witness of each kind.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use tunnelproof::query::Query;
+use tunnelproof::query::{Query, QueryKind};
 
 use crate::answer::ExactAnswer;
 use crate::corpus::Entry;
@@ -61,9 +61,30 @@ pub struct Finding {
     pub worst: Option<Witness>,
 }
 
+/// What a subject may take or not as a whole: queries of a kind, with a radius or without.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Sort {
+    kind: QueryKind,
+    has_radius: bool,
+}
+
+impl Sort {
+    /// The sort of a query.
+    pub fn of(query: &Query) -> Self {
+        Sort {
+            kind: query.kind(),
+            has_radius: !query.radius().is_zero(),
+        }
+    }
+}
+
 /// What was found of one subject.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
+    /// How many queries it does not take, by their sort.
+    pub refused: BTreeMap<Sort, u64>,
+    /// The sorts of query that it takes.
+    pub taken: BTreeSet<Sort>,
     /// How many hits it reports.
     pub hits: u64,
     /// What was wrong with its answers.
@@ -182,8 +203,24 @@ impl Tally {
             .map_or(0.0, |witness| witness.severity)
     }
 
+    /// How many queries it does not take.
+    pub fn not_asked(&self) -> u64 {
+        self.refused.values().sum()
+    }
+
+    /// How many of them are of a sort that it takes.
+    pub fn refused_of_taken(&self) -> u64 {
+        let refused = self.refused.iter();
+        let of_taken = refused.filter(|(sort, _)| self.taken.contains(sort));
+        of_taken.map(|(_, count)| count).sum()
+    }
+
     /// Adds what was found after all that is counted.
     pub fn merge(&mut self, later: Tally) {
+        for (sort, count) in later.refused {
+            *self.refused.entry(sort).or_default() += count;
+        }
+        self.taken.extend(later.taken);
         self.hits += later.hits;
         for (fault, finding) in later.faults {
             self.faults.entry(fault).or_default().merge(finding);

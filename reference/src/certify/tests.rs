@@ -15,7 +15,7 @@ use crate::answer::{Enclosure, ExactAnswer};
 use crate::corpus::ReadOptions;
 use crate::corpus::jsonl::{self, Numbers};
 use crate::generate;
-use crate::oracle::{Oracle, decide_query, least_distance};
+use crate::oracle::{Oracle, decide_query, least_gap};
 use crate::shadow::Shadow;
 use crate::subject::{Answer, Subject};
 
@@ -94,7 +94,7 @@ fn run(subject: &dyn Subject) -> Block {
 
 fn panel(subject: &dyn Subject) -> Panel<'_> {
     Panel {
-        second_judge: Some(&Shadow::REPAIRED),
+        second_judges: vec![&Shadow::REPAIRED],
         subjects: vec![Judged {
             subject,
             explain: None,
@@ -165,10 +165,7 @@ fn certify_invented_hits_are_false_hits_with_their_gap() {
     };
     let gaps: Vec<_> = queries()
         .filter(|(query, truth)| is_chosen(query) && truth.hit.is_none())
-        .map(|(query, _)| match query {
-            Query::EdgeEdge(edges) => least_distance(&edges).below,
-            Query::VertexFace(_) => unreachable!("a family of edges"),
-        })
+        .map(|(query, _)| least_gap(&query).below)
         .collect();
     let (tally, failures) = judged(invent);
     assert!(!gaps.is_empty());
@@ -250,21 +247,47 @@ fn certify_wrong_cases_are_counted_and_do_not_fail_an_engine() {
 }
 
 #[test]
-fn certify_refusals_panics_and_meaningless_numbers_are_no_answers() {
+fn certify_queries_that_a_subject_does_not_take_are_counted_and_not_judged() {
+    let (tally, failures) = judged(|query, _| Err(Unsupported::Kind(query.kind())));
+    let all = queries().count() as u64;
+    assert_eq!((tally.not_asked(), counts(&tally)), (all, Vec::new()));
+    assert_eq!(failures, ["liar: takes none of the queries"]);
+}
+
+#[test]
+fn certify_refusals_of_some_queries_alone_are_found() {
+    let refused = queries().filter(|(query, _)| is_chosen(query)).count() as u64;
+    assert!(refused > 0);
+    let refuse = |reason: fn(&Query) -> Unsupported| {
+        judged(move |query, truth| match is_chosen(query) {
+            true => Err(reason(query)),
+            false => Ok(honest(truth)),
+        })
+    };
+    let (tally, failures) = refuse(|query| Unsupported::Kind(query.kind()));
+    assert_eq!(tally.refused_of_taken(), refused);
+    let expected = format!("liar: {refused} queries refused of a sort that it takes");
+    assert_eq!(failures, [expected]);
+    // These have no radius.
+    let (tally, failures) = refuse(|_| Unsupported::Radius(1.0.into()));
+    let faults = (tally.not_asked(), tally.count(Fault::NoAnswer));
+    assert_eq!(faults, (0, refused));
+    assert_eq!(
+        failures,
+        [format!("liar: {refused} queries without answer")]
+    );
+}
+
+#[test]
+fn certify_panics_and_meaningless_numbers_are_no_answers() {
     let chosen = queries().filter(|(query, _)| is_chosen(query));
     let hits = chosen.filter(|(_, truth)| truth.hit.is_some()).count() as u64;
     let lies = |query: &Query, truth: &ExactAnswer| is_chosen(query) && truth.hit.is_some();
-    let (refusals, _) = judged(|query, truth| match lies(query, &truth) {
-        true => Err(Unsupported::Radius(1.0.into())),
-        false => Ok(honest(truth)),
-    });
     let (panics, failures) = judged(|query, truth| match lies(query, &truth) {
         true => std::panic::resume_unwind(Box::new("broken")),
         false => Ok(honest(truth)),
     });
-    for tally in [refusals, panics] {
-        assert_eq!(tally.count(Fault::NoAnswer), hits);
-    }
+    assert_eq!(panics.count(Fault::NoAnswer), hits);
     assert_eq!(failures, [format!("liar: {hits} queries without answer")]);
     for toi in [f64::NAN, f64::INFINITY, -0.5, 1.5] {
         let (tally, _) = judged(|query, truth| {
@@ -306,14 +329,14 @@ fn certify_exact_subject_off_by_a_neighbour_differs() {
     let block = run(&AlmostExact);
     assert!(count > 0);
     assert_eq!(block.tallies[0].count(Fault::Differs), count);
-    assert_eq!(block.disagreements.count, 0);
+    assert_eq!(block.agreements[0].disagreements.count, 0);
 
     let panel = Panel {
-        second_judge: Some(&AlmostExact),
+        second_judges: vec![&AlmostExact],
         subjects: Vec::new(),
     };
     let block = panel.run(&lattice(), |_| {}).unwrap();
-    assert_eq!(block.disagreements.count, count);
+    assert_eq!(block.agreements[0].disagreements.count, count);
     let expected = format!("oracle and almost exact disagree on {count} queries");
     assert_eq!(failures(&panel, &block), [expected]);
 }

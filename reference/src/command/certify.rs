@@ -32,11 +32,13 @@ Examples:
   tunnelproof certify --subject thesis --count 1000 --shrink
   tunnelproof certify --strict --subject oracle,shadow queries.jsonl unit-tests/edge-edge/*.csv
 
-Without files: the figure cases and every family. With files: these, and the families asked for.
+Without files: the figure cases and every family of edges without radius. With files: these, and the
+families asked for. Families of vertices and faces, and of radii: face_... and thick_...; subjects that do
+not take such queries are not asked.
 
 Columns: hits that the subject reports; tunnels, crossings that it misses; missed grazes, contacts
 without crossing that it misses; false hits; near hits, false hits within the distance that the
-subject declares of itself; wrong cases; queries it gives no answer to; and how far the worst time of
+subject declares of itself; wrong cases; queries it takes and gives no answer to; and how far the worst time of
 impact is behind (late: dangerous) or ahead of (early: safe) the exact one. Joint tunnels are edges that
 pass through a wire at a node and are missed by both of its segments there.
 
@@ -47,10 +49,10 @@ pub(super) struct Certify {
     /// Files of queries (.jsonl or .csv); - is the standard input
     #[arg(value_name = "FILE")]
     files: Vec<String>,
-    /// Who is judged; by default everyone
+    /// Who is judged; by default everyone but the slow second judge, difference
     #[arg(long, value_delimiter = ',', value_parser = super::subject())]
     subject: Vec<&'static dyn Subject>,
-    /// Families of generated queries; by default all, or none if files are given
+    /// Families of generated queries; by default all of edges without radius, or none if files are given
     #[arg(long, value_delimiter = ',', value_parser = family())]
     family: Vec<&'static Family>,
     /// How many queries of each family; 0 for none
@@ -109,11 +111,14 @@ impl Certify {
 
     fn panel(&self) -> Panel<'static> {
         let subjects = match self.subject.is_empty() {
-            true => registry::subjects().to_vec(),
+            true => registry::judged_by_default().collect(),
             false => self.subject.clone(),
         };
         Panel {
-            second_judge: (!self.one_judge).then_some(&registry::SECOND_JUDGE),
+            second_judges: match self.one_judge {
+                true => Vec::new(),
+                false => registry::second_judges().to_vec(),
+            },
             subjects: subjects.into_iter().map(judged).collect(),
         }
     }

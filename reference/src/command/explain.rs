@@ -4,8 +4,6 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use tunnelproof::narrow::Unsupported;
-use tunnelproof::query::{EdgeEdge, Query};
 use tunnelproof_reference::certify::run::RunError;
 use tunnelproof_reference::corpus::locate::locate;
 use tunnelproof_reference::oracle::decide_query;
@@ -43,21 +41,13 @@ impl Explain {
             let place = self.query.clone();
             Failure::from(RunError::Unsupported { place, reason })
         };
-        let edges = edge_edge(&entry.query).map_err(refused)?;
         let subjects = registry::subjects().map(certify::judged);
-        let text = explanation::explain(&entry.id, edges, &subjects).map_err(refused)?;
+        let text = explanation::explain(&entry.id, &entry.query, &subjects);
         if let Some(file) = svg {
             let answer = decide_query(&entry.query).map_err(refused)?;
             file.write(&picture::draw(&entry.id, &entry.query, &answer))?;
         }
         print(&text)?;
         Ok(ExitCode::SUCCESS)
-    }
-}
-
-fn edge_edge(query: &Query) -> Result<&EdgeEdge, Unsupported> {
-    match query {
-        Query::EdgeEdge(edges) => Ok(edges),
-        Query::VertexFace(_) => Err(Unsupported::Kind(query.kind())),
     }
 }

@@ -22,6 +22,7 @@ mod axes;
 mod certify;
 mod eval;
 mod explain;
+mod gap;
 mod keeping;
 mod output;
 mod pages;
@@ -49,6 +50,7 @@ enum Command {
     Eval(eval::Eval),
     Certify(certify::Certify),
     Explain(explain::Explain),
+    Gap(gap::Gap),
     Shrink(shrink::Shrink),
     Replay(replay::Replay),
     Vectors(vectors::Vectors),
@@ -121,6 +123,7 @@ impl Cli {
             Command::Eval(eval) => eval.run(),
             Command::Certify(certify) => certify.run(),
             Command::Explain(explain) => explain.run(),
+            Command::Gap(gap) => gap.run(),
             Command::Shrink(shrink) => shrink.run(),
             Command::Replay(replay) => replay.run(),
             Command::Vectors(vectors) => vectors.run(),

@@ -90,6 +90,6 @@ fn precision() -> impl TypedValueParser<Value = Precision> {
 }
 
 pub(super) fn family() -> impl TypedValueParser<Value = &'static Family> {
-    PossibleValuesParser::new(FAMILIES.iter().map(Family::name))
+    PossibleValuesParser::new(generate::all().map(Family::name))
         .try_map(|name| generate::by_name(&name).ok_or("unknown family"))
 }

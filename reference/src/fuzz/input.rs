@@ -1,7 +1,7 @@
 //! From the bytes of a fuzzer to a query.
 //!
 //! First a few changes, then what they are made to: a query of any family, whose random numbers are
-//! the bytes that follow; 24 numbers of any bits; or 24 small integers. Every sequence of bytes makes
+//! the bytes that follow; 24 numbers of any bits, or 24 small integers, and a radius. Every sequence of bytes makes
 //! a query. Where the bytes end, zeros follow.
 
 use std::convert::Infallible;
@@ -11,7 +11,7 @@ use rand::TryRng;
 use rand::rand_core::utils;
 use tunnelproof::query::{Query, QueryKind};
 
-use crate::generate::FAMILIES;
+use crate::generate::{self, FAMILIES, Family};
 use crate::shape::Shape;
 
 /// The query that these bytes make.
@@ -32,6 +32,13 @@ pub fn seed(family: usize, random: &[u8]) -> Vec<u8> {
     [&[0, Base::Family as u8, family as u8], random].concat()
 }
 
+/// The family of this place in the table, those of edges without radius first.
+fn family(place: u8) -> &'static Family {
+    let place = usize::from(place) % generate::all().count();
+    let family = generate::all().nth(place);
+    family.unwrap_or(&FAMILIES[0])
+}
+
 /// What changes are made to.
 enum Base {
     Family,
@@ -47,27 +54,34 @@ fn base(bytes: &mut Unstructured) -> Query {
         Base::Family,
     ];
     match BASES[usize::from(byte(bytes) % 4)] {
-        Base::Family => {
-            let family = usize::from(byte(bytes)) % FAMILIES.len();
-            FAMILIES[family].draw(&mut Numbers::new(bytes))
-        }
+        Base::Family => family(byte(bytes)).draw(&mut Numbers::new(bytes)),
         Base::AnyBits => {
             let span = [2, 30, 200, 1023][usize::from(byte(bytes) % 4)];
-            of_numbers(|| finite(word(bytes), span))
+            of_numbers(bytes, |bytes| finite(word(bytes), span))
         }
         Base::SmallIntegers => {
             let largest = 1 + i16::from(byte(bytes) % 16);
             let integer = |byte: u8| i16::from(byte) % (2 * largest + 1) - largest;
-            of_numbers(|| f64::from(integer(byte(bytes))))
+            of_numbers(bytes, |bytes| f64::from(integer(byte(bytes))))
         }
     }
 }
 
-fn of_numbers(mut number: impl FnMut() -> f64) -> Query {
+/// A query of these numbers. What kind it is, and whether it has a radius, is in the byte after them.
+fn of_numbers(bytes: &mut Unstructured, mut number: impl FnMut(&mut Unstructured) -> f64) -> Query {
+    let numbers = [0; 24].map(|_| number(bytes));
+    let more = byte(bytes);
+    let mut radius = |bit: u8| match more & bit {
+        0 => 0.0,
+        _ => number(bytes).abs(),
+    };
     let shape = Shape {
-        kind: QueryKind::EdgeEdge,
-        numbers: [0; 24].map(|_| number()),
-        radii: [0.0; 2],
+        numbers,
+        radii: [radius(2), radius(4)],
+        kind: match more & 1 {
+            0 => QueryKind::EdgeEdge,
+            _ => QueryKind::VertexFace,
+        },
     };
     shape.query().unwrap_or_else(|| FAMILIES[0].query(0, 0))
 }

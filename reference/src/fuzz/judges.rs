@@ -4,6 +4,7 @@ use tunnelproof::query::Query;
 use tunnelproof::thesis::{Erratum, Repairs, Thesis};
 
 use crate::certify::permitted::permitted;
+use crate::difference::Difference;
 use crate::oracle::decide_query;
 use crate::registry::SECOND_JUDGE;
 use crate::shadow::Shadow;
@@ -25,6 +26,14 @@ fn fault(disagreement: &Disagreement, query: &Query) -> Option<String> {
 pub(super) fn oracle_vs_shadow(query: &Query) -> Option<String> {
     let disagreement = Disagreement {
         subject: &SECOND_JUDGE,
+        truth: decide_query,
+    };
+    fault(&disagreement, query)
+}
+
+pub(super) fn oracle_vs_difference(query: &Query) -> Option<String> {
+    let disagreement = Disagreement {
+        subject: &Difference,
         truth: decide_query,
     };
     fault(&disagreement, query)

@@ -15,7 +15,7 @@ use tunnelproof::query::Query;
 use crate::certify::table;
 use crate::corpus::Entry;
 use crate::corpus::jsonl::{self, Numbers};
-use crate::generate::FAMILIES;
+use crate::generate;
 use crate::registry;
 use crate::report::answer;
 use crate::shrink;
@@ -62,8 +62,13 @@ pub const TARGETS: &[Target] = &[
     },
     Target {
         name: "oracle_vs_shadow",
-        description: "the two exact judges, in every field of the answer",
+        description: "the two exact judges of edges, in every field of the answer",
         check: Check::Query(judges::oracle_vs_shadow),
+    },
+    Target {
+        name: "oracle_vs_difference",
+        description: "the two exact judges of all kinds of queries, in every field of the answer",
+        check: Check::Query(judges::oracle_vs_difference),
     },
     #[cfg(feature = "gmp")]
     Target {
@@ -137,7 +142,7 @@ impl Target {
     /// random bytes, or files for the readers.
     pub fn seeds(&self, count: u64) -> Vec<Vec<u8>> {
         match self.check {
-            Check::Query(_) => (0..FAMILIES.len())
+            Check::Query(_) => (0..generate::all().count())
                 .flat_map(|family| (0..count).map(move |seed| input::seed(family, &random(seed))))
                 .collect(),
             Check::Bytes(_) if self.name == "parsers" => parsers::seeds(),

@@ -20,6 +20,7 @@ use motion::Motion;
 mod cancellation;
 mod confine;
 mod crossing;
+mod face;
 mod grazing;
 mod joint;
 mod lattice;
@@ -36,10 +37,11 @@ mod shared_start;
 mod slow;
 mod temporarily_parallel;
 mod temporarily_point;
+mod thick;
 mod triple_root;
 mod uniform;
 
-/// Every family, in the order of tables.
+/// Every family of edges without radius, in the order of tables.
 pub const FAMILIES: &[Family] = &[
     uniform::FAMILY,
     lattice::FAMILY,
@@ -58,6 +60,29 @@ pub const FAMILIES: &[Family] = &[
     long_thin::FAMILY,
     joint::FAMILY,
 ];
+
+/// Every family of other kinds of queries, in the order of tables: vertices and faces, and with a radius.
+pub const OTHER_KINDS: &[Family] = &[
+    face::UNIFORM,
+    face::LATTICE,
+    face::NEAR_COPLANAR,
+    face::GRAZING,
+    face::COLLAPSING,
+    face::SCALES,
+    face::CANCELLATION,
+    thick::UNIFORM,
+    thick::LATTICE,
+    thick::PARALLEL,
+    thick::GRAZING,
+    thick::SCALES,
+    thick::FACE_UNIFORM,
+    thick::FACE_LATTICE,
+];
+
+/// Every family of any kind, in the order of tables.
+pub fn all() -> impl Iterator<Item = &'static Family> + Clone {
+    FAMILIES.iter().chain(OTHER_KINDS)
+}
 
 /// An endless, seeded sequence of queries that probe one property.
 #[derive(Debug)]
@@ -129,7 +154,7 @@ impl Draw {
 
 /// The family with this [`name`](Family::name), if any.
 pub fn by_name(name: &str) -> Option<&'static Family> {
-    FAMILIES.iter().find(|family| family.name == name)
+    all().find(|family| family.name == name)
 }
 
 /// The name of a generated query, written `FAMILY:SEED:INDEX`.
@@ -168,7 +193,7 @@ pub enum IdError {
 }
 
 fn names() -> String {
-    let names: Vec<_> = FAMILIES.iter().map(Family::name).collect();
+    let names: Vec<_> = all().map(Family::name).collect();
     names.join(", ")
 }
 

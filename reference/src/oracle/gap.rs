@@ -1,49 +1,55 @@
-//! How near two edges come during a step: the least distance, exactly enough to judge a false hit.
+//! The gap: how much farther than their radius the two sides are from each other during a step, at
+//! least.
 //!
-//! Whether the distance is at most `R` at some time of the step is decided exactly, by evaluating
-//! its description at every candidate, as in [`super::literal`]; the least distance follows by
-//! bisection on `R`, from a guess in floating point, which can cost time only. With `E = Z - Y`, `w = X - Y` and `e2 = E.E`, the edges are within `R` when
-//!
-//! - `N.N > 0`, `f^2 <= R^2 N.N`, and the lines are nearest inside both edges, or
-//! - an end `X` is within `R` of an end of the other edge `YZ`, or
-//! - `e2 > 0`, `0 <= w.E <= e2` and `|w x E|^2 <= R^2 e2` for an end `X` and the other edge `YZ`.
+//! Whether they come within `R + x` is decided exactly ([`super::proximity`]); the least `x` follows by
+//! bisection, from a guess in floating point, which can cost time only.
 
 use nalgebra::Vector3;
-use tunnelproof::query::{EdgeEdge, Query};
+use tunnelproof::query::{Query, QueryKind};
 
-use crate::algebraic::{Algebraic, decompose, isolate_roots};
 use crate::answer::Enclosure;
 use crate::field::{self, Integer};
-use crate::poly::Poly;
 use crate::scaled::Scaled;
 
-use super::motion::{End, Motion};
-use super::vector::Vector;
+use super::motion_of;
+use super::proximity::Proximity;
 
-/// Whether the two edges come within `distance` metres of each other during the step, exactly. The
-/// radius of the query does not count; `distance` is finite and not negative.
-pub fn comes_within(query: &EdgeEdge, distance: f64) -> bool {
-    Proximity::<field::Default>::new(query).is_within(distance)
+/// Whether the two sides come within `distance` metres more than the radius of the query of each
+/// other during the step, exactly; `distance` is finite and not negative.
+pub fn comes_within(query: &Query, distance: f64) -> bool {
+    Gap::<field::Default>::new(query).is_within(distance)
 }
 
-/// The least distance of the two edges during the step in metres, between two `f64` that differ by
-/// less than one part in a thousand (or are neighbours).
-pub fn least_distance(query: &EdgeEdge) -> Enclosure {
-    let proximity = Proximity::<field::Default>::new(query);
-    if proximity.is_within(0.0) {
+/// The gap in metres, between two `f64` that differ by less than one part in a thousand (or are
+/// neighbours).
+pub fn least_gap(query: &Query) -> Enclosure {
+    enclose_gap(query, |below, above| above <= below * 1.001)
+}
+
+/// The gap in metres, between two `f64` that are at most `width` apart (or are neighbours).
+pub fn least_gap_to(query: &Query, width: f64) -> Enclosure {
+    enclose_gap(query, |below, above| above - below <= width)
+}
+
+/// The gap between two `f64` that are neighbours or near enough to each other. Infinite above if it is
+/// beyond the largest `f64`.
+fn enclose_gap(query: &Query, is_near_enough: impl Fn(f64, f64) -> bool) -> Enclosure {
+    let gap = Gap::<field::Default>::new(query);
+    if gap.is_within(0.0) {
         return Enclosure::exactly(0.0);
     }
     // The bits of an f64 above 0 are in the order of the values.
-    let (mut below, mut above) = (0, f64::MAX.to_bits());
-    let guess = estimate_distance(query);
-    let mut cuts = [guess * 0.9996, guess * 1.0004].into_iter();
-    while above - below > 1 && f64::from_bits(below) * 1.001 < f64::from_bits(above) {
-        let guessed = cuts
-            .next()
-            .map(f64::to_bits)
-            .filter(|cut| (below + 1..above).contains(cut));
+    let (mut below, mut above) = (0, f64::INFINITY.to_bits());
+    let guess = estimate_gap(query);
+    let mut cuts = [1e-15, 1e-12, 4e-4]
+        .into_iter()
+        .flat_map(|off| [guess * (1.0 - off), guess * (1.0 + off)]);
+    let is_done = |below, above| is_near_enough(f64::from_bits(below), f64::from_bits(above));
+    while above - below > 1 && !is_done(below, above) {
+        let mut guessed = cuts.by_ref().map(f64::to_bits);
+        let guessed = guessed.find(|cut| (below + 1..above).contains(cut));
         let cut = guessed.unwrap_or(below + (above - below) / 2);
-        if proximity.is_within(f64::from_bits(cut)) {
+        if gap.is_within(f64::from_bits(cut)) {
             above = cut
         } else {
             below = cut
@@ -55,12 +61,38 @@ pub fn least_distance(query: &EdgeEdge) -> Enclosure {
     }
 }
 
-/// The least distance in metres in floating point, by sampling and ternary search. Heuristic: to choose
-/// what to measure exactly.
-pub fn estimate_distance(query: &EdgeEdge) -> f64 {
+/// The distance of a query, and its radius.
+struct Gap<Z> {
+    proximity: Proximity<Z>,
+    radius: [f64; 2],
+}
+
+impl<Z: Integer> Gap<Z> {
+    fn new(query: &Query) -> Self {
+        let points = Scaled::new(query);
+        let motion = motion_of(query, &points);
+        Gap {
+            proximity: Proximity::new(&*motion, points.exponent),
+            radius: query.radius().parts(),
+        }
+    }
+
+    fn is_within(&self, more: f64) -> bool {
+        let [first, second] = self.radius;
+        self.proximity.is_within(&[first, second, more])
+    }
+}
+
+/// The gap in metres in floating point, by sampling and ternary search. Heuristic: to choose what to
+/// measure exactly.
+pub fn estimate_gap(query: &Query) -> f64 {
     let distance = |t: f64| {
         let at = |i: usize| query.start()[i].coords * (1.0 - t) + query.end()[i].coords * t;
-        distance_of_segments(&[at(0), at(1), at(2), at(3)])
+        let points = [at(0), at(1), at(2), at(3)];
+        match query.kind() {
+            QueryKind::EdgeEdge => distance_of_segments(&points),
+            QueryKind::VertexFace => distance_of_face(&points),
+        }
     };
     const SAMPLES: u32 = 64;
     let time = |i: u32| f64::from(i) / f64::from(SAMPLES);
@@ -78,18 +110,24 @@ pub fn estimate_distance(query: &EdgeEdge) -> f64 {
             low = left
         }
     }
-    distance(low).min(distance(time(nearest)))
+    let least = distance(low).min(distance(time(nearest)));
+    (least - query.radius().rounded()).max(0.0)
+}
+
+/// The distance of a point from a segment in floating point.
+fn distance_of_end([x, y, z]: [&Vector3<f64>; 3]) -> f64 {
+    let edge = z - y;
+    let s = (x - y).dot(&edge) / edge.dot(&edge);
+    (x - y - edge * if s > 0.0 { s.min(1.0) } else { 0.0 }).norm()
 }
 
 /// The distance of two segments in floating point: of an end from the other segment, or of the lines.
 fn distance_of_segments([a, b, c, d]: &[Vector3<f64>; 4]) -> f64 {
-    let to_segment = |x: &Vector3<f64>, y: &Vector3<f64>, z: &Vector3<f64>| {
-        let edge = z - y;
-        let s = (x - y).dot(&edge) / edge.dot(&edge);
-        (x - y - edge * if s > 0.0 { s.min(1.0) } else { 0.0 }).norm()
-    };
-    let of_ends = to_segment(a, c, d).min(to_segment(b, c, d));
-    let of_ends = of_ends.min(to_segment(c, a, b)).min(to_segment(d, a, b));
+    let ends = [[a, c, d], [b, c, d], [c, a, b], [d, a, b]];
+    let of_ends = ends
+        .map(distance_of_end)
+        .into_iter()
+        .fold(f64::MAX, f64::min);
     let (k, l, m) = (b - a, d - c, c - a);
     let n = k.cross(&l);
     let (u, v) = (m.cross(&l).dot(&n), m.cross(&k).dot(&n));
@@ -101,161 +139,58 @@ fn distance_of_segments([a, b, c, d]: &[Vector3<f64>; 4]) -> f64 {
     }
 }
 
-/// The polynomials that the distance is described by, without the radius.
-struct Proximity<Z> {
-    /// A coordinate is its integer times `2^exponent` metres.
-    exponent: i64,
-    n2: Poly<Z>,
-    f2: Poly<Z>,
-    /// At least 0 where the lines are nearest inside both edges.
-    inside: [Poly<Z>; 4],
-    ends: [EndProximity<Z>; 4],
-}
-
-/// An end `X` against the other edge `YZ`.
-struct EndProximity<Z> {
-    /// `|X - Y|^2` and `|X - Z|^2`.
-    squares: [Poly<Z>; 2],
-    e2: Poly<Z>,
-    /// `w.E` and `e2 - w.E`: at least 0 where `X` is nearest inside the edge.
-    inside: [Poly<Z>; 2],
-    /// `|w x E|^2`.
-    area2: Poly<Z>,
-}
-
-impl<Z: Integer> EndProximity<Z> {
-    fn new(end: &End<Z>) -> Self {
-        let edge = end.to_z.sub(&end.to_y);
-        let square = |v: &Vector<Z>| v.dot(v);
-        EndProximity {
-            squares: [square(&end.to_y), square(&end.to_z)],
-            e2: square(&edge),
-            inside: [end.to_y.dot(&edge).neg(), end.to_z.dot(&edge)],
-            area2: square(&end.turn),
-        }
-    }
-}
-
-impl<Z: Integer> Proximity<Z> {
-    fn new(query: &EdgeEdge) -> Self {
-        let points = Scaled::new(&Query::EdgeEdge(*query));
-        let motion = Motion::new(&points);
-        let Motion { k, l, m, n, f } = &motion;
-        let (n2, u, w) = (n.dot(n), m.cross(l).dot(n), m.cross(k).dot(n));
-        let inside = [u.clone(), n2.sub(&u), w.clone(), n2.sub(&w)];
-        let ends = motion.ends().each_ref().map(EndProximity::new);
-        Proximity {
-            exponent: points.exponent,
-            f2: f.mul(f),
-            n2,
-            inside,
-            ends,
-        }
-    }
-
-    fn is_within(&self, distance: f64) -> bool {
-        // distance^2 = numerator / 2^shift in units of the squared coordinates
-        let (mantissa, exponent) = decompose(distance);
-        let exponent = 2 * (exponent - self.exponent);
-        let square = Z::from_i64(mantissa).mul(&Z::from_i64(mantissa));
-        let (r2, shift) = match exponent {
-            0.. => (square.shl(exponent.unsigned_abs()), 0),
-            _ => (square, exponent.unsigned_abs()),
-        };
-        // At most 0 where x <= R^2 y.
-        let excess = |x: &Poly<Z>, y: &Poly<Z>| {
-            let mut excess = x.scale(&Z::one().shl(shift));
-            excess.sub_product(&Poly::constant(r2.clone()), y);
-            excess
-        };
-        let one = Poly::constant(Z::one());
-        let lines = Region {
-            above: &self.n2,
-            at_least: &self.inside,
-            at_most: excess(&self.f2, &self.n2),
-        };
-        let mut regions = vec![lines];
-        for end in &self.ends {
-            for square in &end.squares {
-                let at_most = excess(square, &one);
-                regions.push(Region {
-                    above: &one,
-                    at_least: &[],
-                    at_most,
-                });
-            }
-            let at_most = excess(&end.area2, &end.e2);
-            regions.push(Region {
-                above: &end.e2,
-                at_least: &end.inside,
-                at_most,
-            });
-        }
-        regions.iter().any(|region| region.is_not_empty())
-    }
-}
-
-/// The times at which some polynomials have given signs.
-struct Region<'a, Z> {
-    above: &'a Poly<Z>,
-    at_least: &'a [Poly<Z>],
-    at_most: Poly<Z>,
-}
-
-impl<Z: Integer> Region<'_, Z> {
-    /// Whether some time of the step is in the region; may say no if the region reaches only up to
-    /// times at which `above` is 0.
-    ///
-    /// The signs change at roots only, so a part of the region ends at 0, at 1, at a root of one of
-    /// the other polynomials (all of them candidates), or where `above` is 0. There the edges are
-    /// parallel or an edge is a point, and as near by continuity; then an end is as near as any
-    /// point, and the region of that end (and of its corner, where the other edge is a point too)
-    /// says yes.
-    fn is_not_empty(&self) -> bool {
-        let mut candidates = vec![Algebraic::zero(), Algebraic::dyadic(Z::one(), 0)];
-        candidates.extend(isolate_roots(&self.at_most));
-        candidates.extend(self.at_least.iter().flat_map(isolate_roots));
-        let holds = |time: &Algebraic<Z>| {
-            time.sign_of(&self.at_most).is_le()
-                && self.at_least.iter().all(|poly| time.sign_of(poly).is_ge())
-                && time.sign_of(self.above).is_gt()
-        };
-        candidates.iter().any(holds)
+/// The distance of a point and a face in floating point: from an edge, or from the plane.
+fn distance_of_face([a, b, c, d]: &[Vector3<f64>; 4]) -> f64 {
+    let edges = [[a, b, c], [a, c, d], [a, b, d]];
+    let of_edges = edges
+        .map(distance_of_end)
+        .into_iter()
+        .fold(f64::MAX, f64::min);
+    let (w, e1, e2) = (a - b, c - b, d - b);
+    let n = e1.cross(&e2);
+    let (u, v) = (w.cross(&e2).dot(&n), e1.cross(&w).dot(&n));
+    if n.norm() > 0.0 && u >= 0.0 && v >= 0.0 && u + v <= n.norm_squared() {
+        of_edges.min(w.dot(&n).abs() / n.norm())
+    } else {
+        of_edges
     }
 }
 
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
-    use tunnelproof::query::Point;
+    use tunnelproof::query::{Point, Radius};
 
     use super::*;
     use crate::oracle::decide;
 
-    fn query(points: [[f64; 3]; 8]) -> EdgeEdge {
+    fn query(kind: QueryKind, points: [[f64; 3]; 8], radius: impl Into<Radius>) -> Query {
         let p = points.map(|[x, y, z]| Point::new(x, y, z));
-        EdgeEdge::new([p[0], p[1], p[2], p[3]], [p[4], p[5], p[6], p[7]], 0.0).unwrap()
+        let (start, end) = ([p[0], p[1], p[2], p[3]], [p[4], p[5], p[6], p[7]]);
+        Query::new(kind, start, end, radius).unwrap()
+    }
+
+    fn assert_near(gap: Enclosure, value: f64) {
+        assert!(
+            gap.below < value && value <= gap.above,
+            "{gap} instead of {value}"
+        );
+        assert!(gap.above <= gap.below * 1.001);
     }
 
     #[test]
-    fn least_distance_known_values() {
+    fn least_gap_of_edges_known_values() {
         let still = [[-1., 0., 0.], [1., 0., 0.]];
         let pass = |c: [f64; 3], d: [f64; 3], e: [f64; 3], f: [f64; 3]| {
-            least_distance(&query([still[0], still[1], c, d, still[0], still[1], e, f]))
-        };
-        let near = |gap: Enclosure, value: f64| {
-            assert!(
-                gap.below < value && value <= gap.above,
-                "{gap} instead of {value}"
-            );
-            assert!(gap.above <= gap.below * 1.001);
+            let points = [still[0], still[1], c, d, still[0], still[1], e, f];
+            least_gap(&query(QueryKind::EdgeEdge, points, 0.0))
         };
         // Line above line, sideways past the end, parallel, and a point.
-        near(
+        assert_near(
             pass([0., -1., 3.], [0., 1., 3.], [0., -1., 0.25], [0., 1., 0.25]),
             0.25,
         );
-        near(
+        assert_near(
             pass(
                 [1.5, -1., 3.],
                 [1.5, 1., 3.],
@@ -264,16 +199,16 @@ mod tests {
             ),
             0.5,
         );
-        near(
+        assert_near(
             pass([0., 0., 3.], [9., 0., 3.], [0., 0., 1e-9], [9., 0., 1e-9]),
             1e-9,
         );
-        near(
+        assert_near(
             pass([4., 4., 0.], [4., 4., 0.], [4., 4., 0.], [4., 4., 0.]),
             5.0,
         );
         // Nearest in the middle of the step only.
-        near(
+        assert_near(
             pass([2., 5., 0.], [2., 6., 0.], [2., -6., 0.], [2., -5., 0.]),
             1.0,
         );
@@ -281,22 +216,80 @@ mod tests {
         assert_eq!(crossing, Enclosure::exactly(0.0));
     }
 
+    #[test]
+    fn least_gap_of_a_face_known_values_beyond_the_radius() {
+        let face = [[0., 0., 0.], [4., 0., 0.], [0., 4., 0.]];
+        let pass = |from: [f64; 3], to: [f64; 3], radius: [f64; 2]| {
+            let points = [
+                from, face[0], face[1], face[2], to, face[0], face[1], face[2],
+            ];
+            query(QueryKind::VertexFace, points, radius)
+        };
+        // Above the face, past an edge, past a corner.
+        let above = pass([1., 1., 3.], [1., 2., 2.], [0.0, 0.0]);
+        assert_near(least_gap(&above), 2.0);
+        let thick = pass([1., 1., 3.], [1., 2., 2.], [0.5, 1.0]);
+        assert_near(least_gap(&thick), 0.5);
+        let beside = pass([5., 5., 1.], [5., 5., -1.], [0.0, 1.0]);
+        assert_near(least_gap(&beside), 18f64.sqrt() - 1.0);
+        let corner = pass([-3., -4., 1.], [-3., -4., -1.], [5.0, 0.0]);
+        assert_eq!(least_gap(&corner), Enclosure::exactly(0.0));
+        // The radius is a little below 5, by less than an f64 near 5 can be.
+        let missed = pass(
+            [-3., -4., 1.],
+            [-3., -4., -1.],
+            [5f64.next_down(), 2f64.powi(-60)],
+        );
+        let gap = least_gap_to(&missed, 0.0);
+        let exact = 5.0 - 5f64.next_down() - 2f64.powi(-60);
+        assert!(gap.below <= exact && exact <= gap.above && gap.above <= gap.below.next_up());
+    }
+
+    #[test]
+    fn least_gap_to_a_width_is_that_narrow() {
+        let points = [
+            [0., 0., 1.],
+            [1., 0., 1.],
+            [0., 3., 0.],
+            [1., 4., 0.],
+            [0., 0., 1.],
+            [1., 1., 1.],
+            [0., 3., 0.],
+            [1., 4., 0.],
+        ];
+        let query = query(QueryKind::EdgeEdge, points, 0.0);
+        for width in [1.0, 1e-3, 1e-9, 1e-15, 0.0] {
+            let gap = least_gap_to(&query, width);
+            assert!(gap.above - gap.below <= width || gap.above == gap.below.next_up());
+            assert!(!comes_within(&query, gap.below) && comes_within(&query, gap.above));
+        }
+    }
+
+    fn kind() -> impl Strategy<Value = QueryKind> {
+        prop::sample::select(vec![QueryKind::EdgeEdge, QueryKind::VertexFace])
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(400))]
 
         #[test]
-        fn comes_within_zero_is_a_hit(points in prop::array::uniform8(prop::array::uniform3(-2i8..=2))) {
-            let query = query(points.map(|p| p.map(f64::from)));
-            let hit = decide::<field::Default>(&query).unwrap().toi().is_some();
+        fn comes_within_zero_is_a_hit(
+            points in prop::array::uniform8(prop::array::uniform3(-2i8..=2)),
+            kind in kind(),
+            radius in 0u8..3,
+        ) {
+            let query = query(kind, points.map(|p| p.map(f64::from)), f64::from(radius));
+            let hit = decide::<field::Default>(&query).toi().is_some();
             prop_assert_eq!(comes_within(&query, 0.0), hit);
         }
 
         #[test]
-        fn least_distance_is_not_above_any_sampled_distance(
+        fn least_gap_is_not_above_any_sampled_distance(
             points in prop::array::uniform8(prop::array::uniform3(-4i8..=4)),
+            kind in kind(),
         ) {
-            let query = query(points.map(|p| p.map(f64::from)));
-            let gap = least_distance(&query);
+            let query = query(kind, points.map(|p| p.map(f64::from)), 0.0);
+            let gap = least_gap(&query);
             let at = |t: f64, i: usize| {
                 query.start()[i].coords * (1.0 - t) + query.end()[i].coords * t
             };
@@ -307,7 +300,12 @@ mod tests {
                 for j in 0..=16 {
                     for k in 0..=16 {
                         let (u, v) = (f64::from(j) / 16.0, f64::from(k) / 16.0);
-                        sampled = sampled.min((a + (b - a) * u - c - (d - c) * v).norm());
+                        let way = match kind {
+                            QueryKind::EdgeEdge => a + (b - a) * u - c - (d - c) * v,
+                            QueryKind::VertexFace if j + k > 16 => continue,
+                            QueryKind::VertexFace => a - b - (c - b) * u - (d - b) * v,
+                        };
+                        sampled = sampled.min(way.norm());
                     }
                 }
             }

@@ -2,59 +2,54 @@
 
 use std::cmp::Ordering;
 
-use tunnelproof::contact::ContactKind;
-
 use crate::algebraic::{Algebraic, isolate_roots};
 use crate::field::Integer;
+use crate::poly::Poly;
 
 use super::locus::Locus;
 use super::motion::Motion;
-use super::{Hit, is_inside};
+use super::{Hit, is_inside, kind};
 
-impl<Z: Integer> Motion<Z> {
-    /// The first contact of a motion with `f` not identically 0.
-    pub(super) fn decide_general(&self) -> Option<Hit<Z>> {
-        let times = isolate_roots(&self.f).into_iter();
-        let mut contacts = times.filter_map(|time| Some((self.locus(&time)?, time)));
-        let (locus, toi) = contacts.next()?;
-        let (before, _) = self.signs_around(&toi);
-        let crosses_first = self.crosses(&toi, &locus);
-        Some(Hit {
-            kind: if crosses_first {
-                ContactKind::Crossing
-            } else {
-                ContactKind::Graze
-            },
-            crosses: crosses_first || contacts.any(|(locus, time)| self.crosses(&time, &locus)),
-            side: if toi.is_zero() {
-                Ordering::Equal
-            } else {
-                before
-            },
-            toi,
-            locus,
-        })
+/// The first contact of a motion with `f` not identically 0.
+pub(super) fn decide_general<Z: Integer>(motion: &dyn Motion<Z>) -> Option<Hit<Z>> {
+    let times = isolate_roots(motion.f()).into_iter();
+    let mut contacts = times.filter_map(|time| Some((motion.locus(&time)?, time)));
+    let (locus, toi) = contacts.next()?;
+    let crosses_first = crosses(motion, &toi, &locus);
+    let mut later = contacts.map(|(locus, time)| crosses(motion, &time, &locus));
+    Some(Hit {
+        kind: kind(crosses_first),
+        crosses: crosses_first || later.any(|crosses| crosses),
+        side: match toi.is_zero() {
+            true => Ordering::Equal,
+            false => signs_around(motion.f(), &toi).0,
+        },
+        toi,
+        locus,
+    })
+}
+
+/// Whether the contact at this root of `f` is a crossing, in the sense of [`crate::answer`].
+fn crosses<Z: Integer>(motion: &dyn Motion<Z>, time: &Algebraic<Z>, locus: &Locus<Z>) -> bool {
+    if !locus.cuts_inside {
+        return false;
     }
+    let (before, after) = signs_around(motion.f(), time);
+    before != after && is_inside(time)
+}
 
-    /// Whether the contact at this root of `f` is a crossing, in the sense of [`crate::answer`].
-    fn crosses(&self, time: &Algebraic<Z>, locus: &Locus<Z>) -> bool {
-        let (before, after) = self.signs_around(time);
-        locus.cuts_inside && before != after && is_inside(time)
-    }
-
-    /// The signs of `f` just before and just after a root of it.
-    ///
-    /// Near a root of multiplicity `m`, `f` is `f^(m) (t - root)^m / m!` to leading order.
-    fn signs_around(&self, root: &Algebraic<Z>) -> (Ordering, Ordering) {
-        let mut derivative = self.f.derivative();
-        let mut changes = true;
-        loop {
-            let sign = root.sign_of(&derivative);
-            if sign.is_ne() {
-                return (if changes { sign.reverse() } else { sign }, sign);
-            }
-            derivative = derivative.derivative();
-            changes = !changes;
+/// The signs of `f`, which is not identically 0, just before and just after a root of it.
+///
+/// Near a root of multiplicity `m`, `f` is `f^(m) (t - root)^m / m!` to leading order.
+pub(super) fn signs_around<Z: Integer>(f: &Poly<Z>, root: &Algebraic<Z>) -> (Ordering, Ordering) {
+    let mut derivative = f.derivative();
+    let mut changes = true;
+    loop {
+        let sign = root.sign_of(&derivative);
+        if sign.is_ne() {
+            return (if changes { sign.reverse() } else { sign }, sign);
         }
+        derivative = derivative.derivative();
+        changes = !changes;
     }
 }

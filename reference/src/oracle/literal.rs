@@ -1,40 +1,40 @@
 //! The description of contact evaluated at every candidate: slow, plain, and the test of the rest.
 
+use tunnelproof::query::Query;
+
 use crate::algebraic::{Algebraic, isolate_roots};
 use crate::field::Integer;
-use crate::poly::Poly;
 use crate::scaled::Scaled;
 
-use super::motion::{End, Motion};
+use super::motion_of;
+use super::pair::Pair;
+use super::proximity::Square;
 
 /// The first contact time, from the definition alone.
 ///
-/// `contact(t)` is: `N.N > 0` and `f = 0` and `0 <= U <= N.N` and `0 <= W <= N.N` with
-/// `U = (M x L) . N` and `W = (M x K) . N`; or an end is on the other edge.
-pub(super) fn first_contact<Z: Integer>(points: &Scaled<Z>) -> Option<Algebraic<Z>> {
-    let motion = Motion::new(points);
-    let Motion { k, l, m, n, f } = &motion;
-    let (n2, u, w) = (n.dot(n), m.cross(l).dot(n), m.cross(k).dot(n));
-    let bounds = [u.clone(), n2.sub(&u), w.clone(), n2.sub(&w)];
-    let ends = motion.ends();
+/// `contact(t)` is: for some two features, what they span has nearest points on both of them and is
+/// at most the radius apart. All of it are signs of polynomials, which change at their roots only.
+pub(super) fn first_contact<Z: Integer>(query: &Query) -> Option<Algebraic<Z>> {
+    let points = Scaled::new(query);
+    let pairs = motion_of(query, &points).pairs();
+    let square = Square::new(&query.radius().parts(), points.exponent);
+    let excesses: Vec<_> = pairs.iter().map(|pair| square.excess(pair)).collect();
 
     let mut candidates = vec![Algebraic::zero()];
-    let of_ends = ends
-        .iter()
-        .flat_map(|end| end.turn.0.iter().chain([&end.between]));
-    for poly in bounds.iter().chain([&n2, f]).chain(of_ends) {
-        candidates.extend(isolate_roots(poly));
+    let of_pairs = |pair: &'_ Pair<Z>| {
+        let mut polys = pair.inside.clone();
+        polys.push(pair.denominator.clone());
+        polys
+    };
+    let polys = pairs.iter().flat_map(of_pairs);
+    for poly in polys.chain(excesses.iter().cloned()) {
+        candidates.extend(isolate_roots(&poly));
     }
     candidates.sort_by(Algebraic::compare);
 
-    let lines_touch_inside = |time: &Algebraic<Z>| {
-        let not_negative = |poly: &Poly<Z>| time.sign_of(poly).is_ge();
-        time.sign_of(&n2).is_gt() && time.sign_of(f).is_eq() && bounds.iter().all(not_negative)
+    let is_contact = |time: &Algebraic<Z>| {
+        let mut described = pairs.iter().zip(&excesses);
+        described.any(|(pair, excess)| time.sign_of(excess).is_le() && pair.holds(time))
     };
-    let is_on = |end: &End<Z>, time: &Algebraic<Z>| {
-        end.turn.is_zero_at(time) && time.sign_of(&end.between).is_le()
-    };
-    candidates
-        .into_iter()
-        .find(|time| lines_touch_inside(time) || ends.iter().any(|end| is_on(end, time)))
+    candidates.into_iter().find(is_contact)
 }

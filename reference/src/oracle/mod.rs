@@ -1,23 +1,27 @@
-//! The truth about two moving edges, by a method that knows nothing of the thesis' cases: a
-//! one-dimensional cylindrical decomposition.
+//! The truth about two moving edges, or a moving vertex and a moving face, by a method that knows
+//! nothing of the thesis' cases: a one-dimensional cylindrical decomposition.
 //!
 //! The set of contact times is closed and described by signs of polynomials in `t`, so its first
 //! element is 0 or a root of one of them; between neighbouring roots nothing changes. Evaluating
 //! the description at every candidate decides the query (`literal` does just that and is the test
-//! of what follows). Few candidates are enough:
+//! of what follows). Few candidates are enough. Without radius:
 //!
-//! - Edges that touch are coplanar: a contact time is a root of `f = (K x L) . M`. If `f` is not
-//!   identically 0, its at most three roots are all the candidates there are (`general`).
+//! - What touches is coplanar: a contact time is a root of `f`, the triple product of the four points.
+//!   If it is not identically 0, its at most three roots are all the candidates there are (`general`).
 //! - If it is, the motion is confined to a plane that may itself turn. Let the first contact be at
-//!   `s > 0`. If an end of one edge were not on the other edge at `s`, the lines would meet at an
-//!   angle, inside both edges, and by continuity also shortly before `s`. So the candidates are 0
-//!   and the times at which an end meets the other edge (`confined`).
+//!   `s > 0`. If no vertex were on an edge of the other side at `s`, the lines of two edges would meet
+//!   at an angle, inside both, or the vertex would be strictly inside the face, and by continuity also
+//!   shortly before `s`. So the candidates are 0 and the times at which a vertex meets an edge
+//!   (`confined`).
+//!
+//! With a radius, the candidates are the times at which two features have that distance
+//! (`proximity`).
 
 use std::cmp::Ordering;
 
-use tunnelproof::contact::{Case, ContactKind, Flags};
+use tunnelproof::contact::{Case, ContactKind};
 use tunnelproof::narrow::Unsupported;
-use tunnelproof::query::{EdgeEdge, Query};
+use tunnelproof::query::Query;
 
 use crate::algebraic::Algebraic;
 use crate::answer::{ExactAnswer, ExactHit};
@@ -26,22 +30,31 @@ use crate::scaled::Scaled;
 use crate::subject::{Answer, Subject};
 
 mod confined;
+mod edges;
+mod face;
 mod gap;
 mod general;
 #[cfg(test)]
 mod literal;
 mod locus;
 mod motion;
+mod pair;
+mod proximity;
 mod steps;
 #[cfg(test)]
 mod tests;
 mod vector;
 
-pub use gap::{comes_within, estimate_distance, least_distance};
+pub use gap::{comes_within, estimate_gap, least_gap, least_gap_to};
 pub use steps::{Event, Step};
 
+use confined::decide_confined;
+use edges::Edges;
+use face::Face;
+use general::{decide_general, signs_around};
 use locus::Locus;
 use motion::Motion;
+use proximity::Proximity;
 
 /// The oracle as a subject.
 pub struct Oracle;
@@ -60,37 +73,78 @@ impl Subject for Oracle {
 ///
 /// # Errors
 ///
-/// [`Unsupported`] for vertex-face queries and a radius above 0.
+/// None: the oracle takes every query. Others that are asked for the truth do not.
 pub fn decide_query(query: &Query) -> Result<ExactAnswer, Unsupported> {
+    Ok(decide::<field::Default>(query).written())
+}
+
+/// The exact answer to a query, its numbers still algebraic.
+pub fn decide<Z: Integer>(query: &Query) -> Decision<Z> {
+    let points = Scaled::new(query);
+    let motion = motion_of(query, &points);
+    let radius = query.radius();
+    let near = (!radius.is_zero()).then(|| {
+        let proximity = Proximity::new(&*motion, points.exponent);
+        Near {
+            proximity,
+            radius: radius.parts(),
+        }
+    });
+    let hit = match &near {
+        None => decide_contact(&*motion),
+        Some(near) => near.decide(&*motion),
+    };
+    Decision { motion, near, hit }
+}
+
+fn motion_of<Z: Integer>(query: &Query, points: &Scaled<Z>) -> Box<dyn Motion<Z>> {
     match query {
-        Query::EdgeEdge(query) => Ok(decide::<field::Default>(query)?.written()),
-        Query::VertexFace(_) => Err(Unsupported::Kind(query.kind())),
+        Query::EdgeEdge(_) => Box::new(Edges::new(points)),
+        Query::VertexFace(_) => Box::new(Face::new(points)),
     }
 }
 
-/// The exact answer to an edge-edge query, its numbers still algebraic.
-///
-/// # Errors
-///
-/// [`Unsupported`] for a radius above 0.
-pub fn decide<Z: Integer>(query: &EdgeEdge) -> Result<Decision<Z>, Unsupported> {
-    if !query.radius().is_zero() {
-        return Err(Unsupported::Radius(query.radius()));
+/// The first contact without radius.
+fn decide_contact<Z: Integer>(motion: &dyn Motion<Z>) -> Option<Hit<Z>> {
+    match motion.f().is_zero() {
+        true => decide_confined(motion),
+        false => decide_general(motion),
     }
-    let motion = Motion::new(&Scaled::new(&Query::EdgeEdge(*query)));
-    let case = motion.case();
-    let hit = if motion.f.is_zero() {
-        motion.decide_confined()
-    } else {
-        motion.decide_general()
-    };
-    Ok(Decision { motion, case, hit })
+}
+
+/// What is asked with a radius above 0.
+struct Near<Z> {
+    proximity: Proximity<Z>,
+    /// The two numbers in metres whose sum it is.
+    radius: [f64; 2],
+}
+
+impl<Z: Integer> Near<Z> {
+    /// The first contact, in the sense of [`crate::answer`].
+    fn decide(&self, motion: &dyn Motion<Z>) -> Option<Hit<Z>> {
+        let toi = self.proximity.first_within(&self.radius)?;
+        let crosses = decide_contact(motion).is_some_and(|hit| hit.crosses);
+        let f = motion.f();
+        let side = match toi.sign_of(f) {
+            _ if toi.is_zero() || f.is_zero() => Ordering::Equal,
+            Ordering::Equal => signs_around(f, &toi).0,
+            side => side,
+        };
+        Some(Hit {
+            kind: kind(crosses),
+            crosses,
+            side,
+            locus: self.proximity.nearest(motion, &toi),
+            toi,
+        })
+    }
 }
 
 /// An exact answer, its numbers still algebraic.
 pub struct Decision<Z> {
-    motion: Motion<Z>,
-    case: Case,
+    motion: Box<dyn Motion<Z>>,
+    /// For a radius above 0.
+    near: Option<Near<Z>>,
     hit: Option<Hit<Z>>,
 }
 
@@ -106,7 +160,7 @@ struct Hit<Z> {
 impl<Z: Integer> Decision<Z> {
     /// The case of the motion.
     pub fn case(&self) -> Case {
-        self.case
+        self.motion.case()
     }
 
     /// The time of impact; `None` for a miss.
@@ -117,37 +171,31 @@ impl<Z: Integer> Decision<Z> {
     /// The answer with every number between its neighbours in `f64`.
     pub fn written(&self) -> ExactAnswer {
         ExactAnswer {
-            case: self.case,
+            case: self.case(),
             hit: self.hit.as_ref().map(|hit| self.written_hit(hit)),
         }
     }
 
     fn written_hit(&self, hit: &Hit<Z>) -> ExactHit {
+        let Locus { first, second, .. } = &hit.locus;
+        let parameters = first.parameters(&hit.toi);
         ExactHit {
             toi: hit.toi.enclosure(),
             kind: hit.kind,
             crosses: hit.crosses,
             side: hit.side as i8,
-            first: hit.locus.first.parameters(&hit.toi),
-            second: hit
-                .locus
-                .second
-                .as_ref()
-                .map(|place| place.parameters(&hit.toi)),
-            flags: self.flags(&hit.toi),
+            features: first.features(&parameters),
+            first: parameters,
+            second: second.as_ref().map(|place| place.parameters(&hit.toi)),
+            flags: self.motion.flags(&hit.toi),
         }
     }
+}
 
-    fn flags(&self, toi: &Algebraic<Z>) -> Flags {
-        let Motion { k, l, n, .. } = &self.motion;
-        if self.motion.transversal_axis(toi).is_some() {
-            return Flags::default();
-        }
-        let (first, second) = (k.is_zero_at(toi), l.is_zero_at(toi));
-        Flags {
-            temporarily_parallel: !first && !second && !n.is_zero(),
-            temporarily_point: first && !k.is_zero() || second && !l.is_zero(),
-        }
+fn kind(crosses: bool) -> ContactKind {
+    match crosses {
+        true => ContactKind::Crossing,
+        false => ContactKind::Graze,
     }
 }
 

@@ -1,71 +1,60 @@
-//! The motion of two edges as polynomials, and what it is confined to.
+//! What the motions of two edges and of a vertex and a face have in common.
 
-use tunnelproof::contact::Case;
+use tunnelproof::contact::{Case, Flags};
 
+use crate::algebraic::Algebraic;
 use crate::field::Integer;
 use crate::poly::Poly;
 use crate::scaled::Scaled;
 
+use super::locus::Locus;
+use super::pair::Pair;
 use super::vector::Vector;
 
-/// The polynomials of exactness: `K = B - A`, `L = D - C`, `M = C - A`, `N = K x L`, `f = M . N`.
-#[derive(Clone, Debug)]
-pub(super) struct Motion<Z> {
-    pub(super) k: Vector<Z>,
-    pub(super) l: Vector<Z>,
-    pub(super) m: Vector<Z>,
-    pub(super) n: Vector<Z>,
-    /// The edges can touch only where it is 0.
-    pub(super) f: Poly<Z>,
+/// The motion of four points as polynomials.
+pub(super) trait Motion<Z: Integer> {
+    /// The triple product that is 0 where the four points share a plane: without radius, nothing
+    /// touches at other times.
+    fn f(&self) -> &Poly<Z>;
+
+    /// The case of the motion, in the sense of [`crate::answer`].
+    fn case(&self) -> Case;
+
+    /// Each vertex with each edge of the other side: where motion in a plane begins to touch, such a
+    /// vertex is on such an edge.
+    fn ends(&self) -> Vec<End<Z>>;
+
+    /// For each two vertices that can meet, the way from one to the other.
+    fn meetings(&self) -> Vec<Vector<Z>>;
+
+    /// Where they touch at a time at which `f` is 0; `None` if they do not.
+    fn locus(&self, time: &Algebraic<Z>) -> Option<Locus<Z>>;
+
+    /// The places that are nearest to each other, if they are more than one: the two ends of the
+    /// part in which parallel edges are beside each other (or one end, if that is a point).
+    fn overlap(&self, time: &Algebraic<Z>) -> Option<Locus<Z>>;
+
+    /// What is so at a time but not for the whole step.
+    fn flags(&self, time: &Algebraic<Z>) -> Flags;
+
+    /// Every two features whose distance can be that of the whole; those with fewer points first.
+    fn pairs(&self) -> Vec<Pair<Z>>;
+
+    /// The vectors and products that the case is decided by.
+    fn vanishing(&self) -> Vec<(&'static str, bool)>;
+
+    /// Where the line of `CD` meets that of `AB`, or the vertex the plane of the face, at a time at
+    /// which `f` is 0: `u` and `v`, rounded. `None` if that is no single place.
+    fn meeting(&self, time: &Algebraic<Z>) -> Option<[f64; 2]>;
 }
 
-impl<Z: Integer> Motion<Z> {
-    pub(super) fn new(points: &Scaled<Z>) -> Self {
-        let difference = |to: usize, from: usize| {
-            let at = |points: &[[Z; 3]; 4]| [0, 1, 2].map(|h| points[to][h].sub(&points[from][h]));
-            Vector::linear(&at(&points.start), &at(&points.end))
-        };
-        let (k, l, m) = (difference(1, 0), difference(3, 2), difference(2, 0));
-        let n = k.cross(&l);
-        let f = m.dot(&n);
-        Motion { k, l, m, n, f }
-    }
-
-    /// The case of the motion, exactly (thesis 3.1.1, figure 3.2).
-    pub(super) fn case(&self) -> Case {
-        if self.k.is_zero() || self.l.is_zero() {
-            Case::Degenerate
-        } else if self.m.is_zero() {
-            Case::SharedStart
-        } else if self.n.is_zero() {
-            if self.k.cross(&self.m).is_zero() {
-                Case::Collinear
-            } else {
-                Case::Parallel
-            }
-        } else if self.f.is_zero() {
-            Case::Coplanar
-        } else {
-            Case::General
-        }
-    }
-
-    /// For each of the ends A, B, C, D: the vectors from it to the two ends of the other edge.
-    pub(super) fn ends(&self) -> [End<Z>; 4] {
-        let to_d = self.m.add(&self.l);
-        let b_to_c = self.m.sub(&self.k);
-        let b_to_d = to_d.sub(&self.k);
-        let back = |v: &Vector<Z>| Vector([0, 1, 2].map(|h| v.0[h].neg()));
-        [
-            End::new(self.m.clone(), to_d.clone()),
-            End::new(b_to_c.clone(), b_to_d.clone()),
-            End::new(back(&self.m), back(&b_to_c)),
-            End::new(back(&to_d), back(&b_to_d)),
-        ]
-    }
+/// The vector from point `from` to point `to`, moving.
+pub(super) fn way<Z: Integer>(points: &Scaled<Z>, from: usize, to: usize) -> Vector<Z> {
+    let at = |points: &[[Z; 3]; 4]| [0, 1, 2].map(|h| points[to][h].sub(&points[from][h]));
+    Vector::linear(&at(&points.start), &at(&points.end))
 }
 
-/// An end `X` of one edge against the other edge `YZ`.
+/// A vertex `X` against an edge `YZ` of the other side.
 #[derive(Clone, Debug)]
 pub(super) struct End<Z> {
     /// `Y - X`.
@@ -79,7 +68,7 @@ pub(super) struct End<Z> {
 }
 
 impl<Z: Integer> End<Z> {
-    fn new(to_y: Vector<Z>, to_z: Vector<Z>) -> Self {
+    pub(super) fn new(to_y: Vector<Z>, to_z: Vector<Z>) -> Self {
         let (turn, between) = (to_y.cross(&to_z), to_y.dot(&to_z));
         End {
             to_y,
@@ -87,5 +76,19 @@ impl<Z: Integer> End<Z> {
             turn,
             between,
         }
+    }
+
+    /// `E = Z - Y`.
+    pub(super) fn edge(&self) -> Vector<Z> {
+        self.to_z.sub(&self.to_y)
+    }
+
+    /// `(X - Y) . E`, `(Z - X) . E` and their sum `E . E`: how far along the edge the nearest point of
+    /// its line is.
+    pub(super) fn along(&self) -> [Poly<Z>; 3] {
+        let edge = self.edge();
+        let (from_y, to_z) = (self.to_y.dot(&edge).neg(), self.to_z.dot(&edge));
+        let sum = from_y.add(&to_z);
+        [from_y, to_z, sum]
     }
 }

@@ -6,8 +6,7 @@ use crate::answer::Parameters;
 use crate::field::Integer;
 use crate::poly::Poly;
 
-use super::Decision;
-use super::motion::Motion;
+use super::{Decision, Near};
 
 /// A time at which contact could begin.
 pub struct Step<Z> {
@@ -15,9 +14,10 @@ pub struct Step<Z> {
     pub time: Algebraic<Z>,
     /// Why contact could begin then.
     pub event: Event,
-    /// Where the edges touch at that time, if they do: the point or the two ends of an overlap.
+    /// Where they touch at that time, if they do: the point or the two ends of an overlap.
     pub contact: Option<(Parameters, Option<Parameters>)>,
-    /// Where the lines of the edges meet, if in one point: `u` and `v`, rounded.
+    /// Without radius: where the lines of the edges meet, or the vertex the plane of the face, if in one
+    /// point: `u` and `v`, rounded.
     pub meeting: Option<[f64; 2]>,
 }
 
@@ -26,47 +26,44 @@ pub struct Step<Z> {
 pub enum Event {
     /// The step starts.
     Start,
-    /// `f` is 0 and not identically 0: the edges are coplanar.
+    /// `f` is 0 and not identically 0: the points are coplanar.
     Coplanar,
-    /// An end, 0 to 3 for A to D, comes onto the line of the other edge, or onto an end of it.
+    /// Of edges, an end, 0 to 3 for A to D, comes onto the line of the other edge, or onto an end of
+    /// it; of a face, the vertex onto one of its edges, 0 to 2 for BC, CD and BD.
     EndOnLine(usize),
+    /// Two features are as far apart as the radius.
+    AtRadius,
 }
 
 impl<Z: Integer> Decision<Z> {
-    /// The triple product `f = (K x L) . M` in units of the scaled coordinates.
+    /// The triple product of the four points in units of the scaled coordinates:
+    /// `f = (K x L) . M` of edges, `f = (E1 x E2) . w` of a vertex and a face.
     pub fn f(&self) -> &Poly<Z> {
-        &self.motion.f
+        self.motion.f()
     }
 
     /// What the case is decided by, and whether it is identically 0.
-    pub fn vanishing(&self) -> [(&'static str, bool); 6] {
-        let Motion { k, l, m, n, f } = &self.motion;
-        [
-            ("K", k.is_zero()),
-            ("L", l.is_zero()),
-            ("M", m.is_zero()),
-            ("K x L", n.is_zero()),
-            ("K x M", k.cross(m).is_zero()),
-            ("f", f.is_zero()),
-        ]
+    pub fn vanishing(&self) -> Vec<(&'static str, bool)> {
+        self.motion.vanishing()
     }
 
     /// Every time at which contact could begin, in order.
     pub fn steps(&self) -> Vec<Step<Z>> {
-        let mut times: Vec<_> = match self.motion.f.is_zero() {
-            false => {
-                let roots = isolate_roots(&self.motion.f).into_iter();
+        let mut times: Vec<_> = match (&self.near, self.f().is_zero()) {
+            (Some(near), _) => self.times_at_radius(near),
+            (None, true) => self.end_times(),
+            (None, false) => {
+                let roots = isolate_roots(self.f()).into_iter();
                 roots.map(|time| (time, Event::Coplanar)).collect()
             }
-            true => self.end_times(),
         };
         times.sort_by(|a, b| a.0.compare(&b.0));
         let step = |(time, event)| self.step(time, event);
         times.into_iter().map(step).collect()
     }
 
-    /// The start, and the times at which an end comes onto the line of the other edge; if it is
-    /// always on it, those at which it passes an end of that edge.
+    /// The start, and the times at which a vertex comes onto the line of an edge; if it is always on
+    /// it, those at which it passes an end of that edge.
     fn end_times(&self) -> Vec<(Algebraic<Z>, Event)> {
         let mut times = vec![(Algebraic::zero(), Event::Start)];
         for (index, end) in self.motion.ends().iter().enumerate() {
@@ -82,16 +79,25 @@ impl<Z: Integer> Decision<Z> {
         times
     }
 
+    /// The start, if there is contact, and the times at which two features are at the radius.
+    fn times_at_radius(&self, near: &Near<Z>) -> Vec<(Algebraic<Z>, Event)> {
+        let times = near.proximity.times_at(&near.radius).into_iter();
+        let mut times: Vec<_> = times.map(|time| (time, Event::AtRadius)).collect();
+        if self.toi().is_some_and(Algebraic::is_zero) {
+            times.push((Algebraic::zero(), Event::Start));
+        }
+        times
+    }
+
     fn step(&self, time: Algebraic<Z>, event: Event) -> Step<Z> {
-        let contact = self.motion.locus(&time).map(|locus| {
+        let (locus, meeting) = match &self.near {
+            None => (self.motion.locus(&time), self.motion.meeting(&time)),
+            Some(near) => (Some(near.proximity.nearest(&*self.motion, &time)), None),
+        };
+        let contact = locus.map(|locus| {
             let first = locus.first.parameters(&time);
             let second = locus.second.map(|place| place.parameters(&time));
             (first, second)
-        });
-        let meeting = self.motion.transversal_axis(&time).map(|(axis, _)| {
-            let Motion { k, l, m, n, .. } = &self.motion;
-            let quotient = |numerator| quotient(&time, &numerator, &n.0[axis]);
-            [m.cross_component(l, axis), m.cross_component(k, axis)].map(quotient)
         });
         Step {
             time,
@@ -100,21 +106,4 @@ impl<Z: Integer> Decision<Z> {
             meeting,
         }
     }
-}
-
-/// `n / d` near a time, rounded. Shown to people, decided upon by nobody.
-fn quotient<Z: Integer>(time: &Algebraic<Z>, n: &Poly<Z>, d: &Poly<Z>) -> f64 {
-    time.refine(256);
-    let (low, high, exponent) = time.bounds();
-    let at = |poly: &Poly<Z>| {
-        let value = poly.evaluate_dyadic(&low.add(&high), exponent + 1);
-        let (mantissa, own) = value.approximate();
-        let scale = (exponent as i64 + 1) * poly.degree() as i64;
-        (mantissa, own - scale)
-    };
-    let ((n, n_exponent), (d, d_exponent)) = (at(n), at(d));
-    if n == 0.0 {
-        return 0.0;
-    }
-    n / d * 2f64.powi((n_exponent - d_exponent).clamp(-2000, 2000) as i32)
 }

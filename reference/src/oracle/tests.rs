@@ -1,20 +1,22 @@
 use num_bigint::BigInt;
 use proptest::prelude::*;
 use tunnelproof::contact::{Case, ContactKind};
-use tunnelproof::query::{EdgeEdge, Point, Query};
+use tunnelproof::query::{Point, Query, QueryKind};
 
 use super::*;
 use crate::answer::Enclosure;
+use QueryKind::{EdgeEdge, VertexFace};
 
 type Corners = [[f64; 3]; 8];
 
-fn query(points: Corners) -> EdgeEdge {
+fn query(kind: QueryKind, points: Corners, radius: f64) -> Query {
     let p = points.map(|[x, y, z]| Point::new(x, y, z));
-    EdgeEdge::new([p[0], p[1], p[2], p[3]], [p[4], p[5], p[6], p[7]], 0.0).unwrap()
+    let (start, end) = ([p[0], p[1], p[2], p[3]], [p[4], p[5], p[6], p[7]]);
+    Query::new(kind, start, end, radius).unwrap()
 }
 
 fn answer(points: Corners) -> ExactAnswer {
-    decide::<BigInt>(&query(points)).unwrap().written()
+    decide::<BigInt>(&query(EdgeEdge, points, 0.0)).written()
 }
 
 fn exactly(value: f64) -> Enclosure {
@@ -161,24 +163,14 @@ fn oracle_gives_both_ends_of_an_overlap() {
     assert_eq!((second.u, second.v), (exactly(1.), exactly(0.5)));
 }
 
-#[test]
-fn oracle_refuses_a_radius() {
-    let zero = [Point::origin(); 4];
-    let query = EdgeEdge::new(zero, zero, 0.5).unwrap();
-    assert_eq!(
-        decide::<BigInt>(&query).err(),
-        Some(Unsupported::Radius(0.5.into()))
-    );
-}
-
 /// Small integers, confined to a line or a plane as often as not, with points repeated: every
 /// degeneracy there is.
-fn lattice() -> impl Strategy<Value = EdgeEdge> {
+fn lattice(kind: QueryKind) -> impl Strategy<Value = Query> {
     let coordinate = -2i8..=2;
     let point = prop::array::uniform3(coordinate);
     let points = prop::array::uniform8(point);
     (points, 0u8..6, 0usize..8, 0usize..8, any::<bool>()).prop_map(
-        |(mut p, confinement, from, to, repeat)| {
+        move |(mut p, confinement, from, to, repeat)| {
             if repeat {
                 p[to] = p[from];
             }
@@ -189,25 +181,37 @@ fn lattice() -> impl Strategy<Value = EdgeEdge> {
                 3 => [x, y, i8::from(z > 0)],
                 _ => [x, y, z],
             });
-            query(q.map(|c| c.map(f64::from)))
+            query(kind, q.map(|c| c.map(f64::from)), 0.0)
         },
     )
 }
 
-fn uniform() -> impl Strategy<Value = EdgeEdge> {
+fn uniform(kind: QueryKind) -> impl Strategy<Value = Query> {
     let points = prop::array::uniform8(prop::array::uniform3(-1.0f64..1.0));
-    (points, any::<bool>()).prop_map(|(p, coarse)| {
-        query(if coarse {
+    (points, any::<bool>()).prop_map(move |(p, coarse)| {
+        let points = if coarse {
             p.map(|c| c.map(|x| (x * 64.0).round()))
         } else {
             p
-        })
+        };
+        query(kind, points, 0.0)
     })
 }
 
-fn check_against_the_definition(query: &EdgeEdge) -> Result<(), TestCaseError> {
-    let decision = decide::<BigInt>(query).unwrap();
-    let expected = literal::first_contact(&Scaled::<BigInt>::new(&Query::EdgeEdge(*query)));
+/// The same with a radius, a small number or the distance of some two lattice points.
+fn thick(queries: impl Strategy<Value = Query>) -> impl Strategy<Value = Query> {
+    (
+        queries,
+        prop::sample::select(vec![0.25, 0.5, 1.0, 1.5, 2.0, 5.0]),
+    )
+        .prop_map(|(query, radius)| {
+            Query::new(query.kind(), *query.start(), *query.end(), radius).unwrap()
+        })
+}
+
+fn check_against_the_definition(query: &Query) -> Result<(), TestCaseError> {
+    let decision = decide::<BigInt>(query);
+    let expected = literal::first_contact(query);
     match (decision.toi(), &expected) {
         (None, None) => {}
         (Some(toi), Some(expected)) => prop_assert!(toi.compare(expected).is_eq()),
@@ -220,17 +224,35 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(5000))]
 
     #[test]
-    fn oracle_agrees_with_the_definition_on_lattice(query in lattice()) {
+    fn oracle_agrees_with_the_definition_on_lattice(query in lattice(EdgeEdge)) {
         check_against_the_definition(&query)?;
     }
 
     #[test]
-    fn oracle_answer_is_symmetric(query in lattice()) {
-        let answer = decide::<BigInt>(&query).unwrap().written();
+    fn oracle_agrees_with_the_definition_on_lattice_faces(query in lattice(VertexFace)) {
+        check_against_the_definition(&query)?;
+    }
+
+    #[test]
+    fn oracle_agrees_with_the_definition_on_thick_lattice(query in thick(lattice(EdgeEdge))) {
+        check_against_the_definition(&query)?;
+    }
+
+    #[test]
+    fn oracle_agrees_with_the_definition_on_thick_lattice_faces(
+        query in thick(lattice(VertexFace)),
+    ) {
+        check_against_the_definition(&query)?;
+    }
+
+    #[test]
+    fn oracle_answer_is_symmetric(query in lattice(EdgeEdge)) {
+        let answer = decide::<BigInt>(&query).written();
         let map = |order: [usize; 4]| {
             let pick = |p: &[Point; 4]| order.map(|i| p[i]);
-            let query = EdgeEdge::new(pick(query.start()), pick(query.end()), 0.0).unwrap();
-            decide::<BigInt>(&query).unwrap().written()
+            let (start, end) = (pick(query.start()), pick(query.end()));
+            let query = Query::new(EdgeEdge, start, end, 0.0).unwrap();
+            decide::<BigInt>(&query).written()
         };
         // The other edge first: the same contact, seen from the other side.
         let swapped = map([2, 3, 0, 1]);
@@ -258,7 +280,17 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(1000))]
 
     #[test]
-    fn oracle_agrees_with_the_definition_on_uniform(query in uniform()) {
+    fn oracle_agrees_with_the_definition_on_uniform(query in uniform(EdgeEdge)) {
+        check_against_the_definition(&query)?;
+    }
+
+    #[test]
+    fn oracle_agrees_with_the_definition_on_uniform_faces(query in uniform(VertexFace)) {
+        check_against_the_definition(&query)?;
+    }
+
+    #[test]
+    fn oracle_agrees_with_the_definition_on_thick_uniform(query in thick(uniform(EdgeEdge))) {
         check_against_the_definition(&query)?;
     }
 }

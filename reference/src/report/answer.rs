@@ -10,8 +10,9 @@
 //! | `side` | sign of `f` just before `toi`; exact subjects and the certified path only |
 //! | `case` | the case of the motion; left out by subjects without cases |
 //! | `temporarily_parallel`, `temporarily_point` | the configuration at `toi` |
-//! | `u`, `v` | edge parameters of the contact |
-//! | `overlap` | `u` and `v` of the other end, if the edges overlap in more than a point |
+//! | `features` | what touches: a vertex or an edge of each edge, or the vertex and a corner, an edge or all of the face, by their points; exact subjects only |
+//! | `u`, `v` | edge parameters of the contact, or the weights of C and D on the face |
+//! | `overlap` | `u` and `v` of the other end, if the edges overlap, or are nearest, in more than a point |
 //! | `points`, `normal` | in metres, of the contact (and the overlap's other end); engines only |
 //!
 //! A number that an exact subject may not be able to write as an `f64` (`toi`, `u`, `v`) is
@@ -61,6 +62,8 @@ pub struct Fields {
     case: Option<&'static str>,
     #[serde(flatten)]
     flags: Option<FlagFields>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    features: Option<[String; 2]>,
     #[serde(flatten)]
     first: Option<Place>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -107,6 +110,7 @@ impl Fields {
             kind,
             crosses,
             side,
+            features,
             first,
             second,
             flags,
@@ -125,6 +129,7 @@ impl Fields {
             side: Some(side),
             case,
             flags: Some(flags.into()),
+            features: Some(features.map(|feature| feature.to_string())),
             first: Some(first.into()),
             overlap: second.map(Place::from),
             ..Self::miss()
@@ -192,6 +197,7 @@ impl Fields {
             side: None,
             case: None,
             flags: None,
+            features: None,
             first: None,
             overlap: None,
             points: Vec::new(),

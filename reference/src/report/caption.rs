@@ -1,6 +1,7 @@
 //! What stands around a picture: what happens in numbers, and what the lines mean.
 
 use nalgebra::Vector2;
+use tunnelproof::query::QueryKind;
 
 use crate::answer::{Enclosure, ExactAnswer, ExactHit, Parameters};
 
@@ -74,7 +75,7 @@ fn about(number: Enclosure) -> String {
 }
 
 /// What the lines mean, below the picture on the right.
-pub(super) fn legend(canvas: &mut Canvas, is_hit: bool) {
+pub(super) fn legend(canvas: &mut Canvas, kind: QueryKind, is_hit: bool) {
     let words = Font {
         colour: INK,
         ..DETAIL
@@ -84,7 +85,11 @@ pub(super) fn legend(canvas: &mut Canvas, is_hit: bool) {
         entries.insert(1, ("impact", When::Impact));
     }
     let mut x = if is_hit { 540.0 } else { 700.0 };
-    for (edge, name) in ["AB", "CD"].into_iter().enumerate() {
+    let sides = match kind {
+        QueryKind::EdgeEdge => ["AB", "CD"],
+        QueryKind::VertexFace => ["A", "BCD"],
+    };
+    for (edge, name) in sides.into_iter().enumerate() {
         let font = Font {
             size: 11,
             colour: PAINTS[edge].dark,

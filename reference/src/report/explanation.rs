@@ -5,8 +5,7 @@ use std::fmt::Write as _;
 
 use tunnelproof::certified;
 use tunnelproof::contact::{Case, ContactKind};
-use tunnelproof::narrow::Unsupported;
-use tunnelproof::query::{EdgeEdge, Query};
+use tunnelproof::query::{Query, QueryKind};
 
 use crate::algebraic::Algebraic;
 use crate::answer::{Enclosure, ExactAnswer, ExactHit, Parameters};
@@ -20,23 +19,18 @@ use crate::subject::Answer;
 
 use super::number;
 
-/// The explanation of an edge-edge query with this name, and what these subjects say of it.
-///
-/// # Errors
-///
-/// [`Unsupported`] for a query that the oracle does not take.
-pub fn explain(title: &str, edges: &EdgeEdge, subjects: &[Judged]) -> Result<String, Unsupported> {
-    let query = Query::EdgeEdge(*edges);
-    let decision = decide::<field::Default>(edges)?;
+/// The explanation of a query with this name, and what these subjects say of it.
+pub fn explain(title: &str, query: &Query, subjects: &[Judged]) -> String {
+    let decision = decide::<field::Default>(query);
     let answer = decision.written();
     let mut text = format!("{title}\n\n");
-    points(&mut text, &query);
-    case(&mut text, &decision);
-    triple_product(&mut text, &decision, &query);
-    steps(&mut text, &decision);
-    impact(&mut text, &decision, &answer);
-    verdicts(&mut text, subjects, &query, &answer);
-    Ok(text)
+    points(&mut text, query);
+    case(&mut text, &decision, query.kind());
+    triple_product(&mut text, &decision, query);
+    steps(&mut text, &decision, query);
+    impact(&mut text, &decision, &answer, query);
+    verdicts(&mut text, subjects, query, &answer);
+    text
 }
 
 fn points(text: &mut String, query: &Query) {
@@ -52,16 +46,20 @@ fn points(text: &mut String, query: &Query) {
             "  {name}({time})  {x:>width$}  {y:>width$}  {z:>width$}"
         );
     }
+    if !query.radius().is_zero() {
+        let _ = writeln!(text, "  radius  {}", query.radius());
+    }
 }
 
-fn case<Z: Integer>(text: &mut String, decision: &Decision<Z>) {
-    let words = match decision.case() {
-        Case::General => "none of the special cases",
-        Case::Parallel => "directions are parallel for the whole step, on two lines",
-        Case::Coplanar => "the four points share a plane for the whole step",
-        Case::Collinear => "the four points share a line for the whole step",
-        Case::SharedStart => "A and C are the same point for the whole step",
-        Case::Degenerate => "an edge is a point for the whole step",
+fn case<Z: Integer>(text: &mut String, decision: &Decision<Z>, kind: QueryKind) {
+    let words = match (decision.case(), kind) {
+        (Case::General, _) => "none of the special cases",
+        (Case::Parallel, _) => "directions are parallel for the whole step, on two lines",
+        (Case::Coplanar, _) => "the four points share a plane for the whole step",
+        (Case::Collinear, _) => "the four points share a line for the whole step",
+        (Case::SharedStart, _) => "A and C are the same point for the whole step",
+        (Case::Degenerate, QueryKind::EdgeEdge) => "an edge is a point for the whole step",
+        (Case::Degenerate, QueryKind::VertexFace) => "the face has no area for the whole step",
     };
     let named = |is_zero: bool| {
         let chosen = decision
@@ -76,10 +74,11 @@ fn case<Z: Integer>(text: &mut String, decision: &Decision<Z>) {
         }
     };
     let _ = writeln!(text, "\nCase: {}: {words}", decision.case());
-    let _ = writeln!(
-        text,
-        "  with K = B - A, L = D - C, M = C - A, f = (K x L) . M"
-    );
+    let definitions = match kind {
+        QueryKind::EdgeEdge => "K = B - A, L = D - C, M = C - A, f = (K x L) . M",
+        QueryKind::VertexFace => "w = A - B, E1 = C - B, E2 = D - B, f = (E1 x E2) . w",
+    };
+    let _ = writeln!(text, "  with {definitions}");
     let _ = writeln!(
         text,
         "  identically 0: {}; not: {}",
@@ -106,19 +105,30 @@ fn triple_product<Z: Integer>(text: &mut String, decision: &Decision<Z>, query: 
     }
 }
 
-fn steps<Z: Integer>(text: &mut String, decision: &Decision<Z>) {
+fn steps<Z: Integer>(text: &mut String, decision: &Decision<Z>, query: &Query) {
     let steps = decision.steps();
-    let heading = match (decision.f().is_zero(), steps.is_empty()) {
-        (false, true) => "f has no root in [0, 1], so the edges never share a plane.",
-        (false, false) => "Roots of f in [0, 1], where the edges share a plane:",
-        (true, _) => "f is identically 0. When an end comes onto the other edge's line or ends:",
+    let is_thick = !query.radius().is_zero();
+    let heading = match (is_thick, decision.f().is_zero(), steps.is_empty()) {
+        (true, _, true) => "The distance is never the radius.",
+        (true, _, false) => "When nearest points of two features are as far apart as the radius:",
+        (false, false, true) => "f has no root in [0, 1], so the points never share a plane.",
+        (false, false, false) => "Roots of f in [0, 1], where the points share a plane:",
+        (false, true, _) => match query.kind() {
+            QueryKind::EdgeEdge => {
+                "f is identically 0. When an end comes onto the other edge's line or ends:"
+            }
+            QueryKind::VertexFace => {
+                "f is identically 0. When A comes onto the line or the ends of an edge of the face:"
+            }
+        },
     };
     let _ = writeln!(text, "\n{heading}");
     for same_time in steps.chunk_by(|a, b| a.time.compare(&b.time).is_eq()) {
         let events = same_time.iter().map(|step| match step.event {
             Event::Start => "start",
             Event::Coplanar => "",
-            Event::EndOnLine(end) => ["A", "B", "C", "D"][end % 4],
+            Event::EndOnLine(end) => event_name(query.kind(), end),
+            Event::AtRadius => "",
         });
         let events = events.collect::<Vec<_>>().join(" ");
         let events = if events.is_empty() {
@@ -127,14 +137,27 @@ fn steps<Z: Integer>(text: &mut String, decision: &Decision<Z>) {
             format!("{events}: ")
         };
         let time = exactly(&same_time[0].time);
-        let _ = writeln!(text, "  t = {time:<24}  {events}{}", meeting(&same_time[0]));
+        let meeting = meeting(&same_time[0], query.kind());
+        let _ = writeln!(text, "  t = {time:<24}  {events}{meeting}");
     }
 }
 
-fn meeting<Z>(step: &Step<Z>) -> String {
+/// What comes onto a line: an end of an edge; of a vertex and a face, the vertex onto this edge.
+fn event_name(kind: QueryKind, index: usize) -> &'static str {
+    match kind {
+        QueryKind::EdgeEdge => ["A", "B", "C", "D"][index % 4],
+        QueryKind::VertexFace => ["BC", "CD", "BD"][index % 3],
+    }
+}
+
+fn meeting<Z>(step: &Step<Z>, kind: QueryKind) -> String {
+    let beyond = match kind {
+        QueryKind::EdgeEdge => "lines meet beyond the edges",
+        QueryKind::VertexFace => "A is beyond the edges",
+    };
     match (&step.contact, step.meeting) {
         (Some((first, second)), _) => format!("contact, {}", place(first, second.as_ref())),
-        (None, Some([u, v])) => format!("lines meet beyond the edges, u = {u:.6}, v = {v:.6}"),
+        (None, Some([u, v])) => format!("{beyond}, u = {u:.6}, v = {v:.6}"),
         (None, None) => "no contact".to_owned(),
     }
 }
@@ -156,7 +179,12 @@ fn exactly<Z: Integer>(number: &Algebraic<Z>) -> String {
     }
 }
 
-fn impact<Z: Integer>(text: &mut String, decision: &Decision<Z>, answer: &ExactAnswer) {
+fn impact<Z: Integer>(
+    text: &mut String,
+    decision: &Decision<Z>,
+    answer: &ExactAnswer,
+    query: &Query,
+) {
     let (Some(toi), Some(hit)) = (decision.toi(), answer.hit) else {
         text.push_str("\nNo contact.\n");
         return;
@@ -181,7 +209,11 @@ fn impact<Z: Integer>(text: &mut String, decision: &Decision<Z>, answer: &ExactA
         "  contact   {}",
         place(&hit.first, hit.second.as_ref())
     );
-    let _ = writeln!(text, "  kind      {}", kind(&hit));
+    let [first, second] = hit.features;
+    let _ = writeln!(text, "  features  {first} and {second}");
+    let is_thick = !query.radius().is_zero();
+    let kind = if is_thick { thick(&hit) } else { kind(&hit) };
+    let _ = writeln!(text, "  kind      {kind}{}", remarks(&hit));
 }
 
 /// The polynomial that the time of impact is a root of.
@@ -194,11 +226,30 @@ fn defining<Z: Integer>(toi: &Algebraic<Z>, decision: &Decision<Z>) -> String {
 }
 
 fn kind(hit: &ExactHit) -> String {
-    let mut words = match (hit.kind, hit.crosses) {
-        (ContactKind::Crossing, _) => "crossing: the edges swap sides".to_owned(),
-        (ContactKind::Graze, true) => "graze, but the edges swap sides later".to_owned(),
-        (ContactKind::Graze, false) => "graze: they touch without swapping sides".to_owned(),
+    let words = match (hit.kind, hit.crosses) {
+        (ContactKind::Crossing, _) => "crossing: they swap sides",
+        (ContactKind::Graze, true) => "graze, but they swap sides later",
+        (ContactKind::Graze, false) => "graze: they touch without swapping sides",
     };
+    words.to_owned()
+}
+
+/// The kind of a contact at a radius.
+fn thick(hit: &ExactHit) -> String {
+    let begins = match hit.is_initial() {
+        true => "initial overlap",
+        false => "contact at the radius",
+    };
+    let crosses = match hit.crosses {
+        true => "crossing: the midlines pass in this step",
+        false => "graze: the midlines do not pass in this step",
+    };
+    format!("{begins}; {crosses}")
+}
+
+/// The side they come from and the configuration.
+fn remarks(hit: &ExactHit) -> String {
+    let mut words = String::new();
     if hit.side != 0 {
         let _ = write!(
             words,
@@ -230,6 +281,7 @@ fn verdicts(text: &mut String, subjects: &[Judged], query: &Query, truth: &Exact
 
 fn claim(found: &Found) -> String {
     match &found.answer {
+        None if !found.is_asked => "not asked".to_owned(),
         None => "no answer".to_owned(),
         Some(Answer::Exact(exact)) => match exact.hit {
             None => format!("miss ({})", exact.case),
@@ -259,6 +311,9 @@ fn claim(found: &Found) -> String {
 
 /// The verdict, and what else is wrong.
 fn worth(query: &Query, found: &Found) -> String {
+    if !found.is_asked {
+        return "does not take such queries".to_owned();
+    }
     let is_verdict = |fault| {
         !matches!(
             fault,

@@ -1,8 +1,9 @@
-//! A query as a picture, as the thesis draws its cases (4.1.1): both edges at the start, at the end
-//! and at the time of impact, the paths of their ends, and the points of contact.
+//! A query as a picture, as the thesis draws its cases (4.1.1): both edges, or the vertex and the edges
+//! of the face, at the start, at the end and at the time of impact, the paths of the points, and the
+//! points of contact.
 
 use nalgebra::{Vector2, Vector3};
-use tunnelproof::query::Query;
+use tunnelproof::query::{Query, QueryKind};
 
 use crate::answer::{Enclosure, ExactAnswer, ExactHit};
 
@@ -28,7 +29,7 @@ pub(super) enum When {
     End,
 }
 
-/// The picture of an edge-edge query and its exact answer, an SVG document.
+/// The picture of a query and its exact answer, an SVG document.
 pub fn draw(title: &str, query: &Query, answer: &ExactAnswer) -> String {
     let scene = Scene::new(query, answer);
     let mut canvas = Canvas::new(WIDTH, HEIGHT, title);
@@ -37,7 +38,7 @@ pub fn draw(title: &str, query: &Query, answer: &ExactAnswer) -> String {
     scene.draw_edges(&mut canvas);
     scene.draw_labels(&mut canvas);
     caption::caption(&mut canvas, answer, scene.is_drawn_apart);
-    caption::legend(&mut canvas, answer.hit.is_some());
+    caption::legend(&mut canvas, query.kind(), answer.hit.is_some());
     canvas.finish()
 }
 
@@ -78,6 +79,8 @@ struct Stroke {
 
 /// Everything in pixels.
 struct Scene {
+    /// The side that each point belongs to.
+    sides: [usize; 4],
     start: [Vector2<f64>; 4],
     end: [Vector2<f64>; 4],
     strokes: Vec<Stroke>,
@@ -94,14 +97,17 @@ impl Scene {
         let at = |t: f64| [0, 1, 2, 3].map(|i| start[i] * (1.0 - t) + end[i] * t);
         let impact = toi.map(at);
         let contacts = match (&answer.hit, &impact) {
-            (Some(hit), Some(points)) => contacts(hit, points),
+            (Some(hit), Some(points)) => contacts(query, hit, points),
             _ => Vec::new(),
         };
         let all: Vec<_> = start.iter().chain(&end).chain(&contacts).copied().collect();
-        let view = View::of(&all, &[[0, 1], [2, 3], [4, 5], [6, 7]]);
+        let lines = lines(query.kind());
+        let seen = [0, 4].map(|end| lines.iter().map(move |[i, j]| [i + end, j + end]));
+        let view = View::of(&all, &seen.into_iter().flatten().collect::<Vec<_>>());
         let sheet = Sheet::new(view, &all);
+        let sides = [0, 1, 2, 3].map(|i| side(query.kind(), i));
         let place = |points: [Vector3<f64>; 4], time| {
-            [0, 1, 2, 3].map(|i| sheet.place(&points[i], time, Some(i / 2)))
+            [0, 1, 2, 3].map(|i| sheet.place(&points[i], time, Some(sides[i])))
         };
         let mut strokes = Vec::new();
         let times = [
@@ -112,15 +118,16 @@ impl Scene {
         for (points, time, when) in times {
             let Some(points) = points else { continue };
             let placed = place(points, time);
-            strokes.extend([0, 1].map(|edge| Stroke {
-                edge,
+            strokes.extend(lines.iter().map(|&[i, j]| Stroke {
+                edge: sides[i],
                 when,
-                ends: [placed[2 * edge], placed[2 * edge + 1]],
-                nearness: view.nearness(&(points[2 * edge] * 0.5 + points[2 * edge + 1] * 0.5)),
+                ends: [placed[i], placed[j]],
+                nearness: view.nearness(&(points[i] * 0.5 + points[j] * 0.5)),
             }));
         }
         strokes.sort_by(|a, b| a.nearness.total_cmp(&b.nearness));
         Scene {
+            sides,
             start: place(start, 0.0),
             end: place(end, 1.0),
             strokes,
@@ -134,7 +141,7 @@ impl Scene {
 
     fn draw_paths(&self, canvas: &mut Canvas) {
         for i in 0..4 {
-            canvas.path([self.start[i], self.end[i]], i / 2);
+            canvas.path([self.start[i], self.end[i]], self.sides[i]);
         }
     }
 
@@ -164,7 +171,7 @@ impl Scene {
                 let at = labels.place(points[i], points[i] - points[i ^ 1]);
                 let font = Font {
                     size: 17,
-                    colour: PAINTS[i / 2].dark,
+                    colour: PAINTS[self.sides[i]].dark,
                     is_bold: true,
                     is_centred: true,
                 };
@@ -219,11 +226,32 @@ impl Sheet {
     }
 }
 
-/// The points of contact in space, on `AB`: one, or the two ends of an overlap.
-fn contacts(hit: &ExactHit, [a, b, ..]: &[Vector3<f64>; 4]) -> Vec<Vector3<f64>> {
+/// The lines that are drawn: the edges; a vertex is one from it to itself.
+fn lines(kind: QueryKind) -> &'static [[usize; 2]] {
+    match kind {
+        QueryKind::EdgeEdge => &[[0, 1], [2, 3]],
+        QueryKind::VertexFace => &[[0, 0], [1, 2], [2, 3], [1, 3]],
+    }
+}
+
+/// Which of the two sides a point belongs to.
+fn side(kind: QueryKind, point: usize) -> usize {
+    match kind {
+        QueryKind::EdgeEdge => point / 2,
+        QueryKind::VertexFace => usize::from(point > 0),
+    }
+}
+
+/// The points of contact in space, on `AB` or on the face: one, or the two ends of an overlap.
+fn contacts(query: &Query, hit: &ExactHit, points: &[Vector3<f64>; 4]) -> Vec<Vector3<f64>> {
     let places = std::iter::once(hit.first).chain(hit.second);
-    let parameters = places.map(|place| middle(place.u));
-    parameters.map(|u| a * (1.0 - u) + b * u).collect()
+    let parameters = places.map(|place| [place.u, place.v].map(middle));
+    let [a, b, c, d] = points;
+    let point = |[u, v]: [f64; 2]| match query.kind() {
+        QueryKind::EdgeEdge => a * (1.0 - u) + b * u,
+        QueryKind::VertexFace => b * (1.0 - u - v) + c * u + d * v,
+    };
+    parameters.map(point).collect()
 }
 
 fn middle(number: Enclosure) -> f64 {
@@ -236,7 +264,7 @@ mod tests {
     use tunnelproof::scenario::figures::FIGURES;
 
     use super::*;
-    use crate::generate::FAMILIES;
+    use crate::generate::{FAMILIES, OTHER_KINDS};
     use crate::oracle::decide_query;
 
     /// Every number in the picture's geometry, and whether the document is well-formed.
@@ -262,7 +290,9 @@ mod tests {
         let drawn = FAMILIES
             .iter()
             .flat_map(|family| (0..150).map(|i| family.query(5, i)));
-        for query in figures.chain(drawn) {
+        let thick_or_face = OTHER_KINDS.iter();
+        let thick_or_face = thick_or_face.flat_map(|family| (0..50).map(|i| family.query(5, i)));
+        for query in figures.chain(drawn).chain(thick_or_face) {
             for value in coordinates(&query) {
                 assert!((0.0..=WIDTH).contains(&value), "{value} in {query:?}");
             }

@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | `version`, `arithmetic` | of this crate; the backend of the exact numbers |
 //! | `seed`, `count` | of the families |
-//! | `second_judge` | who has to agree with the oracle; null for no one |
+//! | `second_judges` | the first of them that takes a query has to agree with the oracle |
 //! | `permitted` | the tolerances that `failures` goes by |
 //! | `sources` | what was found on each source, in the order of the table |
 //! | `total` | the same over all of them |
@@ -12,8 +12,8 @@
 //!
 //! A source has `name`, `queries`, `hits`, `crossings`, `joints` (pairs of consecutive segments of a
 //! wire that is passed), `labels`, the findings `wrong_labels` and
-//! `disagreements` (oracle against the second judge), and `subjects`. A subject has `subject`,
-//! `hits` (that it reports), `faults`, a finding by name, and `errata`, by the erratum that explains
+//! `disagreements` (oracle against each second judge, by its name), and `subjects`. A subject has
+//! `subject`, `not_asked` (queries that it does not take), `hits` (that it reports), `faults`, a finding by name, and `errata`, by the erratum that explains
 //! an answer two findings, `alone` and `with_others`. A finding has `count` and `worst`, its worst witness: `severity`, `id`,
 //! the `command` that explains it, the `query` with decimal and with hexadecimal numbers
 //! ([`crate::corpus::jsonl`] reads both), `truth` and `answer` ([`super::answer`]; `null` for no
@@ -43,7 +43,7 @@ pub struct Results<'a> {
     arithmetic: &'static str,
     seed: u64,
     count: u64,
-    second_judge: Option<&'a str>,
+    second_judges: Vec<&'a str>,
     permitted: Vec<PermittedRow>,
     sources: Vec<Source<'a>>,
     total: Source<'a>,
@@ -67,13 +67,14 @@ struct Source<'a> {
     joints: u64,
     labels: u64,
     wrong_labels: Found<'a>,
-    disagreements: Found<'a>,
+    disagreements: BTreeMap<&'a str, Found<'a>>,
     subjects: Vec<Subject<'a>>,
 }
 
 #[derive(Serialize)]
 struct Subject<'a> {
     subject: &'a str,
+    not_asked: u64,
     hits: u64,
     faults: BTreeMap<&'static str, Found<'a>>,
     errata: BTreeMap<&'a str, ExplainedFields<'a>>,
@@ -116,7 +117,11 @@ impl<'a> Results<'a> {
             arithmetic: field::Default::BACKEND,
             seed,
             count,
-            second_judge: panel.second_judge.map(|judge| judge.name()),
+            second_judges: panel
+                .second_judges
+                .iter()
+                .map(|judge| judge.name())
+                .collect(),
             permitted: PERMITTED.iter().map(PermittedRow::from).collect(),
             sources: blocks.iter().map(|block| source(panel, block)).collect(),
             total: source(panel, total),
@@ -133,6 +138,7 @@ impl<'a> Results<'a> {
 
 fn source<'a>(panel: &Panel<'a>, block: &'a Block) -> Source<'a> {
     let subjects = panel.subjects.iter().zip(&block.tallies);
+    let judges = panel.second_judges.iter();
     Source {
         name: &block.name,
         queries: block.queries,
@@ -141,7 +147,9 @@ fn source<'a>(panel: &Panel<'a>, block: &'a Block) -> Source<'a> {
         joints: block.joints,
         labels: block.labels,
         wrong_labels: (&block.wrong_labels).into(),
-        disagreements: (&block.disagreements).into(),
+        disagreements: (judges.zip(&block.agreements))
+            .map(|(judge, agreement)| (judge.name(), (&agreement.disagreements).into()))
+            .collect(),
         subjects: subjects
             .map(|(judged, tally)| subject(judged.subject.name(), tally))
             .collect(),
@@ -158,6 +166,7 @@ fn subject<'a>(name: &'a str, tally: &'a Tally) -> Subject<'a> {
     };
     Subject {
         subject: name,
+        not_asked: tally.not_asked(),
         hits: tally.hits,
         faults: Fault::ALL
             .into_iter()

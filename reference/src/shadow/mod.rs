@@ -131,6 +131,7 @@ fn describe<Z: Integer>(points: &[Motion<Z>; 4], toi: &Algebraic<Z>) -> ExactHit
         },
         crosses: is_crossing || crossings.any(),
         side,
+        features: first.features_of_edges(),
         first,
         second,
         flags: edges.flags(),

@@ -153,7 +153,7 @@ impl Sample {
     /// The least distances of these queries in metres, in floating point. Heuristic.
     pub fn estimate_gaps(&self, queries: &[usize]) -> Vec<f64> {
         let estimate = |&index: &usize| {
-            let estimate = || oracle::estimate_distance(&self.queries[index]);
+            let estimate = || oracle::estimate_gap(&Query::EdgeEdge(self.queries[index]));
             *self.estimates[index].get_or_init(estimate)
         };
         queries.par_iter().map(estimate).collect()
@@ -161,7 +161,7 @@ impl Sample {
 
     /// The least distance of a query in metres, rounded down to about three digits.
     pub fn gap(&self, index: usize) -> f64 {
-        let measure = || oracle::least_distance(&self.queries[index]).below;
+        let measure = || oracle::least_gap(&Query::EdgeEdge(self.queries[index])).below;
         *self.gaps[index].get_or_init(measure)
     }
 

@@ -40,7 +40,7 @@ fn counts(sample: &Sample, setting: &Setting) -> Counts {
 fn sweep_at_table_3_1_counts_what_certify_counts() {
     let names: Vec<_> = FAMILIES.iter().map(|family| family.name()).collect();
     let panel = Panel {
-        second_judge: None,
+        second_judges: Vec::new(),
         subjects: vec![Judged {
             subject: registry::by_name("thesis").unwrap(),
             explain: None,

@@ -4,7 +4,6 @@
 use std::collections::BTreeSet;
 
 use tunnelproof::contact::{Case, ContactKind};
-use tunnelproof::narrow::Unsupported;
 use tunnelproof::query::Query;
 
 use super::exact_time::ExactTime;
@@ -27,11 +26,8 @@ pub(super) struct Assessment {
 }
 
 impl Assessment {
-    pub(super) fn new(query: &Query) -> Result<Self, Unsupported> {
-        let Query::EdgeEdge(edges) = query else {
-            return Err(Unsupported::Kind(query.kind()));
-        };
-        let decision = decide::<field::Default>(edges)?;
+    pub(super) fn new(query: &Query) -> Self {
+        let decision = decide::<field::Default>(query);
         let answer = decision.written();
         let time = decision.toi().map(ExactTime::new);
         let is_irrational = time.as_ref().is_some_and(ExactTime::is_irrational);
@@ -46,11 +42,11 @@ impl Assessment {
             .chain(answer.hit.iter().flat_map(of_contact))
             .chain(Method::ALL.into_iter().filter_map(failure))
             .collect();
-        Ok(Assessment {
+        Assessment {
             answer,
             time,
             flags,
-        })
+        }
     }
 
     /// The answer in a few words.

@@ -156,7 +156,7 @@ impl Candidate {
             index,
         };
         let query = id.query();
-        let assessment = Assessment::new(&query).expect("a family makes edges of radius 0");
+        let assessment = Assessment::new(&query);
         let kind = assessment.answer.hit.map(|hit| hit.kind.name());
         Candidate {
             id,

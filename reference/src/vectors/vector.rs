@@ -51,7 +51,7 @@ pub(super) struct Vector {
 impl Vector {
     pub(super) fn new(described: Described) -> Self {
         let query = &described.query;
-        let assessment = Assessment::new(query).expect("a source has edges of radius 0");
+        let assessment = Assessment::new(query);
         let flags = assessment.flags.iter().chain(&described.flags);
         let own_flags: Vec<Flag> = flags.copied().collect();
         let points = query.start().iter().chain(query.end());

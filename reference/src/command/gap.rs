@@ -1,0 +1,48 @@
+//! `gap`: how near the two sides of a query come to each other.
+
+use std::process::ExitCode;
+
+use clap::Args;
+use tunnelproof_reference::corpus::locate::locate;
+use tunnelproof_reference::oracle::least_gap_to;
+
+use super::output::print;
+use super::{Failure, Reading};
+
+/// Enclose the least distance during the step of one query, beyond its radius
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  tunnelproof gap figure:4.7
+  tunnelproof gap figure:4.7 --radius 0.01+0.003
+  tunnelproof gap --width 1e-15 'unit-tests/vertex-face/data_0_0.csv#12'
+
+Two numbers in metres, between which the gap is: the least distance during the step less the radius; 0
+twice for a hit. Both bounds are proved. Where f64 has no two numbers that are so near to each other,
+they are neighbours.")]
+pub(super) struct Gap {
+    /// figure:NAME, FAMILY:SEED:INDEX, PATH.csv#INDEX, PATH.jsonl#ID, or - for a line on the
+    /// standard input
+    query: String,
+    /// How far the two numbers may be apart, in metres
+    #[arg(long, value_name = "W", default_value = "1e-9", value_parser = width)]
+    width: f64,
+    #[command(flatten)]
+    reading: Reading,
+}
+
+impl Gap {
+    pub(super) fn run(self) -> Result<ExitCode, Failure> {
+        let entry = locate(&self.query, self.reading.options())?;
+        let gap = least_gap_to(&entry.query, self.width);
+        print(&format!("{} {}\n", gap.below, gap.above))?;
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+fn width(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(width) if width.is_finite() && width >= 0.0 => Ok(width),
+        _ => Err("not a finite number of at least 0".to_owned()),
+    }
+}
