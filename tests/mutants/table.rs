@@ -73,8 +73,8 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     Mutant {
         culprit: Culprit::Oracle,
         file: "reference/src/oracle/general.rs",
-        text: "let times = isolate_roots(&self.f).into_iter();",
-        replacement: "let times = isolate_roots(&self.f).into_iter().take(2);",
+        text: "let times = isolate_roots(motion.f()).into_iter();",
+        replacement: "let times = isolate_roots(motion.f()).into_iter().take(2);",
         fault: "the third root of the cubic is dropped",
     },
     Mutant {
@@ -86,7 +86,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         culprit: Culprit::Oracle,
-        file: "reference/src/oracle/locus.rs",
+        file: "reference/src/oracle/edges.rs",
         text: "let d = self.m.add(&self.l).dot(&self.k);",
         replacement: "let d = self.m.sub(&self.l).dot(&self.k);",
         fault: "a sign puts D on the other side of C on the common line",
