@@ -108,7 +108,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     Mutant {
         culprit: Culprit::Certified,
         file: "src/certified/root.rs",
-        text: "        self.isolate_in(lower, found)?;\n",
+        text: "        self.isolate_in(lower, is_apart, found)?;\n",
         replacement: "        let _ = lower;\n",
         fault: "roots in the lower half of a part are dropped",
     },
@@ -129,8 +129,8 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     Mutant {
         culprit: Culprit::Certified,
         file: "src/certified/exact/confined.rs",
-        text: "times.find(|time| time.sign_of(&self.between).is_le())",
-        replacement: "times.find(|time| time.sign_of(&self.between).is_lt())",
+        text: "self.meets_line(time) && time.sign_of(&self.between).is_le()",
+        replacement: "self.meets_line(time) && time.sign_of(&self.between).is_lt()",
         fault: "an end that comes onto an end is no contact",
     },
 ];
