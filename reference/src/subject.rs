@@ -1,6 +1,6 @@
 //! Whoever answers queries: the judges themselves and the engines that are judged.
 
-use tunnelproof::certified;
+use tunnelproof::certified::{self, FaceHit};
 use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
 use tunnelproof::query::Query;
 
@@ -47,8 +47,31 @@ impl Subject for Certified {
     fn answer(&self, query: &Query) -> Result<Answer, Unsupported> {
         match query {
             Query::EdgeEdge(query) => certified::decide(query).map(Answer::Certified),
-            Query::VertexFace(_) => Err(Unsupported::Kind(query.kind())),
+            Query::VertexFace(query) => {
+                let hit = certified::decide_vertex_face(query)?;
+                Ok(Answer::Certified(match hit {
+                    None => certified::Verdict::Miss,
+                    Some(hit) => certified::Verdict::Hit(in_place_of_edges(&hit)),
+                }))
+            }
         }
+    }
+}
+
+/// A contact with a face in the form of one of edges: the weights of C and D are the parameters, as in
+/// the exact answer.
+fn in_place_of_edges(hit: &FaceHit) -> certified::Hit {
+    let [_, u, v] = hit.weights;
+    certified::Hit {
+        toi: hit.toi,
+        toi_above: hit.toi_above,
+        kind: hit.kind,
+        side: hit.side,
+        first: certified::Parameters { u, v },
+        second: None,
+        parameter_error: hit.weight_error,
+        case: hit.case,
+        flags: hit.flags,
     }
 }
 
