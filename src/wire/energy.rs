@@ -5,6 +5,7 @@ use super::model::{Node, NodeKind, Wire, World};
 
 /// Energies in J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Energy {
     /// Of motion and rotation.
     pub kinetic: f64,
