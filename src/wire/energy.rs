@@ -53,6 +53,22 @@ impl World {
                 .sum::<Vector>()
     }
 
+    /// Angular momentum about the origin of all that forces move, in N m s.
+    pub fn angular_momentum(&self) -> Vector {
+        let bodies = self.bodies.iter().filter(|body| body.dynamic);
+        let of_bodies: Vector = bodies
+            .map(|body| {
+                let orbit = body.position.coords.cross(&body.velocity) * body.mass;
+                orbit + body.world_inertia() * body.angular_velocity
+            })
+            .sum();
+        let nodes = self.moving_nodes();
+        of_bodies
+            + nodes
+                .map(|(mass, node)| node.position.coords.cross(&node.velocity) * mass)
+                .sum::<Vector>()
+    }
+
     /// Mass and state of every node that forces move: free ones and those on dynamic bodies.
     fn moving_nodes(&self) -> impl Iterator<Item = (f64, &Node)> {
         let moves = |node: &Node| match node.kind.carrier() {
