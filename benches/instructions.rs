@@ -1,10 +1,10 @@
-//! Instructions per query of the narrow phases, and per segment and step of the broad phases, by
-//! callgrind: a count that repeats exactly, whatever else the machine does.
+//! Instructions per query of the narrow phases, and per segment and step of the broad phases and of the
+//! wire stepper, by callgrind: a count that repeats exactly, whatever else the machine does.
 //!
 //! `cargo bench --bench instructions`, where `valgrind` is present; elsewhere it says so and ends. Each
 //! method runs over each set under `valgrind --tool=callgrind`, and once more without doing anything, to
 //! take off what reading the queries costs. A broad phase runs for one step, which sorts and fills, and
-//! for [`STEPS`] more.
+//! for [`STEPS`] more; a wire is stepped not at all, and for as many.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
@@ -24,8 +24,10 @@ use tunnelproof::thesis::Thesis;
 
 mod data;
 mod scenes;
+#[path = "data/span.rs"]
+mod span;
 
-/// Steps of a broad phase that are counted.
+/// Steps of a broad phase or of a wire that are counted.
 const STEPS: usize = 4;
 
 const METHODS: [&str; 4] = ["thesis", "additive", "certified", "certified-batch"];
@@ -45,6 +47,9 @@ fn main() {
                 steps.parse().unwrap(),
             );
         }
+        ["wire", material, segments, steps] => {
+            return step_wire(material, segments.parse().unwrap(), steps.parse().unwrap());
+        }
         _ => {}
     }
     if Command::new("valgrind").arg("--version").output().is_err() {
@@ -53,6 +58,7 @@ fn main() {
     }
     narrow_phases();
     broad_phases();
+    wires();
 }
 
 fn narrow_phases() {
@@ -104,6 +110,21 @@ fn broad_phases() {
                 format!("{each:>16}{pairs:>10}")
             });
             println!("{name:<8}{count:>9}{}", cells.concat());
+        }
+    }
+}
+
+fn wires() {
+    println!("\ninstructions of the wire stepper per segment and step");
+    println!("{:<24}{:>10}", "wire", "segments");
+    for (name, _) in span::materials() {
+        for segments in span::SEGMENTS {
+            let steps = |steps: usize| {
+                let (segments, steps) = (segments.to_string(), steps.to_string());
+                instructions(&["wire", name, &segments, &steps])
+            };
+            let each = (steps(STEPS) - steps(0)) / (STEPS * segments) as u64;
+            println!("{name:<24}{segments:>10}{each:>17}");
         }
     }
 }
@@ -178,6 +199,15 @@ fn step(scene: &str, count: usize, method: &str, steps: usize) {
 fn last_step(scene: scenes::Scene, method: (&str, Method, bool), steps: usize) -> usize {
     let mut run = scenes::Run::new(scene, method);
     (0..steps).map(|_| run.step()).last().unwrap_or(0)
+}
+
+fn step_wire(material: &str, segments: usize, steps: usize) {
+    let mut materials = span::materials().into_iter();
+    let (_, material) = materials.find(|(name, _)| *name == material).unwrap();
+    let mut world = span::world(material, segments);
+    for _ in 0..steps {
+        consume(world.step(&[]).unwrap());
+    }
 }
 
 fn consume<T>(value: T) {

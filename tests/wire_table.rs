@@ -38,5 +38,6 @@ cases! {
     crossing_wires_rest_on_each_other: "crossing wires at rest",
     twisted_wires_lift_and_turn_their_load: "four wires twisted",
     momentum_of_an_isolated_system_stays: "momentum",
+    angular_momentum_of_an_isolated_chain_stays: "angular momentum",
     energy_never_rises_but_for_the_order_of_the_step: "energy",
 }

@@ -11,6 +11,7 @@ use super::model::{NodeKind, Wire, WireId, World};
 
 /// A wire that slid over a contact node.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Slide {
     /// The wire.
     pub wire: WireId,

@@ -5,6 +5,7 @@ use super::model::{Node, NodeKind, Wire, World};
 
 /// Energies in J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Energy {
     /// Of motion and rotation.
     pub kinetic: f64,
@@ -49,6 +50,22 @@ impl World {
         of_bodies
             + nodes
                 .map(|(mass, node)| node.velocity * mass)
+                .sum::<Vector>()
+    }
+
+    /// Angular momentum about the origin of all that forces move, in N m s.
+    pub fn angular_momentum(&self) -> Vector {
+        let bodies = self.bodies.iter().filter(|body| body.dynamic);
+        let of_bodies: Vector = bodies
+            .map(|body| {
+                let orbit = body.position.coords.cross(&body.velocity) * body.mass;
+                orbit + body.world_inertia() * body.angular_velocity
+            })
+            .sum();
+        let nodes = self.moving_nodes();
+        of_bodies
+            + nodes
+                .map(|(mass, node)| node.position.coords.cross(&node.velocity) * mass)
                 .sum::<Vector>()
     }
 

@@ -26,6 +26,8 @@ mod capstan;
 mod energy;
 mod model;
 mod record;
+#[cfg(feature = "recording")]
+pub mod recording;
 mod resolution;
 mod settings;
 mod solve;

@@ -10,6 +10,7 @@ use crate::query::Point;
 
 /// Everything that happened in one step.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StepRecord {
     /// The step, from 0.
     pub step: u64,
@@ -35,6 +36,7 @@ pub struct StepRecord {
 
 /// A wire in a step. Its nodes move on straight lines.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WireRecord {
     /// Arc length of each node in m.
     pub arcs: Vec<f64>,
@@ -48,6 +50,7 @@ pub struct WireRecord {
 
 /// A body in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BodyRecord {
     /// Before the motion.
     pub before: Pose,
@@ -57,6 +60,7 @@ pub struct BodyRecord {
 
 /// Position and orientation.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pose {
     /// Centre of mass in m.
     pub position: Point,
@@ -66,6 +70,7 @@ pub struct Pose {
 
 /// A contact and what it did.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactRecord {
     /// The contact as it was given.
     pub contact: Contact,
@@ -82,6 +87,7 @@ impl ContactRecord {
 
 /// How a system was solved.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SolverRecord {
     /// Backward error of the solution.
     pub residual: f64,
@@ -96,6 +102,7 @@ pub struct SolverRecord {
 
 /// Wall-clock time in s by phase.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Phases {
     /// Putting the system together.
     pub assembly: f64,

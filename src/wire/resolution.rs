@@ -13,6 +13,7 @@ use crate::query::Point;
 
 /// A change of resolution, as the motion that it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Remesh {
     /// The wire.
     pub wire: WireId,
@@ -27,6 +28,7 @@ pub struct Remesh {
 
 /// What happens to a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum RemeshKind {
     /// It is taken out.
     Merge,

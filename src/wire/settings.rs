@@ -6,6 +6,7 @@ use super::model::check::{finite_vector, not_negative, positive};
 
 /// What a [`World`](super::World) is stepped with. The default is that of docs/wires.md.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Settings {
     /// Time step `h` in s; usual value 1/60.
     pub step: f64,

@@ -58,7 +58,7 @@ impl Comparison {
 }
 
 /// All cases.
-pub const CASES: [Case; 12] = [
+pub const CASES: [Case; 13] = [
     motion::FREE_FALL,
     statics::STRETCH,
     motion::PENDULUM,
@@ -70,6 +70,7 @@ pub const CASES: [Case; 12] = [
     contact::CROSSING,
     motion::TWIST,
     motion::MOMENTUM,
+    motion::ANGULAR_MOMENTUM,
     motion::ENERGY,
 ];
 

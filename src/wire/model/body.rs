@@ -9,6 +9,7 @@ use crate::wire::Vector;
 
 /// A body of a world, by the order in which bodies were added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BodyId(pub usize);
 
 /// What moves a body.

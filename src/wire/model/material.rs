@@ -7,6 +7,7 @@ use super::check::{not_negative, positive};
 
 /// A round, homogeneous wire.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Material {
     /// Density in kg/m^3.
     pub density: f64,

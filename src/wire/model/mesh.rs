@@ -12,6 +12,8 @@ use crate::wire::Vector;
 
 /// A closed surface of triangles around its centre of mass.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Parts"))]
 pub struct Mesh {
     vertices: Vec<Point>,
     triangles: Vec<[usize; 3]>,
@@ -27,23 +29,29 @@ impl Mesh {
     /// A coordinate that is not finite, a corner that is not there, an edge without its neighbour, or
     /// a volume that is not above 0 (turned inside out).
     pub fn new(vertices: Vec<Point>, triangles: Vec<[usize; 3]>) -> Result<Self, ModelError> {
-        for vertex in &vertices {
-            finite_point("vertex", vertex)?;
-        }
-        check_corners(&triangles, vertices.len())?;
-        check_closed(&triangles)?;
         let mut mesh = Mesh {
             vertices,
             triangles,
             centre: Point::origin(),
         };
-        let (volume, moment) = mesh.volume_and_moment();
-        positive("volume of the mesh", volume)?;
+        let (volume, moment) = mesh.check()?;
         mesh.centre = Point::from(moment / volume);
         for vertex in &mut mesh.vertices {
             *vertex -= mesh.centre.coords;
         }
         Ok(mesh)
+    }
+
+    /// Whether it is a closed surface around a volume; returns its volume and first moment.
+    fn check(&self) -> Result<(f64, Vector), ModelError> {
+        for vertex in &self.vertices {
+            finite_point("vertex", vertex)?;
+        }
+        check_corners(&self.triangles, self.vertices.len())?;
+        check_closed(&self.triangles)?;
+        let (volume, moment) = self.volume_and_moment();
+        positive("volume of the mesh", volume)?;
+        Ok((volume, moment))
     }
 
     /// Vertices relative to the centre of mass, in m.
@@ -90,6 +98,36 @@ impl Mesh {
             mass: density * volume,
             inertia: (Matrix3::identity() * second.trace() - second) * density,
         }
+    }
+}
+
+/// A mesh as it is stored: vertices are around the centre of mass already, to the bit.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct Parts {
+    vertices: Vec<Point>,
+    triangles: Vec<[usize; 3]>,
+    centre: Point,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Parts> for Mesh {
+    type Error = ModelError;
+
+    fn try_from(parts: Parts) -> Result<Self, ModelError> {
+        let Parts {
+            vertices,
+            triangles,
+            centre,
+        } = parts;
+        finite_point("centre", &centre)?;
+        let mesh = Mesh {
+            vertices,
+            triangles,
+            centre,
+        };
+        mesh.check()?;
+        Ok(mesh)
     }
 }
 

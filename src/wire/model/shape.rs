@@ -10,6 +10,7 @@ use crate::wire::Vector;
 
 /// The shape of a body, around its centre of mass. Lengths in m.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Shape {
     /// A box of half edges along x, y, z.
     Box {

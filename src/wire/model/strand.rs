@@ -6,6 +6,7 @@ use crate::wire::Vector;
 
 /// A wire of a world, by the order in which wires were added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WireId(pub usize);
 
 /// How many steps the largest tension is remembered for, and how many lie between two changes of
@@ -99,6 +100,7 @@ impl Segment {
 
 /// How finely a wire is resolved.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Resolution {
     /// The shortest segment wanted, `l_user`, in m.
     pub length: f64,

@@ -14,6 +14,10 @@ const ROOT: u32 = u32::MAX;
 #[derive(Clone, Debug)]
 pub(in crate::wire) struct Ldl {
     parent: Vec<u32>,
+    /// Where the rows of `L` start in `pattern`.
+    row_starts: Vec<usize>,
+    /// The columns of each row of `L`, in the order in which the row is solved for.
+    pattern: Vec<u32>,
     /// Where the columns of `L` start; its diagonal, all ones, is not stored.
     starts: Vec<usize>,
     rows: Vec<u32>,
@@ -55,12 +59,48 @@ impl Ldl {
         for k in 0..n {
             starts[k + 1] = starts[k] + count[k];
         }
-        Ldl {
+        let mut ldl = Ldl {
             rows: vec![0; starts[n]],
             values: vec![0.0; starts[n]],
             diagonal: vec![0.0; n],
+            row_starts: Vec::with_capacity(n + 1),
+            pattern: Vec::with_capacity(starts[n]),
             parent,
             starts,
+        };
+        ldl.find_patterns(matrix);
+        ldl
+    }
+
+    /// The columns of each row of `L`, a child in the elimination tree before its parent, and the rows of
+    /// each column.
+    fn find_patterns(&mut self, matrix: &Symmetric) {
+        let n = matrix.size();
+        let mut filled = self.starts.clone();
+        let mut seen = vec![ROOT; n];
+        let (mut pattern, mut path) = (vec![0; n], Vec::new());
+        self.row_starts.push(0);
+        for k in 0..n {
+            seen[k] = k as u32;
+            let mut top = n;
+            for (row, _) in matrix.column(k) {
+                let mut i = row;
+                while seen[i] != k as u32 {
+                    seen[i] = k as u32;
+                    path.push(i);
+                    i = self.parent[i] as usize;
+                }
+                while let Some(i) = path.pop() {
+                    top -= 1;
+                    pattern[top] = i as u32;
+                }
+            }
+            for &i in &pattern[top..] {
+                self.rows[filled[i as usize]] = k as u32;
+                filled[i as usize] += 1;
+            }
+            self.pattern.extend_from_slice(&pattern[top..]);
+            self.row_starts.push(self.pattern.len());
         }
     }
 
@@ -75,32 +115,14 @@ impl Ldl {
         matrix: &Symmetric,
         positive: &[bool],
     ) -> Result<(), usize> {
-        let n = matrix.size();
         let mut filled = self.starts.clone();
-        let mut seen = vec![ROOT; n];
-        let (mut y, mut pattern, mut path) = (vec![0.0; n], vec![0; n], Vec::new());
-        for k in 0..n {
-            seen[k] = k as u32;
-            let mut top = n;
+        let mut y = vec![0.0; matrix.size()];
+        for (k, &positive) in positive.iter().enumerate() {
             for (row, value) in matrix.column(k) {
                 y[row] += value;
-                let mut i = row;
-                while seen[i] != k as u32 {
-                    seen[i] = k as u32;
-                    path.push(i);
-                    i = self.parent[i] as usize;
-                }
-                while let Some(i) = path.pop() {
-                    top -= 1;
-                    pattern[top] = i;
-                }
             }
-            let pivot = self.row(k, &pattern[top..], &mut y, &mut filled);
-            let good = if positive[k] {
-                pivot > 0.0
-            } else {
-                pivot < 0.0
-            };
+            let pivot = self.row(k, &mut y, &mut filled);
+            let good = if positive { pivot > 0.0 } else { pivot < 0.0 };
             if !(good && pivot.is_finite()) {
                 return Err(k);
             }
@@ -110,9 +132,10 @@ impl Ldl {
     }
 
     /// Row `k` of `L`: solves for it with the columns that are filled so far. Returns the pivot.
-    fn row(&mut self, k: usize, pattern: &[usize], y: &mut [f64], filled: &mut [usize]) -> f64 {
+    fn row(&mut self, k: usize, y: &mut [f64], filled: &mut [usize]) -> f64 {
         let mut pivot = std::mem::take(&mut y[k]);
-        for &i in pattern {
+        for &i in &self.pattern[self.row_starts[k]..self.row_starts[k + 1]] {
+            let i = i as usize;
             let value = std::mem::take(&mut y[i]);
             let end = filled[i];
             let column = self.starts[i]..end;
@@ -121,7 +144,6 @@ impl Ldl {
             }
             let l = value / self.diagonal[i];
             pivot -= l * value;
-            self.rows[end] = k as u32;
             self.values[end] = l;
             filled[i] = end + 1;
         }

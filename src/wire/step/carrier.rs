@@ -24,14 +24,19 @@ pub(super) type Columns = SmallVec<[(usize, f64); 24]>;
 impl Carrier {
     /// Adds the row of `direction . velocity` to `columns`. A prescribed velocity has no columns.
     pub(super) fn columns(&self, direction: &Vector, columns: &mut Columns) {
-        let mut push = |first: usize, vector: &Vector| {
-            columns.extend((0..3).map(|axis| (first + axis, vector[axis])));
+        self.each_column(direction, |column, value| columns.push((column, value)));
+    }
+
+    /// Calls back for each column and value of the row of `direction . velocity`.
+    pub(super) fn each_column(&self, direction: &Vector, mut take: impl FnMut(usize, f64)) {
+        let mut three = |first: usize, vector: &Vector| {
+            (0..3).for_each(|axis| take(first + axis, vector[axis]));
         };
         match self {
-            Carrier::Free(first) => push(*first, direction),
+            Carrier::Free(first) => three(*first, direction),
             Carrier::Body(first, arm) => {
-                push(*first, direction);
-                push(first + 3, &arm.cross(direction));
+                three(*first, direction);
+                three(first + 3, &arm.cross(direction));
             }
             Carrier::Given(_) => {}
         }

@@ -7,6 +7,7 @@ use crate::wire::model::{BodyId, ModelError, WireId, World};
 
 /// A place on something that can touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Place {
     /// A place that never moves.
     World,
@@ -28,6 +29,7 @@ pub enum Place {
 
 /// Two places that must not come closer, with friction between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Contact {
     /// What the contact is known by from step to step. Two at a time must not share it.
     pub key: u64,

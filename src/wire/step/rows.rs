@@ -3,7 +3,7 @@
 use nalgebra::Matrix3;
 use smallvec::{SmallVec, smallvec};
 
-use super::carrier::{Carrier, Columns, Layout};
+use super::carrier::{Carrier, Layout};
 use crate::wire::Vector;
 use crate::wire::model::{Wire, World};
 use crate::wire::settings::Settings;
@@ -26,13 +26,11 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// Columns and values of the row.
-    pub(super) fn columns(&self) -> Columns {
-        let mut columns = Columns::new();
+    /// Calls back for each column and value of the row.
+    pub(super) fn each_column(&self, mut take: impl FnMut(usize, f64)) {
         for (carrier, direction) in &self.terms {
-            carrier.columns(direction, &mut columns);
+            carrier.each_column(direction, &mut take);
         }
-        columns
     }
 
     /// `G v` of the velocities that are prescribed.

@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix3;
 
-use super::carrier::{Columns, Layout};
+use super::carrier::{Carrier, Columns, Layout};
 use super::error::Reason;
 use super::rows::{Row, rows, unit};
 use super::spin::spin_freely;
@@ -66,10 +66,18 @@ impl System {
             for (i, node) in wire.nodes.iter().enumerate() {
                 let mass = wire.node_mass(i);
                 let velocity = node.velocity + fall;
+                let carrier = self.layout.nodes[first + i];
+                if let Carrier::Free(first) = carrier {
+                    for axis in 0..3 {
+                        self.triplets.add(first + axis, first + axis, mass);
+                        self.right[first + axis] += mass * velocity[axis];
+                    }
+                    continue;
+                }
                 for axis in 0..3 {
                     let mut columns = Columns::new();
                     let along = Vector::ith(axis, 1.0);
-                    self.layout.nodes[first + i].columns(&along, &mut columns);
+                    carrier.columns(&along, &mut columns);
                     self.triplets.add_outer(&columns, mass);
                     push(&mut self.right, &columns, mass * velocity[axis]);
                 }
@@ -137,9 +145,8 @@ impl System {
         for row in &self.rows {
             // A row that is not active keeps its place in the structure: -1 x multiplier = 0.
             let weight = if row.active { 1.0 } else { 0.0 };
-            for (column, value) in row.columns() {
-                self.triplets.add(column, row.multiplier, weight * value);
-            }
+            let triplets = &mut self.triplets;
+            row.each_column(|column, value| triplets.add(column, row.multiplier, weight * value));
             let sigma = if row.active { row.sigma } else { 1.0 };
             self.triplets.add(row.multiplier, row.multiplier, -sigma);
             self.right[row.multiplier] = weight * (row.target - row.given());
