@@ -43,6 +43,7 @@ pub struct ContactPoint {
 
 /// How a pair of edges moves against each other during the whole step (thesis 3.1.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Case {
     /// None of the cases below.
     General,
@@ -60,6 +61,7 @@ pub enum Case {
 
 /// What the configuration at the time of impact is, over and above the [`Case`] (thesis table 4.1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Flags {
     /// The edges are parallel at `toi` though not for the whole step.
     pub temporarily_parallel: bool,

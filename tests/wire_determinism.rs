@@ -8,8 +8,10 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use tunnelproof::query::Point;
+use tunnelproof::scenario::scenes::basic_collision;
 use tunnelproof::wire::{
-    BodyPlan, Contact, Drive, Material, Place, Settings, Shape, Stop, Vector, WirePlan, World,
+    BodyPlan, Collisions, Contact, Drive, Material, Place, Settings, Shape, Stop, Vector, WirePlan,
+    World,
 };
 
 /// A tumbling box between an adaptive steel wire and a chain, which hits the ground.
@@ -81,4 +83,18 @@ fn steps_give_the_same_bits_in_every_build() {
     // All parts of a step took part.
     assert!(touched && remeshed > 0, "{touched} {remeshed}");
     assert_eq!(hash(&world), 0xf9fe_0c5e_19bf_c9d6, "{:#x}", hash(&world));
+}
+
+#[test]
+fn steps_with_collisions_give_the_same_bits_in_every_build() {
+    let mut world = basic_collision().unwrap();
+    let mut collisions = Collisions::default();
+    let (mut prevented, mut contacts) = (0, 0);
+    for _ in 0..300 {
+        let record = world.step_colliding(&mut collisions, &[]).unwrap();
+        prevented += record.collisions.crossings.len();
+        contacts += record.contacts.len();
+    }
+    assert!(prevented > 0 && contacts > 300, "{prevented} {contacts}");
+    assert_eq!(hash(&world), 0xe23c_7f15_820f_ba7e, "{:#x}", hash(&world));
 }

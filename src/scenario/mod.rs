@@ -3,3 +3,5 @@
 #[cfg(feature = "wire")]
 pub mod analytic;
 pub mod figures;
+#[cfg(feature = "wire")]
+pub mod scenes;

@@ -2,7 +2,7 @@
 //!
 //! A [`World`] holds bodies and wires; [`World::step`] moves them by one time step. A wire is a row of
 //! point masses with rows that resist stretch and bending; contacts with friction are given to each
-//! step as data. SI units throughout. The equations, the defaults and where they come from are in
+//! step as data. [`World::step_colliding`] finds those between wires itself, and lets no wire through another. SI units throughout. The equations, the defaults and where they come from are in
 //! `docs/wires.md`.
 //!
 //! The same input gives the same bits, whatever the build and the machine: one thread, no
@@ -23,6 +23,7 @@
 //! ```
 
 mod capstan;
+mod collide;
 mod energy;
 mod model;
 mod record;
@@ -34,6 +35,10 @@ mod solve;
 mod step;
 
 pub use capstan::Slide;
+pub use collide::{
+    CollisionError, CollisionRecord, Collisions, Crossing, Held, Mode, Outcome, PairFilter,
+    SegmentId, Site,
+};
 pub use energy::Energy;
 pub use model::{
     Body, BodyId, BodyPlan, Drive, MassProperties, Material, Mesh, ModelError, Node, NodeKind,

@@ -5,7 +5,7 @@ use nalgebra::UnitQuaternion;
 use super::capstan::Slide;
 use super::model::World;
 use super::resolution::Remesh;
-use super::{Contact, Energy, Vector};
+use super::{CollisionRecord, Contact, Energy, Vector};
 use crate::query::Point;
 
 /// Everything that happened in one step.
@@ -22,6 +22,8 @@ pub struct StepRecord {
     pub bodies: Vec<BodyRecord>,
     /// The contacts of the step.
     pub contacts: Vec<ContactRecord>,
+    /// The collisions between wires; empty unless the step looked for them.
+    pub collisions: CollisionRecord,
     /// Wires that slid over contact nodes, after the motion.
     pub slides: Vec<Slide>,
     /// Changes of resolution, after the slides.
@@ -112,6 +114,8 @@ pub struct Phases {
     pub solve: f64,
     /// Contacts and friction.
     pub contacts: f64,
+    /// Collision detection between wires.
+    pub collision: f64,
     /// Moving everything.
     pub commit: f64,
     /// Sliding and changes of resolution.

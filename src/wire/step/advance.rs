@@ -2,13 +2,14 @@
 
 use std::time::Instant;
 
+use super::Contact;
 use super::contact::{Warm, check};
 use super::error::{Reason, StepError};
 use super::friction::{Swept, sweep};
+use super::motion::{Motion, Shares};
 use super::rows::Row;
-use super::spin::turn;
 use super::system::System;
-use super::{Contact, carrier::Carrier};
+use super::watch::{Given, Judgement, Watch};
 use crate::wire::capstan;
 use crate::wire::model::World;
 use crate::wire::model::strand::MEMORY;
@@ -45,17 +46,24 @@ impl World {
         contacts: &[Contact],
         guard: &mut dyn RemeshGuard,
     ) -> Result<StepRecord, StepError> {
+        self.advance(&mut Given { contacts, guard })
+    }
+
+    /// Does one step with the contacts that `watch` gives, as far as it lets everything move.
+    pub(in crate::wire) fn advance(
+        &mut self,
+        watch: &mut dyn Watch,
+    ) -> Result<StepRecord, StepError> {
         let step = self.steps;
         let failed = |reason| StepError { step, reason };
         let mut phases = Phases::default();
         let mut clock = Clock::start();
-        check(self, contacts).map_err(failed)?;
+        check(self, watch.contacts()).map_err(failed)?;
         let structure = self.structure.take();
         let mut system = System::new(self, structure);
         phases.assembly = clock.lap();
-        let candidate = self.settle(&mut system, contacts, &mut phases);
-        let candidate = match candidate {
-            Ok(candidate) => candidate,
+        let (candidate, motion) = match self.agree(&mut system, watch, &mut phases) {
+            Ok(agreed) => agreed,
             Err(reason) => {
                 self.structure = system.into_structure();
                 return Err(failed(reason));
@@ -63,18 +71,40 @@ impl World {
         };
         clock.lap();
         let mut record = StepRecord::before(self);
-        record.contacts = self.contact_records(contacts, &candidate.swept.impulses);
+        record.contacts = self.contact_records(watch.contacts(), &candidate.swept.impulses);
         record.solver = candidate.solver.clone();
-        self.commit(&system, &candidate);
-        self.warm = Warm::new(contacts, &candidate.swept.impulses);
+        self.warm = Warm::new(watch.contacts(), &candidate.swept.impulses);
+        self.commit(&system, &candidate, motion);
         self.structure = system.into_structure();
         record.after(self);
         phases.commit = clock.lap();
         record.slides = capstan::slide(self);
-        record.remeshes = resolution::adapt(self, guard);
+        record.remeshes = resolution::adapt(self, watch);
         phases.resolution = clock.lap();
         record.phases = phases;
         Ok(record)
+    }
+
+    /// Solves, and again with more contacts, until `watch` accepts the motion.
+    fn agree(
+        &self,
+        system: &mut System,
+        watch: &mut dyn Watch,
+        phases: &mut Phases,
+    ) -> Result<(Candidate, Motion), Reason> {
+        let mut candidate = self.settle(system, watch.contacts(), phases)?;
+        let mut shares = Shares::all(self);
+        loop {
+            let motion = self.motion(&system.layout, &candidate.x, &shares);
+            let mut clock = Clock::start();
+            let judgement = watch.judge(self, &motion, &candidate.swept.impulses)?;
+            phases.collision += clock.lap();
+            match judgement {
+                Judgement::Accept => return Ok((candidate, motion)),
+                Judgement::Solve => candidate = self.settle(system, watch.contacts(), phases)?,
+                Judgement::Hold(smaller) => shares = smaller,
+            }
+        }
     }
 
     /// Solves for velocities, multipliers and contact impulses; finds out which segments of chains
@@ -125,34 +155,13 @@ impl World {
         Err(Reason::Slack { tries: TRIES })
     }
 
-    fn commit(&mut self, system: &System, candidate: &Candidate) {
-        let (step, time) = (self.settings.step, self.time());
-        let x = &candidate.x;
-        for (body, first) in self.bodies.iter_mut().zip(&system.layout.bodies) {
-            (body.velocity, body.angular_velocity) = match *first {
-                Some(first) => {
-                    let unknowns = Carrier::Free(first).velocity(x);
-                    (unknowns, Carrier::Free(first + 3).velocity(x))
-                }
-                None => body.prescribed(time, step),
-            };
-            body.position += body.velocity * step;
-            body.orientation = turn(&body.orientation, &body.angular_velocity, step);
-        }
+    fn commit(&mut self, system: &System, candidate: &Candidate, motion: Motion) {
+        motion.apply(self);
         let slot = self.steps as usize % MEMORY;
-        for (wire, &first) in self.wires.iter_mut().zip(&system.layout.first_node) {
-            for (node, carrier) in wire.nodes.iter_mut().zip(&system.layout.nodes[first..]) {
-                node.velocity = carrier.velocity(x);
-                node.position = match node.kind.carrier() {
-                    Some((body, local)) => self.bodies[body.0].point(&local),
-                    None => node.position + node.velocity * step,
-                };
-            }
-        }
         let segments = self.wires.iter_mut().flat_map(|wire| &mut wire.segments);
         for (segment, row) in segments.zip(&system.rows) {
             // T = -lambda / h, and the unknown is -lambda.
-            segment.tension = x[row.multiplier] / step;
+            segment.tension = candidate.x[row.multiplier] / self.settings.step;
             segment.memory[slot] = segment.tension;
         }
         self.steps += 1;

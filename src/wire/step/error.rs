@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::wire::collide::CollisionError;
 use crate::wire::model::ModelError;
 
 /// A step that was not done. The world is as it was before.
@@ -41,6 +42,14 @@ pub enum Reason {
         /// How many guesses were tried.
         tries: usize,
     },
+    /// Wires cannot be kept apart.
+    Collision(CollisionError),
+}
+
+impl From<CollisionError> for Reason {
+    fn from(error: CollisionError) -> Self {
+        Reason::Collision(error)
+    }
 }
 
 impl fmt::Display for StepError {
@@ -60,6 +69,7 @@ impl fmt::Display for StepError {
                 f,
                 "it was not found within {tries} tries which segments of chains pull"
             ),
+            Reason::Collision(error) => write!(f, "wires cannot be kept apart: {error}"),
         }
     }
 }

@@ -5,9 +5,11 @@ mod carrier;
 pub(super) mod contact;
 mod error;
 mod friction;
+pub(super) mod motion;
 mod rows;
 mod spin;
 pub(super) mod system;
+pub(super) mod watch;
 
 pub use contact::{Contact, Place};
 pub use error::{Reason, StepError};

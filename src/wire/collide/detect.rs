@@ -1,0 +1,223 @@
+//! From the motion of all wires to the pairs that meet: broad phase, exclusion, narrow phase.
+
+use super::record::{CollisionRecord, Crossing, Outcome};
+use super::segment::{Closest, SegmentId, Site, between, direction, joined, reach};
+use super::{CollisionError, PairFilter};
+use crate::broad::{Aabb, BroadPhase, ItemId, Method, Pair, SlowPairs};
+use crate::contact::{self, Verdict};
+use crate::narrow::{NarrowPhase, Report};
+use crate::query::{EdgeEdge, Point};
+use crate::wire::Vector;
+use crate::wire::model::{WireId, World};
+use crate::wire::step::motion::Motion;
+
+/// The boxes of all segments, and what is known of slow ones. Item `k` is segment `k`, counted through all
+/// wires.
+pub(super) struct Pipeline {
+    broad: BroadPhase,
+    slow: SlowPairs,
+    items: Vec<ItemId>,
+}
+
+/// A segment on its way through a step.
+struct Moving {
+    id: SegmentId,
+    start: [Point; 2],
+    end: [Point; 2],
+}
+
+/// What was found in a motion.
+#[derive(Default)]
+pub(super) struct Found {
+    /// Pairs whose midlines meet.
+    pub(super) hits: Vec<Hit>,
+    /// Places of pairs that do not, and end closer than their radii, with the direction between them.
+    pub(super) near: Vec<([Site; 2], Vector)>,
+}
+
+/// A pair whose midlines meet.
+pub(super) struct Hit {
+    pub(super) sites: [Site; 2],
+    query: EdgeEdge,
+    pub(super) contact: contact::Contact,
+    report: Report,
+}
+
+impl Pipeline {
+    pub(super) fn new(method: Method) -> Self {
+        Pipeline {
+            broad: BroadPhase::new(method),
+            slow: SlowPairs::default(),
+            items: Vec::new(),
+        }
+    }
+
+    /// The pairs that meet while `world` makes a motion, and those that end close.
+    pub(super) fn detect(
+        &mut self,
+        world: &World,
+        motion: &Motion,
+        narrow: &dyn NarrowPhase,
+        filter: Option<PairFilter<'_>>,
+        record: &mut CollisionRecord,
+    ) -> Result<Found, CollisionError> {
+        let segments = moving(world, motion);
+        self.place(world, &segments)?;
+        let keep = |pair: Pair| {
+            let two = [pair.first(), pair.second()].map(|item| segments[item.index()].id);
+            !joined(world, two) && filter.is_none_or(|keep| keep(two[0], two[1]))
+        };
+        let pairs = self.broad.pairs(keep);
+        let remaining = self.slow.remaining(pairs);
+        record.named += pairs.len();
+        record.excluded += pairs.len() - remaining.len();
+        let mut found = Found::default();
+        for pair in remaining {
+            let two = [pair.first(), pair.second()].map(|item| &segments[item.index()]);
+            found.look(world, two, narrow, record)?;
+        }
+        Ok(found)
+    }
+
+    /// Tells broad phase and exclusion where every segment goes.
+    fn place(&mut self, world: &World, segments: &[Moving]) -> Result<(), CollisionError> {
+        while self.items.len() > segments.len() {
+            if let Some(item) = self.items.pop() {
+                self.broad.remove(item)?;
+            }
+        }
+        for (k, Moving { id, start, end }) in segments.iter().enumerate() {
+            let radius = id.of(world).material.radius;
+            let swept = Aabb::swept(start, end, radius)?;
+            match self.items.get(k) {
+                Some(&item) => self.broad.set(item, swept)?,
+                None => self.items.push(self.broad.insert(swept)),
+            }
+            // A motion tried before and taken back is a move to where it started.
+            self.slow.place(self.items[k], *start, radius)?;
+            self.slow.place(self.items[k], *end, radius)?;
+        }
+        Ok(())
+    }
+}
+
+fn moving(world: &World, motion: &Motion) -> Vec<Moving> {
+    let mut all = Vec::new();
+    for (w, (wire, to)) in world.wires.iter().zip(&motion.wires).enumerate() {
+        for segment in 0..wire.segments.len() {
+            let wire = WireId(w);
+            let id = SegmentId { wire, segment };
+            all.push(Moving {
+                id,
+                start: id.ends(world),
+                end: [to[segment].0, to[segment + 1].0],
+            });
+        }
+    }
+    all
+}
+
+impl Found {
+    /// Tests one pair.
+    fn look(
+        &mut self,
+        world: &World,
+        [a, b]: [&Moving; 2],
+        narrow: &dyn NarrowPhase,
+        record: &mut CollisionRecord,
+    ) -> Result<(), CollisionError> {
+        let start = [a.start[0], a.start[1], b.start[0], b.start[1]];
+        let end = [a.end[0], a.end[1], b.end[0], b.end[1]];
+        let query = EdgeEdge::new(start, end, 0.0)?;
+        let report = narrow.edge_edge(&query)?;
+        record.count(&report);
+        let sites = |[u, v]: [f64; 2]| [a.id.site(world, u), b.id.site(world, v)];
+        match report.verdict {
+            Verdict::Hit(contact) => {
+                let sites = sites([contact.first.u, contact.first.v]);
+                self.hits.push(Hit {
+                    sites,
+                    query,
+                    contact,
+                    report,
+                });
+            }
+            Verdict::Miss => {
+                let closest = Closest::new(&end);
+                let near = closest.distance() < reach(world, [a.id, b.id]);
+                let sites = sites(closest.shares);
+                let normal = direction(&closest.apart);
+                if let (true, Some(normal)) =
+                    (near && !is_bend(world, &sites, [a.id, b.id]), normal)
+                {
+                    self.near.push((sites, normal));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether two places of one wire are so close along it that its thickness alone brings them together.
+fn is_bend(world: &World, [a, b]: &[Site; 2], pair: [SegmentId; 2]) -> bool {
+    a.wire == b.wire && (a.arc - b.arc).abs() <= 2.0 * reach(world, pair)
+}
+
+impl Hit {
+    /// Unit normal from B to A by which the two are kept apart, and how far apart their places are along
+    /// it where the step starts. None if they touch there and do not move.
+    ///
+    /// Where they meet inside both, it is across both at that time, on the side from which they come.
+    /// Else, or if they come along it by less than a tenth of their way, from the closest points where the
+    /// step starts; if they touch there, against their motion.
+    pub(super) fn normal(&self) -> Option<(Vector, f64)> {
+        const TENTH: f64 = 0.1;
+        let shares = [self.contact.first.u, self.contact.first.v];
+        let apart = between(self.query.start(), shares);
+        if let Some(across) = self.across() {
+            let along = across.dot(&apart);
+            if along.abs() >= TENTH * apart.norm() {
+                return Some((across * along.signum(), along.abs()));
+            }
+        }
+        let before = Closest::new(self.query.start()).apart;
+        let normal = direction(&before).or_else(|| {
+            let after = between(self.query.end(), shares);
+            direction(&(apart - after))
+        })?;
+        Some((normal, normal.dot(&apart)))
+    }
+
+    /// The unit vector across both segments where they meet inside of both at an angle.
+    fn across(&self) -> Option<Vector> {
+        const ANGLE: f64 = 1e-6;
+        let contact = &self.contact;
+        let inside = |share: f64| share > 0.0 && share < 1.0;
+        if !(inside(contact.first.u) && inside(contact.first.v)) {
+            return None;
+        }
+        let at = |k: usize| {
+            let (start, end) = (self.query.start()[k].coords, self.query.end()[k].coords);
+            start.lerp(&end, contact.toi)
+        };
+        let (along, other) = (direction(&(at(1) - at(0)))?, direction(&(at(3) - at(2)))?);
+        let across = along.cross(&other);
+        (across.norm() > ANGLE).then(|| across.normalize())
+    }
+
+    /// Whether the vector between the closest points has turned about from start to end: they came through.
+    pub(super) fn came_through(&self) -> bool {
+        let [before, after] = [self.query.start(), self.query.end()].map(Closest::new);
+        before.apart.dot(&after.apart) < 0.0
+    }
+
+    pub(super) fn crossing(&self, outcome: Outcome) -> Crossing {
+        Crossing {
+            sites: self.sites,
+            toi: self.contact.toi,
+            case: self.report.case,
+            flags: self.report.flags,
+            outcome,
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! One step with collisions.
+
+use std::collections::BTreeSet;
+
+use super::detect::{Found, Hit};
+use super::hold::Hold;
+use super::record::{CollisionRecord, Outcome};
+use super::segment::{pair_at, reach};
+use super::touch::{Touch, Touches};
+use super::{CollisionError, Collisions, Mode, remesh};
+use crate::wire::Vector;
+use crate::wire::model::World;
+use crate::wire::record::ContactRecord;
+use crate::wire::resolution::{Remesh, RemeshGuard, RemeshKind};
+use crate::wire::step::motion::Motion;
+use crate::wire::step::watch::{Judgement, Watch};
+use crate::wire::step::{Contact, Reason};
+
+/// How often a step is solved again.
+const ROUNDS: usize = 8;
+
+/// Looks on while a step is made.
+pub(super) struct Guard<'a, 'n> {
+    collisions: &'a mut Collisions<'n>,
+    contacts: Vec<Contact>,
+    /// Contacts that were added during this step.
+    added: Vec<Touch>,
+    /// What was found in the motion that is made.
+    found: Found,
+    hold: Option<Hold>,
+    record: CollisionRecord,
+}
+
+impl<'a, 'n> Guard<'a, 'n> {
+    pub(super) fn new(
+        collisions: &'a mut Collisions<'n>,
+        world: &World,
+        given: &[Contact],
+    ) -> Self {
+        collisions.touches.refresh(world);
+        let mut contacts = given.to_vec();
+        contacts.extend(collisions.touches.contacts(collisions.friction));
+        Guard {
+            collisions,
+            contacts,
+            added: Vec::new(),
+            found: Found::default(),
+            hold: None,
+            record: CollisionRecord::default(),
+        }
+    }
+
+    /// A contact for each hit that has a normal; whether there is any.
+    fn add_contacts(&mut self, world: &World, hits: &[Hit]) -> bool {
+        let before = self.added.len();
+        for hit in hits {
+            if let (Some((normal, apart)), Some(pair)) = (hit.normal(), pair_at(world, &hit.sites))
+            {
+                let touch = self.collisions.touches.make(hit.sites, normal);
+                let gap = apart - reach(world, pair);
+                let contact = touch.row(normal, gap, self.collisions.friction);
+                self.contacts.push(contact);
+                self.added.push(touch);
+            }
+        }
+        self.added.len() > before
+    }
+
+    /// Ends the step: what was found becomes contacts of the next.
+    pub(super) fn finish(mut self, world: &World, contacts: &[ContactRecord]) -> CollisionRecord {
+        let touches = &mut self.collisions.touches;
+        touches.add(world, self.added);
+        // A passage at a node is found by every segment there.
+        let mut passed = BTreeSet::new();
+        for hit in &self.found.hits {
+            if passed.insert(pair_at(world, &hit.sites)) {
+                let outcome = passage(touches, world, hit);
+                self.record.crossings.push(hit.crossing(outcome));
+            }
+        }
+        touches.release(world, contacts);
+        // So that what is near is known by a contact that slid there.
+        touches.refresh(world);
+        let near = self.found.near.into_iter();
+        let near: Vec<Touch> = near
+            .map(|(sites, normal)| touches.make(sites, normal))
+            .collect();
+        touches.add(world, near);
+        if let Some(hold) = self.hold {
+            self.record.held = hold.held(world);
+        }
+        self.record
+    }
+}
+
+/// What a hit that was not prevented came to. Wires that came through change sides, in the ledger of their
+/// contact.
+fn passage(touches: &mut Touches, world: &World, hit: &Hit) -> Outcome {
+    if !hit.came_through() {
+        return Outcome::Grazed;
+    }
+    if let (None, Some((normal, _))) = (touches.nearest(world, &hit.sites), hit.normal()) {
+        let new = touches.make(hit.sites, normal);
+        touches.add(world, [new]);
+    }
+    match touches.nearest(world, &hit.sites) {
+        Some(touch) => {
+            touch.wrong = !touch.wrong;
+            if touch.wrong {
+                Outcome::Tunnelled
+            } else {
+                Outcome::Returned
+            }
+        }
+        None => Outcome::Grazed,
+    }
+}
+
+impl Watch for Guard<'_, '_> {
+    fn contacts(&self) -> &[Contact] {
+        &self.contacts
+    }
+
+    fn judge(
+        &mut self,
+        world: &World,
+        motion: &Motion,
+        impulses: &[Vector],
+    ) -> Result<Judgement, Reason> {
+        let Collisions {
+            pipeline,
+            narrow,
+            filter,
+            ..
+        } = &mut *self.collisions;
+        let found = pipeline.detect(world, motion, *narrow, *filter, &mut self.record)?;
+        if found.hits.is_empty() || self.collisions.mode == Mode::Thesis {
+            self.found = found;
+            return Ok(Judgement::Accept);
+        }
+        let prevented = found
+            .hits
+            .iter()
+            .map(|hit| hit.crossing(Outcome::Prevented));
+        self.record.crossings.extend(prevented);
+        if self.hold.is_none() && self.record.rounds < ROUNDS {
+            self.record.rounds += 1;
+            if self.add_contacts(world, &found.hits) {
+                return Ok(Judgement::Solve);
+            }
+        }
+        let start = || Hold::new(world, &self.contacts, impulses);
+        let hold = self.hold.get_or_insert_with(start);
+        if hold.is_still() {
+            let sites = found.hits[0].sites;
+            return Err(CollisionError::Touching { sites }.into());
+        }
+        hold.shorten(&found.hits);
+        Ok(Judgement::Hold(hold.shares()))
+    }
+}
+
+impl RemeshGuard for Guard<'_, '_> {
+    /// In guard mode: not if it would meet a segment, nor if it moves a stretch on which a contact pushes.
+    fn permits(&mut self, world: &World, change: &Remesh) -> bool {
+        let Collisions {
+            narrow,
+            filter,
+            mode,
+            touches,
+            ..
+        } = &*self.collisions;
+        let [from, _, to] = change.arcs;
+        let loaded = || touches.pushes_between(change.wire.0, from, to);
+        let refused = *mode == Mode::Guard
+            && (change.kind == RemeshKind::Merge && loaded()
+                // A triangle that cannot be tested is not swept.
+                || remesh::meets(world, change, *narrow, *filter).unwrap_or(true));
+        self.record.refused += usize::from(refused);
+        !refused
+    }
+}

@@ -1,0 +1,150 @@
+//! Wires that touch wires, themselves included.
+//!
+//! [`World::step_colliding`] does a step in which no wire passes through a wire. What it remembers from
+//! step to step is in [`Collisions`]: which broad and narrow phase, and the contacts there are.
+//!
+//! The midlines are tested continuously, from where a step starts to where it would end (`detect`): swept
+//! boxes, broad phase, exclusion of slow pairs, narrow phase. Pairs that do not meet on the way but end
+//! up closer than their radii get a contact for the next step (thesis 3.2.4). Contacts stay on their
+//! place of the material and slide with the closest points (`touch`). What a crossing leads to is the
+//! [`Mode`].
+//!
+//! ```
+//! use tunnelproof::query::Point;
+//! use tunnelproof::wire::{Collisions, Material, Settings, Stop, Vector, WirePlan, World};
+//!
+//! let mut world = World::new(Settings::default())?;
+//! let wire = |from: [f64; 3], to: [f64; 3], stop: fn(Point) -> Stop| {
+//!     WirePlan::new(Material::steel(0.02), 0.25, [from, to].map(|p| stop(p.into())).to_vec())
+//! };
+//! world.add_wire(&wire([0.0, -1.0, 0.0], [0.0, 1.0, 0.0], Stop::Pinned))?;
+//! let mut falling = wire([-1.0, 0.0, 0.1], [1.0, 0.0, 0.1], Stop::Free);
+//! falling.velocity = Vector::new(0.0, 0.0, -10.0);
+//! world.add_wire(&falling)?;
+//! let mut collisions = Collisions::default();
+//! let record = world.step_colliding(&mut collisions, &[])?;
+//! assert_eq!(record.collisions.crossings.len(), 1);
+//! assert!(record.wires[1].after.iter().all(|node| node.z > 0.03));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod detect;
+mod error;
+mod guard;
+mod hold;
+mod record;
+mod remesh;
+mod segment;
+mod touch;
+
+#[cfg(test)]
+mod tests;
+
+pub use error::CollisionError;
+pub use record::{CollisionRecord, Crossing, Held, Outcome};
+pub use segment::{SegmentId, Site};
+
+use crate::broad::Method;
+use crate::certified::Certified;
+use crate::narrow::NarrowPhase;
+use crate::wire::StepRecord;
+use crate::wire::model::check::not_negative;
+use crate::wire::model::{ModelError, World};
+use crate::wire::step::{Contact, StepError};
+use detect::Pipeline;
+use guard::Guard;
+use touch::Touches;
+
+/// What becomes of a crossing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mode {
+    /// It is prevented: the step is solved again with a contact there, and if that does not help, what
+    /// takes part moves only as far as it may. Changes of resolution that would cross are refused.
+    #[default]
+    Guard,
+    /// It happens, as in the thesis: the contact comes with the next step and pushes the wires back
+    /// through each other. Changes of resolution are not tested.
+    Thesis,
+}
+
+/// Which pairs of segments are tested at all, over and above those that are joined.
+pub type PairFilter<'n> = &'n dyn Fn(SegmentId, SegmentId) -> bool;
+
+/// The collisions between the wires of one world: how they are found, and the contacts there are.
+pub struct Collisions<'n> {
+    narrow: &'n dyn NarrowPhase,
+    filter: Option<PairFilter<'n>>,
+    mode: Mode,
+    friction: f64,
+    pipeline: Pipeline,
+    touches: Touches,
+}
+
+impl Default for Collisions<'_> {
+    /// The certified path after sweep-and-prune in guard mode, friction 0.5.
+    fn default() -> Self {
+        Collisions::new(Mode::default(), Method::default(), &Certified)
+    }
+}
+
+impl<'n> Collisions<'n> {
+    /// Collisions found by a broad and a narrow phase; friction 0.5, no filter. What guard mode promises
+    /// it promises as far as the narrow phase misses nothing.
+    pub fn new(mode: Mode, method: Method, narrow: &'n dyn NarrowPhase) -> Self {
+        Collisions {
+            narrow,
+            filter: None,
+            mode,
+            friction: 0.5,
+            pipeline: Pipeline::new(method),
+            touches: Touches::default(),
+        }
+    }
+
+    /// The same with another coefficient of friction between wires.
+    ///
+    /// # Errors
+    ///
+    /// A coefficient that is not a finite number of at least 0.
+    pub fn with_friction(mut self, friction: f64) -> Result<Self, ModelError> {
+        not_negative("friction", friction)?;
+        self.friction = friction;
+        Ok(self)
+    }
+
+    /// The same for those pairs only that `filter` keeps. The others pass through each other.
+    #[must_use]
+    pub fn with_filter(mut self, filter: PairFilter<'n>) -> Self {
+        self.filter = Some(filter);
+        self
+    }
+
+    /// What becomes of a crossing.
+    pub fn mode(&self) -> Mode {
+        self.mode
+    }
+}
+
+impl World {
+    /// Does one step in which wires collide with wires. `given` are all other contacts; keys from 2^63 on
+    /// are not theirs to use.
+    ///
+    /// In guard mode no wire passes through another or through itself, changes of resolution included.
+    /// Segments that share a node, or are fixed to the same point, are not tested against each other.
+    ///
+    /// # Errors
+    ///
+    /// As [`step`](Self::step), and [`CollisionError`] in
+    /// [`Reason::Collision`](crate::wire::Reason::Collision): in guard mode, if midlines touch before the
+    /// step. The world is as before.
+    pub fn step_colliding(
+        &mut self,
+        collisions: &mut Collisions<'_>,
+        given: &[Contact],
+    ) -> Result<StepRecord, StepError> {
+        let mut guard = Guard::new(collisions, self, given);
+        let mut record = self.advance(&mut guard)?;
+        record.collisions = guard.finish(self, &record.contacts);
+        Ok(record)
+    }
+}

@@ -1,0 +1,90 @@
+//! What is observed of the collisions in a step.
+
+use super::Site;
+use crate::contact::{Case, Flags};
+use crate::narrow::Report;
+use crate::wire::model::{BodyId, WireId};
+
+/// The collisions in one step. Counts are sums over all the times that the step was tested.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct CollisionRecord {
+    /// Pairs of segments that the broad phase named, joined ones apart.
+    pub named: usize,
+    /// Of these, excluded because they move too little to meet.
+    pub excluded: usize,
+    /// Of these, tested by the narrow phase.
+    pub tested: usize,
+    /// Tests by [`Case`], in the order of [`Case::ALL`], as far as the narrow phase knows it.
+    pub cases: [usize; Case::ALL.len()],
+    /// Contacts at which the segments are parallel for an instant.
+    pub temporarily_parallel: usize,
+    /// Contacts at which a segment is a point for an instant.
+    pub temporarily_point: usize,
+    /// How often the step was solved again.
+    pub rounds: usize,
+    /// Midlines that met on their way, as often as they did.
+    pub crossings: Vec<Crossing>,
+    /// What was not moved all the way.
+    pub held: Vec<Held>,
+    /// Changes of resolution that were refused.
+    pub refused: usize,
+}
+
+/// Midlines that meet on their way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Crossing {
+    /// Where.
+    pub sites: [Site; 2],
+    /// When, from 0 to 1 in the step.
+    pub toi: f64,
+    /// The case, if the narrow phase knows it.
+    pub case: Option<Case>,
+    /// The configuration at `toi`.
+    pub flags: Flags,
+    /// What became of it.
+    pub outcome: Outcome,
+}
+
+/// What became of midlines that met.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Outcome {
+    /// Guard mode: that motion was not made.
+    Prevented,
+    /// Thesis mode: the wires have passed through each other, +1 in the ledger.
+    Tunnelled,
+    /// Thesis mode: they are back on their sides, -1 in the ledger.
+    Returned,
+    /// Thesis mode: they touched and parted on the same sides.
+    Grazed,
+}
+
+/// Things tied to each other that made only a part of their motion, because a crossing was left.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Held {
+    /// The part, from 0 to 1. Velocities are that part of what was solved for.
+    pub share: f64,
+    /// The wires.
+    pub wires: Vec<WireId>,
+    /// The bodies that can move.
+    pub bodies: Vec<BodyId>,
+    /// Those of them whose velocity is prescribed: they would have forced a crossing, and are behind
+    /// their script from now on.
+    pub behind: Vec<BodyId>,
+}
+
+impl CollisionRecord {
+    /// Counts a test and its answer.
+    pub(super) fn count(&mut self, report: &Report) {
+        self.tested += 1;
+        let case = |&of: &Case| Some(of) == report.case;
+        if let Some(at) = Case::ALL.iter().position(case) {
+            self.cases[at] += 1;
+        }
+        self.temporarily_parallel += usize::from(report.flags.temporarily_parallel);
+        self.temporarily_point += usize::from(report.flags.temporarily_point);
+    }
+}

@@ -1,0 +1,55 @@
+//! Changes of resolution as motions.
+
+use super::PairFilter;
+use super::error::CollisionError;
+use super::segment::{SegmentId, joined};
+use crate::broad::Aabb;
+use crate::narrow::NarrowPhase;
+use crate::query::EdgeEdge;
+use crate::wire::model::{WireId, World};
+use crate::wire::resolution::Remesh;
+
+/// Whether the triangle that a change sweeps meets another segment.
+///
+/// The segment from `b` to `c` whose end `b` goes straight to `a` passes every point of the triangle `abc` and no
+/// other, so one query without rounding asks for all of it. Segments at the corners are left out, as
+/// neighbours are in a step.
+pub(super) fn meets(
+    world: &World,
+    change: &Remesh,
+    narrow: &dyn NarrowPhase,
+    filter: Option<PairFilter<'_>>,
+) -> Result<bool, CollisionError> {
+    let [a, b, c] = change.triangle;
+    let swept = Aabb::swept(&[b, c], &[a, c], 0.0)?;
+    let own = own(world, change);
+    for (w, wire) in world.wires.iter().enumerate() {
+        for segment in 0..wire.segments.len() {
+            let wire = WireId(w);
+            let other = SegmentId { wire, segment };
+            let kept = |&mine: &SegmentId| filter.is_none_or(|keep| keep(mine, other));
+            if own.iter().any(|&mine| joined(world, [mine, other])) || !own.iter().any(kept) {
+                continue;
+            }
+            let ends = other.ends(world);
+            if !Aabb::swept(&ends, &ends, 0.0)?.overlaps(&swept) {
+                continue;
+            }
+            let [p, q] = ends;
+            let query = EdgeEdge::new([b, c, p, q], [a, c, p, q], 0.0)?;
+            if narrow.edge_edge(&query)?.verdict.is_hit() {
+                return Ok(true);
+            }
+        }
+    }
+    Ok(false)
+}
+
+/// The segments that a change takes out or divides.
+fn own(world: &World, change: &Remesh) -> Vec<SegmentId> {
+    let nodes = &world.wires[change.wire.0].nodes;
+    let at = |arc: f64| nodes.partition_point(|node| node.arc < arc);
+    let wire = change.wire;
+    let own = at(change.arcs[0])..at(change.arcs[2]);
+    own.map(|segment| SegmentId { wire, segment }).collect()
+}

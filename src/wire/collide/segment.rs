@@ -1,0 +1,148 @@
+//! Segments of wires, places on them, and how close two are.
+
+use std::fmt;
+
+use crate::closest::closest;
+use crate::query::Point;
+use crate::wire::Vector;
+use crate::wire::model::{Node, NodeKind, Wire, WireId, World};
+use crate::wire::step::Place;
+
+/// A segment of a wire at present; changes of resolution renumber them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct SegmentId {
+    /// The wire.
+    pub wire: WireId,
+    /// The segment between its nodes `segment` and `segment + 1`.
+    pub segment: usize,
+}
+
+/// A place of a wire's material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Site {
+    /// The wire.
+    pub wire: WireId,
+    /// Arc length in m.
+    pub arc: f64,
+}
+
+impl fmt::Display for Site {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "wire {} at {} m", self.wire.0, self.arc)
+    }
+}
+
+impl From<Site> for Place {
+    fn from(Site { wire, arc }: Site) -> Self {
+        Place::Wire { wire, arc }
+    }
+}
+
+impl SegmentId {
+    pub(super) fn of(self, world: &World) -> &Wire {
+        &world.wires[self.wire.0]
+    }
+
+    pub(super) fn nodes(self, world: &World) -> [&Node; 2] {
+        [0, 1].map(|end| &self.of(world).nodes[self.segment + end])
+    }
+
+    /// Where its ends are.
+    pub(super) fn ends(self, world: &World) -> [Point; 2] {
+        self.nodes(world).map(|node| node.position)
+    }
+
+    /// The place at a share of it, from 0 to 1. Next to a node it is the node's, so that all segments there
+    /// name one place.
+    pub(super) fn site(self, world: &World, share: f64) -> Site {
+        const NEXT: f64 = 1e-9;
+        let [start, end] = self.nodes(world).map(|node| node.arc);
+        let arc = if share <= NEXT {
+            start
+        } else if share >= 1.0 - NEXT {
+            end
+        } else {
+            start + (end - start) * share
+        };
+        let wire = self.wire;
+        Site { wire, arc }
+    }
+
+    /// The segment at a place, if its wire is there; at a node the one after it, at the last node the last.
+    pub(super) fn at(world: &World, site: &Site) -> Option<Self> {
+        let wire = world.wires.get(site.wire.0)?;
+        let (segment, _) = wire.at(site.arc);
+        let wire = site.wire;
+        Some(SegmentId { wire, segment })
+    }
+}
+
+/// The segments at two places, if their wires are there.
+pub(super) fn pair_at(world: &World, [a, b]: &[Site; 2]) -> Option<[SegmentId; 2]> {
+    Some([SegmentId::at(world, a)?, SegmentId::at(world, b)?])
+}
+
+/// The sum of the radii of two wires, in m: closer than this their surfaces meet.
+pub(super) fn reach(world: &World, pair: [SegmentId; 2]) -> f64 {
+    let [a, b] = pair.map(|segment| segment.of(world).material.radius);
+    a + b
+}
+
+/// Whether two segments are no pair to test: one and the same, of one node, or fixed to one point.
+pub(super) fn joined(world: &World, [a, b]: [SegmentId; 2]) -> bool {
+    let neighbours = a.wire == b.wire && a.segment.abs_diff(b.segment) <= 1;
+    let one_point = |x: &Node| b.nodes(world).iter().any(|y| fixed_together(x, y));
+    neighbours || a.nodes(world).into_iter().any(one_point)
+}
+
+fn fixed_together(x: &Node, y: &Node) -> bool {
+    match (x.kind.carrier(), y.kind.carrier()) {
+        (Some(x), Some(y)) => x == y,
+        (None, None) => {
+            let pinned = |node: &Node| node.kind == NodeKind::Pinned;
+            pinned(x) && pinned(y) && x.position == y.position
+        }
+        _ => false,
+    }
+}
+
+/// The closest points of two segments.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Closest {
+    /// Where on each, from 0 to 1.
+    pub(super) shares: [f64; 2],
+    /// From B to A.
+    pub(super) apart: Vector,
+}
+
+impl Closest {
+    /// Of the segments `AB` and `CD`.
+    pub(super) fn new(points: &[Point; 4]) -> Self {
+        let x = points.map(|point| point.coords);
+        let (u, v) = closest(&x);
+        let apart = between(points, [u, v]);
+        let shares = [u, v];
+        Closest { shares, apart }
+    }
+
+    pub(super) fn of(world: &World, [a, b]: [SegmentId; 2]) -> Self {
+        let ([a, b], [c, d]) = (a.ends(world), b.ends(world));
+        Closest::new(&[a, b, c, d])
+    }
+
+    pub(super) fn distance(&self) -> f64 {
+        self.apart.norm()
+    }
+}
+
+/// From the place at `v` on `CD` to the place at `u` on `AB`.
+pub(super) fn between([a, b, c, d]: &[Point; 4], [u, v]: [f64; 2]) -> Vector {
+    (a - c) + (b - a) * u - (d - c) * v
+}
+
+/// A direction of length 1 to rounding, also where the square of the length is beyond `f64`; none of 0.
+pub(super) fn direction(vector: &Vector) -> Option<Vector> {
+    let largest = vector.amax();
+    (largest > 0.0 && largest.is_finite()).then(|| (vector / largest).normalize())
+}

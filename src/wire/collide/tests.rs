@@ -1,0 +1,311 @@
+//! Scenes with known outcomes.
+
+use super::segment::Closest;
+use super::*;
+use crate::query::Point;
+use crate::scenario::scenes::basic_collision;
+use crate::wire::{
+    BodyId, BodyPlan, Drive, Material, Phase, Reason, Remesh, RemeshKind, Settings, Shape, Stop,
+    Vector, WireId, WirePlan,
+};
+
+fn outcomes(record: &StepRecord) -> impl Iterator<Item = Outcome> {
+    record.collisions.crossings.iter().map(|c| c.outcome)
+}
+
+/// Lowest point of the falling wire where the others are, at the end of scene 1, and its largest speed.
+fn rest(world: &World) -> (f64, f64) {
+    let nodes = world.wires()[2].nodes();
+    let speed = nodes.iter().map(|node| node.velocity.norm());
+    let over = nodes.iter().filter(|node| node.position.x.abs() <= 0.75);
+    let height = over.map(|node| node.position.z).fold(f64::MAX, f64::min);
+    (height, speed.fold(0.0, f64::max))
+}
+
+fn weightless() -> World {
+    let gravity = Vector::zeros();
+    World::new(Settings {
+        gravity,
+        ..Settings::default()
+    })
+    .unwrap()
+}
+
+fn straight(from: [f64; 3], to: [f64; 3], stop: fn(Point) -> Stop) -> WirePlan {
+    let route = [from, to].map(|point| stop(point.into()));
+    WirePlan::new(Material::steel(0.02), 0.25, route.to_vec())
+}
+
+#[test]
+fn basic_collision_in_guard_mode_crosses_nothing_and_comes_to_rest_on_both() {
+    let mut world = basic_collision().unwrap();
+    let mut collisions = Collisions::default();
+    let mut force = Vector::zeros();
+    for step in 0..300 {
+        let record = world.step_colliding(&mut collisions, &[]).unwrap();
+        assert!(outcomes(&record).all(|outcome| outcome == Outcome::Prevented));
+        assert!(record.collisions.held.is_empty(), "{step}");
+        // B of each contact is the falling wire, which was added last.
+        force = record.contacts.iter().map(|contact| -contact.force).sum();
+    }
+    let (height, speed) = rest(&world);
+    assert!(height > 0.03, "{height}");
+    assert!(speed < 0.05, "{speed}");
+    let weight = 193.48;
+    assert!((force.z - weight).abs() < 0.01 * weight, "{force}");
+}
+
+#[test]
+fn basic_collision_in_thesis_mode_tunnels_twice_and_is_pushed_back_twice() {
+    let mut world = basic_collision().unwrap();
+    let mut collisions = Collisions::new(Mode::Thesis, Method::default(), &Certified);
+    let mut all = Vec::new();
+    for _ in 0..300 {
+        let record = world.step_colliding(&mut collisions, &[]).unwrap();
+        all.extend(outcomes(&record));
+    }
+    use Outcome::{Returned, Tunnelled};
+    assert_eq!(all, [Tunnelled, Tunnelled, Returned, Returned]);
+    let (height, speed) = rest(&world);
+    assert!(height > 0.03, "{height}");
+    assert!(speed < 0.05, "{speed}");
+}
+
+#[test]
+fn broad_phases_lead_to_the_same_bits() {
+    let run = |method| {
+        let mut world = basic_collision().unwrap();
+        let mut collisions = Collisions::new(Mode::Guard, method, &Certified);
+        let step = |_| world.step_colliding(&mut collisions, &[]).unwrap();
+        let records: Vec<StepRecord> = (0..60).map(step).collect();
+        let wires = records
+            .into_iter()
+            .map(|record| (record.wires, record.collisions));
+        wires.collect::<Vec<_>>()
+    };
+    let [sweep, grid, brute] = [
+        Method::SweepAndPrune,
+        Method::HierarchicalGrid,
+        Method::BruteForce,
+    ]
+    .map(run);
+    assert!(sweep == grid && grid == brute);
+}
+
+#[test]
+fn wire_does_not_pass_through_itself() {
+    // A chain in the form of an alpha; its free end is thrown at the other one, which is fixed.
+    let mut world = weightless();
+    let points = [
+        [0.0, 0.0, 0.0],
+        [2.0, 0.0, 0.0],
+        [2.0, 1.0, 0.2],
+        [0.9, 1.0, 0.2],
+        [0.9, -0.5, 0.2],
+    ];
+    let mut route = points.map(|point| Stop::Free(point.into()));
+    for fixed in [0, 1] {
+        route[fixed] = Stop::Pinned(points[fixed].into());
+    }
+    let mut plan = WirePlan::new(Material::steel(0.02).chain(), 3.0, route.to_vec());
+    plan.velocity = Vector::new(0.0, 0.0, -20.0);
+    world.add_wire(&plan).unwrap();
+    let mut collisions = Collisions::default();
+    let mut prevented = 0;
+    for _ in 0..3 {
+        let record = world.step_colliding(&mut collisions, &[]).unwrap();
+        prevented += outcomes(&record).count();
+        let [from, to] = [3, 4].map(|node| world.wires()[0].nodes()[node].position);
+        let over = from.lerp(&to, from.y / (from.y - to.y));
+        assert!(over.z > 0.039, "{over}");
+    }
+    assert!(prevented > 0);
+}
+
+/// A taut wire between two scripted balls that go down through a fixed taut wire.
+fn forced(world: &mut World) {
+    // One segment each: nothing gives way.
+    let fixed = [-1.0, 1.0].map(|y| Stop::Pinned(Point::new(0.0, y, 0.0)));
+    let wire = |route: [Stop; 2]| WirePlan::new(Material::steel(0.02), 3.0, route.to_vec());
+    world.add_wire(&wire(fixed)).unwrap();
+    let route = [-1.0, 1.0].map(|x| {
+        let down = Phase {
+            from: 0.0,
+            velocity: Vector::new(0.0, 0.0, -400.0),
+            angular_velocity: Vector::zeros(),
+        };
+        let body = world.add_body(BodyPlan {
+            drive: Drive::Kinematic(vec![down]),
+            ..BodyPlan::fixed(Shape::Sphere { radius: 0.1 }, Point::new(x, 0.0, 0.5))
+        });
+        let local = Vector::zeros();
+        Stop::Eye {
+            body: body.unwrap(),
+            local,
+        }
+    });
+    world.add_wire(&wire(route)).unwrap();
+}
+
+#[test]
+fn scripted_bodies_that_force_a_crossing_are_held_and_named() {
+    let mut world = weightless();
+    forced(&mut world);
+    let mut collisions = Collisions::default();
+    let mut held = Vec::new();
+    for _ in 0..5 {
+        let record = world.step_colliding(&mut collisions, &[]).unwrap();
+        held.extend(record.collisions.held);
+        assert!(
+            world.wires()[1]
+                .nodes()
+                .iter()
+                .all(|node| node.position.z > 0.0)
+        );
+    }
+    let first = held.first().expect("the script is not followed");
+    assert_eq!(first.behind, [BodyId(0), BodyId(1)]);
+    assert!(first.share > 0.0 && first.share < 0.1, "{}", first.share);
+}
+
+#[test]
+fn midlines_that_touch_at_first_are_an_error_that_names_them() {
+    let mut world = weightless();
+    world
+        .add_wire(&straight([0.0, -1.0, 0.0], [0.0, 1.0, 0.0], Stop::Pinned))
+        .unwrap();
+    world
+        .add_wire(&straight([-1.0, 0.1, 0.0], [1.0, 0.1, 0.0], Stop::Free))
+        .unwrap();
+    let before = world.clone();
+    let error = world
+        .step_colliding(&mut Collisions::default(), &[])
+        .unwrap_err();
+    assert!(matches!(
+        error.reason,
+        Reason::Collision(CollisionError::Touching { .. })
+    ));
+    assert_eq!(before.wires(), world.wires());
+    assert_eq!(
+        error.to_string(),
+        "step 0: wires cannot be kept apart: the midlines of wire 0 at 1.1 m and wire 1 at 1 m touch before the step"
+    );
+}
+
+#[test]
+fn wires_at_one_eye_are_not_tested_against_each_other_there() {
+    let mut world = weightless();
+    let body = world.add_body(BodyPlan::fixed(
+        Shape::Sphere { radius: 0.1 },
+        Point::origin(),
+    ));
+    let eye = Stop::Eye {
+        body: body.unwrap(),
+        local: Vector::zeros(),
+    };
+    for x in [-1.0, 1.0] {
+        let route = vec![eye, Stop::Free(Point::new(x, 0.0, 1.0))];
+        world
+            .add_wire(&WirePlan::new(Material::steel(0.02), 0.25, route))
+            .unwrap();
+    }
+    let record = world
+        .step_colliding(&mut Collisions::default(), &[])
+        .unwrap();
+    assert!(record.collisions.crossings.is_empty());
+}
+
+#[test]
+fn change_of_resolution_is_refused_exactly_where_its_triangle_meets_a_segment() {
+    let mut world = weightless();
+    world
+        .add_wire(&straight([0.0, 0.0, 0.0], [2.0, 0.0, 0.0], Stop::Free))
+        .unwrap();
+    for (x, z) in [(1.0, 0.0), (-0.1, 0.0), (1.0, 0.31)] {
+        let from = [x, 0.1, z - 0.3];
+        world
+            .add_wire(&straight(from, [x, 0.1, z + 0.3], Stop::Free))
+            .unwrap();
+    }
+    let change = Remesh {
+        wire: WireId(0),
+        kind: RemeshKind::Merge,
+        triangle: [[0.0, 0.0, 0.0], [1.0, 0.3, 0.0], [2.0, 0.0, 0.0]].map(Point::from),
+        arcs: [0.0, 1.0, 2.0],
+    };
+    let met = |only: usize| {
+        let filter = |_: SegmentId, b: SegmentId| b.wire.0 == only;
+        remesh::meets(&world, &change, &Certified, Some(&filter)).unwrap()
+    };
+    assert_eq!([1, 2, 3].map(met), [true, false, false]);
+}
+
+#[test]
+fn contact_slides_along_the_material_over_nodes_and_keeps_its_key() {
+    let mut world = weightless();
+    world
+        .add_wire(&straight([0.0, -1.0, 0.0], [0.0, 1.0, 0.0], Stop::Pinned))
+        .unwrap();
+    let mut plan = straight([-0.9, -0.6, 0.03], [1.1, -0.6, 0.03], Stop::Free);
+    plan.velocity = Vector::new(0.0, 3.0, 0.0);
+    world.add_wire(&plan).unwrap();
+    let mut collisions = Collisions::default().with_friction(0.0).unwrap();
+    let mut keys = Vec::new();
+    let mut arcs = Vec::new();
+    for _ in 0..20 {
+        let record = world.step_colliding(&mut collisions, &[]).unwrap();
+        keys.extend(record.contacts.iter().map(|c| c.contact.key));
+        arcs.extend(fixed_arcs(&record));
+    }
+    keys.dedup();
+    assert_eq!(keys.len(), 1);
+    // From 0.45 m to 1.35 m, over three nodes.
+    assert!(arcs.windows(2).all(|two| two[0] < two[1]), "{arcs:?}");
+    assert!(arcs[arcs.len() - 1] - arcs[0] > 0.75, "{arcs:?}");
+}
+
+fn fixed_arcs(record: &StepRecord) -> impl Iterator<Item = f64> {
+    record
+        .contacts
+        .iter()
+        .filter_map(|record| match record.contact.a {
+            crate::wire::Place::Wire {
+                wire: WireId(0),
+                arc,
+            } => Some(arc),
+            _ => None,
+        })
+}
+
+#[test]
+fn side_is_counted_and_not_read_from_positions() {
+    let mut world = weightless();
+    world
+        .add_wire(&straight([0.0, -1.0, 0.0], [0.0, 1.0, 0.0], Stop::Pinned))
+        .unwrap();
+    world
+        .add_wire(&straight([-1.0, 0.1, 0.01], [1.0, 0.1, 0.01], Stop::Free))
+        .unwrap();
+    let first = SegmentId {
+        wire: WireId(0),
+        segment: 4,
+    };
+    let second = SegmentId {
+        wire: WireId(1),
+        segment: 3,
+    };
+    let sites = [first.site(&world, 0.4), second.site(&world, 1.0)];
+    let mut touches = Touches::default();
+    for (wrong, z, gap) in [(false, -1.0, -0.03), (true, 1.0, -0.05)] {
+        let mut touch = touches.make(sites, Vector::z());
+        touch.wrong = wrong;
+        let mut one = Touches::default();
+        one.add(&world, [touch]);
+        one.refresh(&world);
+        let contact = one.contacts(0.5).next().unwrap();
+        assert!((contact.normal - Vector::z() * z).norm() < 1e-12);
+        assert!((contact.gap - gap).abs() < 1e-12);
+    }
+    let closest = Closest::of(&world, [first, second]);
+    assert!((closest.distance() - 0.01).abs() < 1e-15);
+}

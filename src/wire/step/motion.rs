@@ -1,0 +1,109 @@
+//! Where a step takes everything, before anything is moved.
+
+use nalgebra::UnitQuaternion;
+
+use super::carrier::{Carrier, Layout};
+use super::spin::turn;
+use crate::query::Point;
+use crate::wire::Vector;
+use crate::wire::model::World;
+
+/// Positions and velocities at the end of a step.
+pub(in crate::wire) struct Motion {
+    bodies: Vec<BodyMotion>,
+    /// Position and velocity of each node, by wire.
+    pub(in crate::wire) wires: Vec<Vec<(Point, Vector)>>,
+}
+
+struct BodyMotion {
+    position: Point,
+    orientation: UnitQuaternion<f64>,
+    velocity: Vector,
+    angular_velocity: Vector,
+}
+
+/// Which share of its motion each thing makes, from 0 to 1.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::wire) struct Shares {
+    pub(in crate::wire) wires: Vec<f64>,
+    pub(in crate::wire) bodies: Vec<f64>,
+}
+
+impl Shares {
+    /// Everything moves as solved.
+    pub(in crate::wire) fn all(world: &World) -> Self {
+        Shares {
+            wires: vec![1.0; world.wires.len()],
+            bodies: vec![1.0; world.bodies.len()],
+        }
+    }
+}
+
+impl World {
+    /// Where the velocities of a solution `x` lead, times their shares: `v = share v+`, `x+ = x + h v`. What
+    /// has a share of 0 stays where it is, to the bit.
+    pub(super) fn motion(&self, layout: &Layout, x: &[f64], shares: &Shares) -> Motion {
+        let step = self.settings.step;
+        let mut moved = Motion {
+            bodies: Vec::with_capacity(self.bodies.len()),
+            wires: Vec::with_capacity(self.wires.len()),
+        };
+        for ((body, first), &share) in self.bodies.iter().zip(&layout.bodies).zip(&shares.bodies) {
+            let (velocity, spin) = match *first {
+                Some(first) => {
+                    let unknowns = Carrier::Free(first).velocity(x);
+                    (unknowns, Carrier::Free(first + 3).velocity(x))
+                }
+                None => body.prescribed(self.time(), step),
+            };
+            let (velocity, angular_velocity) = (velocity * share, spin * share);
+            let turned = turn(&body.orientation, &angular_velocity, step);
+            moved.bodies.push(BodyMotion {
+                position: body.position + velocity * step,
+                // Turning by nothing normalises, which may change bits.
+                orientation: if share > 0.0 {
+                    turned
+                } else {
+                    body.orientation
+                },
+                velocity,
+                angular_velocity,
+            });
+        }
+        for ((wire, &first), &share) in self.wires.iter().zip(&layout.first_node).zip(&shares.wires)
+        {
+            let nodes = wire.nodes.iter().zip(&layout.nodes[first..]);
+            let nodes = nodes.map(|(node, carrier)| {
+                let velocity = carrier.velocity(x) * share;
+                let position = match node.kind.carrier() {
+                    Some((body, local)) => moved.bodies[body.0].point(&local),
+                    None => node.position + velocity * step,
+                };
+                (position, velocity)
+            });
+            moved.wires.push(nodes.collect());
+        }
+        moved
+    }
+}
+
+impl BodyMotion {
+    fn point(&self, local: &Vector) -> Point {
+        self.position + self.orientation * local
+    }
+}
+
+impl Motion {
+    /// Moves a world.
+    pub(super) fn apply(self, world: &mut World) {
+        for (body, to) in world.bodies.iter_mut().zip(self.bodies) {
+            (body.position, body.orientation) = (to.position, to.orientation);
+            (body.velocity, body.angular_velocity) = (to.velocity, to.angular_velocity);
+        }
+        for (wire, to) in world.wires.iter_mut().zip(self.wires) {
+            for (node, to) in wire.nodes.iter_mut().zip(to) {
+                (node.position, node.velocity) = to;
+            }
+        }
+    }
+}

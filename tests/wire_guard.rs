@@ -1,0 +1,299 @@
+//! Guard mode by the exact oracle: random wires at hard speeds, and no motion that is made, changes of
+//! resolution included, in which midlines meet.
+//!
+//! `TUNNELPROOF_SCENES=10000 cargo test --release --test wire_guard` for more scenes.
+
+#![cfg(feature = "wire")]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use tunnelproof::broad::Method;
+use tunnelproof::certified::Certified;
+use tunnelproof::contact::Verdict;
+use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
+use tunnelproof::query::{EdgeEdge, Point, Query};
+use tunnelproof::wire::{
+    BodyId, BodyPlan, CollisionError, Collisions, Drive, Material, Mode, Phase, Reason, Remesh,
+    RemeshKind, Settings, Shape, StepRecord, Stop, Vector, WirePlan, World,
+};
+use tunnelproof_reference::oracle::decide_query;
+
+const STEPS: usize = 12;
+
+fn vector(rng: &mut ChaCha8Rng, size: f64) -> Vector {
+    Vector::from_fn(|_, _| rng.random_range(-size..=size))
+}
+
+/// A ball that is thrown, or moved by a script.
+fn ball(rng: &mut ChaCha8Rng, position: Point) -> BodyPlan {
+    let speed = [0.0, 1.0, 30.0][rng.random_range(0..3)];
+    let (velocity, angular_velocity) = (vector(rng, speed), vector(rng, speed));
+    let drive = if rng.random_bool(0.5) {
+        Drive::Dynamic {
+            density: 10f64.powf(rng.random_range(2.0..4.0)),
+            velocity,
+            angular_velocity,
+        }
+    } else {
+        let from = 0.0;
+        Drive::Kinematic(vec![Phase {
+            from,
+            velocity,
+            angular_velocity,
+        }])
+    };
+    let shape = Shape::Sphere { radius: 0.2 };
+    BodyPlan {
+        drive,
+        ..BodyPlan::fixed(shape, position)
+    }
+}
+
+/// The end of a wire.
+fn end(rng: &mut ChaCha8Rng, world: &mut World, point: Point) -> Stop {
+    match rng.random_range(0..10) {
+        0..3 => Stop::Pinned(point),
+        3..6 => {
+            let body: BodyId = world.add_body(ball(rng, point)).unwrap();
+            let local = vector(rng, 0.2);
+            Stop::Eye { body, local }
+        }
+        _ => Stop::Free(point),
+    }
+}
+
+fn wire(rng: &mut ChaCha8Rng, world: &mut World) -> WirePlan {
+    let mut point = Point::from(vector(rng, 1.0));
+    let mut route = vec![end(rng, world, point)];
+    for _ in 0..rng.random_range(0..3) {
+        point += vector(rng, 1.0);
+        route.push(Stop::Free(point));
+    }
+    point += vector(rng, 1.0);
+    route.push(end(rng, world, point));
+    let mut material = Material::steel(rng.random_range(0.002..0.03));
+    if rng.random_bool(0.3) {
+        material = material.chain();
+    }
+    let mut plan = WirePlan::new(material, rng.random_range(0.1..0.5), route);
+    let speed = [0.0, 1.0, 10.0, 100.0][rng.random_range(0..4)];
+    plan.velocity = vector(rng, speed);
+    plan.resolution.adaptive = rng.random_bool(0.6);
+    plan
+}
+
+/// Two to twelve wires.
+fn scene(seed: u64) -> World {
+    let rng = &mut ChaCha8Rng::seed_from_u64(seed);
+    let mut world = World::new(Settings::default()).unwrap();
+    for _ in 0..rng.random_range(2..=12) {
+        let plan = wire(rng, &mut world);
+        world.add_wire(&plan).unwrap();
+    }
+    world
+}
+
+/// Arc length and position of a node.
+type Wire = Vec<(f64, Point)>;
+
+fn wires(world: &World) -> Vec<Wire> {
+    let nodes = world.wires().iter().map(|wire| wire.nodes());
+    let wires = nodes.map(|nodes| nodes.iter().map(|n| (n.arc, n.position)).collect());
+    wires.collect()
+}
+
+/// By the oracle, with a test of boxes before it.
+fn meet(start: [Point; 4], end: [Point; 4]) -> bool {
+    let apart = (0..3).any(|axis| {
+        let range = |k: usize| {
+            let of = [start[k], start[k + 1], end[k], end[k + 1]].map(|point| point[axis]);
+            let low = of.iter().fold(f64::INFINITY, |a, &b| a.min(b));
+            (low, of.iter().fold(f64::NEG_INFINITY, |a, &b| a.max(b)))
+        };
+        let ((low, high), (other_low, other_high)) = (range(0), range(2));
+        high < other_low || other_high < low
+    });
+    let query = Query::EdgeEdge(EdgeEdge::new(start, end, 0.0).unwrap());
+    !apart && decide_query(&query).unwrap().hit.is_some()
+}
+
+/// Pairs of segments that meet on their way through a step.
+fn meetings(record: &StepRecord) -> usize {
+    let segments: Vec<_> = (record.wires.iter().enumerate())
+        .flat_map(|(w, wire)| {
+            (1..wire.before.len()).map(move |i| {
+                let ends = |points: &[Point]| [points[i - 1], points[i]];
+                (w, i, ends(&wire.before), ends(&wire.after))
+            })
+        })
+        .collect();
+    let mut count = 0;
+    for (k, &(w, i, a, b)) in segments.iter().enumerate() {
+        for &(other, j, c, d) in &segments[..k] {
+            let neighbours = w == other && i - j <= 1;
+            let start = [a[0], a[1], c[0], c[1]];
+            let end = [b[0], b[1], d[0], d[1]];
+            count += usize::from(!neighbours && meet(start, end));
+        }
+    }
+    count
+}
+
+/// Makes a change of resolution; segments that its triangle meets. Unlike the stepper, it sweeps the triangle
+/// around its middle.
+fn remesh(wires: &mut [Wire], change: &Remesh) -> usize {
+    let [a, b, c] = change.triangle;
+    let mut count = 0;
+    for (w, wire) in wires.iter().enumerate() {
+        for two in wire.windows(2) {
+            let at_corner = two.iter().any(|(arc, _)| change.arcs.contains(arc));
+            let [p, q] = [two[0].1, two[1].1];
+            let own = w == change.wire.0 && at_corner;
+            count += usize::from(!own && meet([a, b, p, q], [c, b, p, q]));
+        }
+    }
+    let wire = &mut wires[change.wire.0];
+    let at = wire.partition_point(|(arc, _)| *arc < change.arcs[1]);
+    match change.kind {
+        RemeshKind::Merge => drop(wire.remove(at)),
+        RemeshKind::Split => wire.insert(at, (change.arcs[1], b)),
+    }
+    count
+}
+
+fn is_touching(reason: &Reason) -> bool {
+    matches!(reason, Reason::Collision(CollisionError::Touching { .. }))
+}
+
+/// What happened in some scenes.
+#[derive(Debug, Default)]
+struct Tally {
+    steps: usize,
+    prevented: usize,
+    held: usize,
+    remeshed: usize,
+    refused: usize,
+    /// Why steps were not done.
+    failed: Vec<String>,
+    /// Failed because midlines touched before a step, which guard mode must not let happen.
+    stuck: usize,
+    /// Motions made in which midlines meet.
+    met: usize,
+    /// The same of changes of resolution.
+    met_remeshing: usize,
+}
+
+impl Tally {
+    fn step(&mut self, mut before: Vec<Wire>, record: &StepRecord, world: &World) {
+        self.steps += 1;
+        self.prevented += record.collisions.crossings.len();
+        self.held += record.collisions.held.len();
+        self.refused += record.collisions.refused;
+        self.remeshed += record.remeshes.len();
+        self.met += meetings(record);
+        for (wire, moved) in before.iter_mut().zip(&record.wires) {
+            assert!(wire.iter().map(|(_, point)| point).eq(&moved.before));
+            for ((_, point), to) in wire.iter_mut().zip(&moved.after) {
+                *point = *to;
+            }
+        }
+        for change in &record.remeshes {
+            self.met_remeshing += remesh(&mut before, change);
+        }
+        // So nothing was moved that is not in the record.
+        assert_eq!(before, wires(world));
+    }
+
+    fn scene(&mut self, mut world: World, collisions: &mut Collisions<'_>) {
+        for _ in 0..STEPS {
+            let before = wires(&world);
+            match world.step_colliding(collisions, &[]) {
+                Ok(record) => self.step(before, &record, &world),
+                Err(error) => {
+                    assert_eq!(before, wires(&world));
+                    self.failed.push(error.to_string());
+                    self.stuck += usize::from(is_touching(&error.reason));
+                    return;
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn guard_commits_no_motion_in_which_midlines_meet() {
+    let scenes = std::env::var("TUNNELPROOF_SCENES");
+    let scenes = scenes.map_or(60, |count| count.parse().expect("a number of scenes"));
+    let mut tally = Tally::default();
+    for seed in 0..scenes {
+        let method = [Method::SweepAndPrune, Method::HierarchicalGrid][seed as usize % 2];
+        let mut collisions = Collisions::new(Mode::Guard, method, &Certified);
+        let before = (tally.met, tally.met_remeshing);
+        let failed = tally.failed.len();
+        tally.scene(scene(seed), &mut collisions);
+        for failure in &mut tally.failed[failed..] {
+            failure.insert_str(0, &format!("seed {seed}, "));
+        }
+        assert_eq!(
+            before,
+            (tally.met, tally.met_remeshing),
+            "scene of seed {seed}"
+        );
+    }
+    println!("{scenes} scenes: {tally:?}");
+    assert_eq!(tally.stuck, 0);
+    // All parts of guard mode took part.
+    assert!(tally.prevented > 0 && tally.held > 0 && tally.remeshed > 0 && tally.refused > 0);
+}
+
+/// The certified path, but every so many hits it says miss.
+struct Careless {
+    every: u64,
+    hits: AtomicU64,
+}
+
+impl NarrowPhase for Careless {
+    fn name(&self) -> &str {
+        "careless"
+    }
+
+    fn edge_edge(&self, query: &EdgeEdge) -> Result<Report, Unsupported> {
+        let mut report = Certified.edge_edge(query)?;
+        if report.verdict.is_hit() {
+            let hit = self.hits.fetch_add(1, Ordering::Relaxed);
+            if hit % self.every == self.every - 1 {
+                report.verdict = Verdict::Miss;
+            }
+        }
+        Ok(report)
+    }
+}
+
+#[test]
+fn soak_finds_a_narrow_phase_that_misses() {
+    let narrow = Careless {
+        every: 20,
+        hits: AtomicU64::new(0),
+    };
+    let mut tally = Tally::default();
+    for seed in 0..20 {
+        let mut collisions = Collisions::new(Mode::Guard, Method::default(), &narrow);
+        tally.scene(scene(seed), &mut collisions);
+    }
+    assert!(tally.met > 0, "{tally:?}");
+}
+
+#[test]
+fn soak_finds_a_broad_phase_that_drops_pairs() {
+    let asked = AtomicU64::new(0);
+    let drops = |_, _| asked.fetch_add(1, Ordering::Relaxed) % 20 != 19;
+    let mut tally = Tally::default();
+    for seed in 0..20 {
+        let mut collisions = Collisions::default().with_filter(&drops);
+        tally.scene(scene(seed), &mut collisions);
+    }
+    assert!(tally.met > 0, "{tally:?}");
+}
