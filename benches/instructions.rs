@@ -47,8 +47,8 @@ fn main() {
                 steps.parse().unwrap(),
             );
         }
-        ["wire", material, segments, steps] => {
-            return step_wire(material, segments.parse().unwrap(), steps.parse().unwrap());
+        ["wire", segments, steps] => {
+            return step_wire(segments.parse().unwrap(), steps.parse().unwrap());
         }
         _ => {}
     }
@@ -116,16 +116,13 @@ fn broad_phases() {
 
 fn wires() {
     println!("\ninstructions of the wire stepper per segment and step");
-    println!("{:<24}{:>10}", "wire", "segments");
-    for (name, _) in span::materials() {
-        for segments in span::SEGMENTS {
-            let steps = |steps: usize| {
-                let (segments, steps) = (segments.to_string(), steps.to_string());
-                instructions(&["wire", name, &segments, &steps])
-            };
-            let each = (steps(STEPS) - steps(0)) / (STEPS * segments) as u64;
-            println!("{name:<24}{segments:>10}{each:>17}");
-        }
+    for segments in span::SEGMENTS {
+        let steps = |steps: usize| {
+            let (segments, steps) = (segments.to_string(), steps.to_string());
+            instructions(&["wire", &segments, &steps])
+        };
+        let each = (steps(STEPS) - steps(0)) / (STEPS * segments) as u64;
+        println!("{segments:>8} segments{each:>17}");
     }
 }
 
@@ -201,10 +198,8 @@ fn last_step(scene: scenes::Scene, method: (&str, Method, bool), steps: usize) -
     (0..steps).map(|_| run.step()).last().unwrap_or(0)
 }
 
-fn step_wire(material: &str, segments: usize, steps: usize) {
-    let mut materials = span::materials().into_iter();
-    let (_, material) = materials.find(|(name, _)| *name == material).unwrap();
-    let mut world = span::world(material, segments);
+fn step_wire(segments: usize, steps: usize) {
+    let mut world = span::world(segments);
     for _ in 0..steps {
         consume(world.step(&[]).unwrap());
     }

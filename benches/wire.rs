@@ -1,7 +1,7 @@
 //! A step of the wire stepper against the number of segments: whole, and by phase.
 //!
-//! `cargo bench --bench wire`. A chain and a steel wire sag between two pins and swing. Before each, the
-//! mean time by phase and segment, so that growth shows.
+//! `cargo bench --bench wire`. A steel wire sags between two pins and swings. Before each number, the mean
+//! time by phase and segment, so that growth shows.
 
 use std::hint::black_box;
 
@@ -12,30 +12,28 @@ use tunnelproof::wire::{Phases, World};
 mod span;
 
 fn bench(c: &mut Criterion) {
-    for (name, material) in span::materials() {
-        let mut group = c.benchmark_group(format!("step/{name}"));
-        for segments in span::SEGMENTS {
-            let world = span::world(material, segments);
-            println!("\n{name}, {segments} segments: {}", phases(world.clone()));
-            group.throughput(Throughput::Elements(segments as u64));
-            let id = BenchmarkId::from_parameter(segments);
-            group.bench_function(id, |b| {
-                let start = || world.clone();
-                let step = |mut world: World| {
-                    black_box(world.step(&[]).expect("a step that can be done"));
-                    world
-                };
-                b.iter_batched(start, step, BatchSize::LargeInput);
-            });
-        }
-        group.finish();
+    let mut group = c.benchmark_group("step");
+    for segments in span::SEGMENTS {
+        let world = span::world(segments);
+        println!("\n{segments} segments: {}", phases(world.clone()));
+        group.throughput(Throughput::Elements(segments as u64));
+        let id = BenchmarkId::from_parameter(segments);
+        group.bench_function(id, |b| {
+            let start = || world.clone();
+            let step = |mut world: World| {
+                black_box(world.step(&[]).expect("a step that can be done"));
+                world
+            };
+            b.iter_batched(start, step, BatchSize::LargeInput);
+        });
     }
+    group.finish();
 }
 
 /// Mean time by phase and segment over some steps.
 fn phases(mut world: World) -> String {
     const STEPS: usize = 20;
-    let mut sum = [0.0; 6];
+    let mut sum = [0.0; 7];
     for _ in 0..STEPS {
         let record = world.step(&[]).expect("a step that can be done");
         let Phases {
@@ -43,10 +41,13 @@ fn phases(mut world: World) -> String {
             factor,
             solve,
             contacts,
+            collision,
             commit,
             resolution,
         } = record.phases;
-        let phases = [assembly, factor, solve, contacts, commit, resolution];
+        let phases = [
+            assembly, factor, solve, contacts, collision, commit, resolution,
+        ];
         for (sum, phase) in sum.iter_mut().zip(phases) {
             *sum += phase;
         }
@@ -57,6 +58,7 @@ fn phases(mut world: World) -> String {
         "factor",
         "solve",
         "contacts",
+        "collision",
         "commit",
         "resolution",
     ];
