@@ -23,8 +23,11 @@
 //! world.add_wire(&falling)?;
 //! let mut collisions = Collisions::default();
 //! let record = world.step_colliding(&mut collisions, &[])?;
-//! assert_eq!(record.collisions.crossings.len(), 1);
-//! assert!(record.wires[1].after.iter().all(|node| node.z > 0.03));
+//! // It would have come through at a node, which is an end of four pairs of segments.
+//! assert_eq!(record.collisions.crossings.len(), 4);
+//! // Their middles are apart by both radii.
+//! let [below, above] = [0, 1].map(|wire| record.wires[wire].after[4]);
+//! assert!((above.z - below.z - 0.04).abs() < 1e-6);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

@@ -23,7 +23,7 @@ pub struct CollisionRecord {
     pub temporarily_point: usize,
     /// How often the step was solved again.
     pub rounds: usize,
-    /// Midlines that met on their way, as often as they did.
+    /// Midlines that met on their way: in guard mode every pair of segments in every motion that was tried.
     pub crossings: Vec<Crossing>,
     /// What was not moved all the way.
     pub held: Vec<Held>,
