@@ -96,6 +96,9 @@ impl World {
         let mut shares = Shares::all(self);
         loop {
             let motion = self.motion(&system.layout, &candidate.x, &shares);
+            if !motion.is_finite() {
+                return Err(Reason::NotFinite);
+            }
             let mut clock = Clock::start();
             let judgement = watch.judge(self, &motion, &candidate.swept.impulses)?;
             phases.collision += clock.lap();

@@ -37,6 +37,8 @@ pub enum Reason {
         /// The largest accepted.
         limit: f64,
     },
+    /// The solution leads to a position, orientation or velocity that is NaN or infinite.
+    NotFinite,
     /// It was not found which segments of chains pull.
     Slack {
         /// How many guesses were tried.
@@ -64,6 +66,9 @@ impl fmt::Display for StepError {
             Reason::Residual { error, limit } => write!(
                 f,
                 "the system was not solved: its backward error is {error:e}, it must be at most {limit:e}"
+            ),
+            Reason::NotFinite => f.write_str(
+                "something would end at a position or velocity that is not a finite number",
             ),
             Reason::Slack { tries } => write!(
                 f,

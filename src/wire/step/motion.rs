@@ -94,6 +94,24 @@ impl BodyMotion {
 }
 
 impl Motion {
+    /// Whether every number is finite.
+    pub(super) fn is_finite(&self) -> bool {
+        let is_finite = |v: &Vector| v.iter().all(|x| x.is_finite());
+        let nodes = self.wires.iter().flatten();
+        nodes
+            .map(|(position, velocity)| (&position.coords, velocity))
+            .all(|(position, velocity)| is_finite(position) && is_finite(velocity))
+            && self.bodies.iter().all(|body| {
+                let turned = body.orientation.coords.iter().all(|x| x.is_finite());
+                let vectors = [
+                    &body.position.coords,
+                    &body.velocity,
+                    &body.angular_velocity,
+                ];
+                turned && vectors.into_iter().all(is_finite)
+            })
+    }
+
     /// Moves a world.
     pub(super) fn apply(self, world: &mut World) {
         for (body, to) in world.bodies.iter_mut().zip(self.bodies) {

@@ -182,6 +182,27 @@ fn failed_step_leaves_the_world_as_it_was() {
 }
 
 #[test]
+fn step_that_would_end_beyond_the_numbers_is_refused() {
+    let break_it: [fn(&mut World); 2] = [
+        |world| {
+            world.bodies[0].position.x = f64::MAX;
+            world.bodies[0].velocity.x = 1e300;
+        },
+        |world| world.bodies[0].angular_velocity.x = 1e200,
+    ];
+    for break_it in break_it {
+        let mut world = world();
+        let body = BodyPlan::dynamic(Shape::Sphere { radius: 0.2 }, 1000.0, at(0.0, 0.0, 0.0));
+        world.add_body(body).unwrap();
+        break_it(&mut world);
+        let state = (world.bodies.clone(), world.steps);
+        let error = world.step(&[]).unwrap_err();
+        assert_eq!(error.reason, Reason::NotFinite);
+        assert_eq!((world.bodies, world.steps), state);
+    }
+}
+
+#[test]
 fn contacts_are_refused_by_what_is_wrong_with_them() {
     let mut world = hung(100.0, 0.5);
     let good = Contact {
