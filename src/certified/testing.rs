@@ -5,12 +5,14 @@ mod geometry;
 mod number;
 mod polynomial;
 mod random;
+mod rooted;
 mod search;
 
-pub(super) use geometry::{Exact, dot, layout, points};
+pub(super) use geometry::{Exact, dot, layout, points, points_and_direction, range};
 pub(super) use number::Number;
 pub(super) use polynomial::Polynomial;
 pub(super) use random::Random;
+pub(super) use rooted::Rooted;
 pub(super) use search::{Claim, Search};
 
 #[cfg(test)]

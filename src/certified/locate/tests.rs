@@ -1,27 +1,21 @@
 use std::cell::Cell;
 use std::cmp::Ordering;
 
-use wide::f64x2;
-
 use super::super::refine::Root;
 use super::super::testing::{
-    Claim, Exact, Number, Random, Search, dot as exact_dot, layout, points,
+    Claim, Exact, Number, Random, Rooted, Search, dot as exact_dot, layout, points,
 };
 use super::*;
 
 /// Coordinates; how much longer than need be the bracket is, as a power of two, and on which side.
 type Input = [f64; 26];
 
-/// A root of `f` in a bracket, and where the lines meet there.
+/// Where the lines meet at a root of `f`.
 struct Case {
-    motion: Motion<f64x2>,
-    bracket: Bracket,
+    root: Rooted,
     meeting: Meeting,
     /// The same to twice the precision.
     refined: Option<Meeting>,
-    /// `K x L`, `M x L` and `M x K` at both ends of an interval around the root, `2^120` times shorter
-    /// than the shortest bracket.
-    normals: [[[Number; 3]; 3]; 2],
 }
 
 impl Case {
@@ -29,33 +23,21 @@ impl Case {
         let positions = layout(x);
         let motion = Motion::new(&positions.points());
         let cubic = Cubic::new(&motion)?;
-        let bracket = *cubic.isolate(|_, _| false)?.as_slice().first()?;
-        let [low, high] = [bracket.low, bracket.high].map(Number::from);
-        let bracket = stretched(&bracket, x)?;
         let exact = Exact::new(&positions);
-        let (low, high) = exact.f.enclose(&low, &high, 120);
-        let root = Root::new(&positions, &cubic, &bracket);
+        let root = Rooted::first(motion, &cubic, &exact, |bracket| stretched(bracket, x))?;
+        let refined = Root::new(&positions, &cubic, &root.bracket);
         Some(Case {
-            refined: root.map(|root| root.meeting(&positions, &motion, &cubic)),
-            motion,
-            bracket,
-            meeting: motion.meeting(&cubic, &bracket),
-            normals: [exact.normals(&low), exact.normals(&high)],
+            refined: refined.map(|refined| refined.meeting(&positions, &root.motion, &cubic)),
+            meeting: root.motion.meeting(&cubic, &root.bracket),
+            root,
         })
-    }
-
-    /// The computed normal.
-    fn normal(&self) -> Vector {
-        let t = 0.5 * (self.bracket.low + self.bracket.high);
-        let at = |x: &[f64x2; 3]| x.map(|x| (f64x2::new([1.0 - t, t]) * x).sum());
-        cross(&at(&self.motion.k), &at(&self.motion.l))
     }
 
     /// The exact `N . N`, `(M x L) . N` and `(M x K) . N`.
     fn products(&self) -> [[Number; 3]; 2] {
         let products =
             |normals: &[[Number; 3]; 3]| normals.each_ref().map(|x| exact_dot(x, &normals[0]));
-        self.normals.each_ref().map(products)
+        self.root.normals.each_ref().map(products)
     }
 
     /// Where the lines meet: outside (less), inside (greater), or on the border or nowhere.
@@ -96,12 +78,12 @@ impl Case {
             error_v,
             ..
         } = self.meeting;
-        let w = self.normal();
+        let w = self.root.normal();
         assert_eq!(dot(&w, &w), n);
         let w = w.map(Number::from);
         let found = [(n, error_n), (u, error_u), (v, error_v)];
         let product = |i: usize| {
-            let [x, y] = self.normals.each_ref().map(|normals| {
+            let [x, y] = self.root.normals.each_ref().map(|normals| {
                 let exact = exact_dot(&normals[i], &w);
                 Claim::within(found[i].0, &exact, Number::from(found[i].1))
             });

@@ -4,7 +4,7 @@ use wide::f64x2;
 
 use super::super::motion::Positions;
 use super::super::testing::{
-    Claim, Exact, Number, Random, Search, dot as exact_dot, layout, points,
+    Claim, Exact, Number, Random, Search, layout, points, points_and_direction, range,
 };
 use super::*;
 
@@ -15,15 +15,7 @@ fn stages(positions: &Positions) -> (SweptBoxes, Motion<f64x2>) {
 
 /// How much farther along `d` C and D are than A and B, at the start or at the end.
 fn exact_margin(exact: &Exact, d: &Vector, t: f64) -> Number {
-    let (d, t) = (d.map(Number::from), Number::from(t));
-    let along = |x: &[_; 3]| {
-        exact_dot(
-            &x.each_ref()
-                .map(|p: &super::super::testing::Polynomial| p.at(&t)),
-            &d,
-        )
-    };
-    let (k, l, m) = (along(&exact.k), along(&exact.l), along(&exact.m));
+    let [k, l, m] = exact.along(d, t);
     &(&m + &l.smaller(Number::zero())) - &k.larger(Number::zero())
 }
 
@@ -34,31 +26,6 @@ fn margin(motion: &Motion<f64x2>, d: &Vector, boxes: &SweptBoxes) -> (f64x2, f64
     let [x, y, z] = [0, 1, 2].map(|i| boxes.extent[i] * d[i].abs());
     let bound = (x + y + z) * (24.0 * U) + TINY;
     (m + l.smaller(zero) - k.larger(zero), bound)
-}
-
-fn start(random: &mut Random) -> [f64; 27] {
-    let mut x = [0.0; 27];
-    x[..24].copy_from_slice(&points(random, (-1074, 1020)));
-    // Large directions for small points and the other way round, so that products are of any size.
-    let power = match random.below(3) {
-        0 => random.whole(-1000, 1000),
-        _ => 0,
-    };
-    for d in &mut x[24..] {
-        *d = random.signed() * 2f64.powi(power);
-    }
-    if random.coin() {
-        // Apart along an axis, by anything from nothing to far.
-        let gap = x[0].abs() * 2f64.powi(-random.whole(0, 60));
-        let axis = random.below(3) as usize;
-        x[24..].fill(0.0);
-        x[24 + axis] = 2f64.powi(power);
-        for p in [0, 1, 4, 5] {
-            x[3 * p + axis] = -x[3 * p + axis].abs();
-            x[3 * p + 6 + axis] = x[3 * p + 6 + axis].abs() + gap;
-        }
-    }
-    x
 }
 
 #[test]
@@ -93,7 +60,7 @@ fn separate_margins_are_within_their_bound_and_no_claim_is_wrong() {
         starts: 200,
         steps: 2000,
     };
-    let worst = search.worst(start, claims);
+    let worst = search.worst(|random| points_and_direction(random, &[0, 1]), claims);
     println!(
         "separate: margins {worst:?}, {} claims, bounds up to {:e}",
         claimed.get(),
@@ -143,22 +110,9 @@ fn separate_boxes_are_exact() {
         let (boxes, _) = stages(&layout(&x));
         let mut are_disjoint = false;
         for i in 0..3 {
-            let of = |p: usize| {
-                [
-                    x[3 * p + i],
-                    x[3 * p + 3 + i],
-                    x[3 * p + 12 + i],
-                    x[3 * p + 15 + i],
-                ]
-            };
-            let range = |values: &[f64]| {
-                let mut values = values.to_vec();
-                values.sort_by(f64::total_cmp);
-                (values[0], values[values.len() - 1])
-            };
-            let (ab, cd) = (range(&of(0)), range(&of(2)));
+            let (ab, cd) = (range(&x, i, &[0, 1]), range(&x, i, &[2, 3]));
             are_disjoint |= ab.1 < cd.0 || cd.1 < ab.0;
-            let all = range(&[of(0), of(2)].concat());
+            let all = range(&x, i, &[0, 1, 2, 3]);
             assert_eq!(boxes.extent[i], all.1 - all.0);
         }
         assert_eq!(boxes.are_disjoint, are_disjoint, "{x:?}");

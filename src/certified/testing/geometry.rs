@@ -40,6 +40,13 @@ impl Exact {
         let (k, l, m) = (at(&self.k), at(&self.l), at(&self.m));
         [cross(&k, &l), cross(&m, &l), cross(&m, &k)]
     }
+
+    /// `K . d`, `L . d` and `M . d` at `t`.
+    pub(in super::super) fn along(&self, d: &[f64; 3], t: f64) -> [Number; 3] {
+        let (d, t) = (d.map(Number::from), Number::from(t));
+        let at = |x: &[Polynomial; 3]| dot(&x.each_ref().map(|p| p.at(&t)), &d);
+        [at(&self.k), at(&self.l), at(&self.m)]
+    }
 }
 
 pub(in super::super) fn dot<T>(x: &[T; 3], y: &[T; 3]) -> T
@@ -106,6 +113,45 @@ pub(in super::super) fn points(random: &mut Random, (low, high): (i32, i32)) -> 
     } else {
         points(random, (low, high))
     }
+}
+
+/// Coordinates for [`layout`], then a direction, along which the points of one side are apart from the
+/// others as often as not.
+pub(in super::super) fn points_and_direction(random: &mut Random, side: &[usize]) -> [f64; 27] {
+    let mut x = [0.0; 27];
+    x[..24].copy_from_slice(&points(random, (-1074, 1020)));
+    // Large directions for small points and the other way round, so that products are of any size.
+    let power = match random.below(3) {
+        0 => random.whole(-1000, 1000),
+        _ => 0,
+    };
+    for d in &mut x[24..] {
+        *d = random.signed() * 2f64.powi(power);
+    }
+    if random.coin() {
+        // Apart along an axis, by anything from nothing to far.
+        let gap = x[0].abs() * 2f64.powi(-random.whole(0, 60));
+        let axis = random.below(3) as usize;
+        x[24..].fill(0.0);
+        x[24 + axis] = 2f64.powi(power);
+        for p in 0..8 {
+            let coordinate = &mut x[3 * p + axis];
+            *coordinate = if side.contains(&(p % 4)) {
+                -coordinate.abs()
+            } else {
+                coordinate.abs() + gap
+            };
+        }
+    }
+    x
+}
+
+/// The least and the largest coordinate `i` of some of the points of [`layout`], in the whole step.
+pub(in super::super) fn range(x: &[f64], i: usize, points: &[usize]) -> (f64, f64) {
+    let both = |&p: &usize| [x[3 * p + i], x[3 * p + 12 + i]];
+    let mut values: Vec<f64> = points.iter().flat_map(both).collect();
+    values.sort_by(f64::total_cmp);
+    (values[0], values[values.len() - 1])
 }
 
 /// Parallel, coplanar or touching edges, up to a few roundings.

@@ -5,25 +5,20 @@ use wide::f64x2;
 
 use super::*;
 use crate::certified::face::{as_edges, separate::star};
-use crate::certified::motion::{Vector, cross};
 use crate::certified::refine::Root;
 use crate::certified::testing::{
-    Claim, Exact, Number, Random, Search, dot as exact_dot, layout, points,
+    Claim, Exact, Number, Random, Rooted, Search, dot as exact_dot, layout, points,
 };
 
 /// Coordinates; by how much longer the bracket is than need be, as a power of two, or 0.
 type Input = [f64; 25];
 
-/// A root of `f` in a bracket, and where the vertex is there.
+/// Where the vertex is at a root of `f`.
 struct Case {
-    motion: Motion<f64x2>,
-    bracket: Bracket,
+    root: Rooted,
     shares: Shares,
     /// The same to twice the precision, from the edges BC and AD.
     refined: Option<Shares>,
-    /// `K x L`, `M x L` and `M x K` at both ends of an interval around the root, `2^120` times shorter
-    /// than the shortest bracket.
-    normals: [[[Number; 3]; 3]; 2],
 }
 
 impl Case {
@@ -31,42 +26,24 @@ impl Case {
         let positions = layout(x);
         let motion = star(&positions.points());
         let cubic = Cubic::new(&motion)?;
-        let bracket = *cubic.isolate(|_, _| false)?.as_slice().first()?;
-        let [low, high] = [bracket.low, bracket.high].map(Number::from);
         let exact = Exact::of(&positions, [(2, 1), (3, 1), (0, 1)]);
-        let (low, high) = exact.f.enclose(&low, &high, 120);
-        let bracket = Bracket {
-            high: match x[24] {
-                0.0 => bracket.high,
-                power => bracket.high + 2f64.powf(power),
-            },
-            ..bracket
-        };
+        let root = Rooted::first(motion, &cubic, &exact, |bracket| longer(bracket, x[24]))?;
         let edges = as_edges(&positions);
         let edge_motion = Motion::new(&edges.points::<f64x2>());
         let refined = Cubic::new(&edge_motion).and_then(|edge_cubic| {
-            let root = Root::new(&edges, &edge_cubic, &bracket)?;
+            let root = Root::new(&edges, &edge_cubic, &root.bracket)?;
             Some(of_edges(&root.meeting(&edges, &edge_motion, &edge_cubic)))
         });
-        (x[24] <= 0.0 && bracket.high <= 1.0).then(|| Case {
-            shares: shares(&motion, &cubic, &bracket),
-            motion,
-            bracket,
+        Some(Case {
+            shares: shares(&root.motion, &cubic, &root.bracket),
+            root,
             refined,
-            normals: [exact.normals(&low), exact.normals(&high)],
         })
-    }
-
-    /// The computed normal.
-    fn normal(&self) -> Vector {
-        let t = 0.5 * (self.bracket.low + self.bracket.high);
-        let at = |x: &[f64x2; 3]| x.map(|x| (f64x2::new([1.0 - t, t]) * x).sum());
-        cross(&at(&self.motion.k), &at(&self.motion.l))
     }
 
     /// The exact shares at both ends of the interval for a vector, which may depend on these.
     fn exact(&self, w: impl Fn(&[Number; 3]) -> [Number; 3]) -> [[Number; 3]; 2] {
-        self.normals.each_ref().map(|normals| {
+        self.root.normals.each_ref().map(|normals| {
             let w = w(&normals[0]);
             let [n, u, v] = normals.each_ref().map(|x| exact_dot(x, &w));
             [&(&n - &u) + &v, u, -&v]
@@ -94,7 +71,7 @@ impl Case {
 
     /// The errors of the shares and of the weights.
     fn claims(&self) -> [Claim; 4] {
-        let w = self.normal().map(Number::from);
+        let w = self.root.normal().map(Number::from);
         let [low, high] = self.exact(|_| w.clone());
         let share = |i: usize| {
             let (found, bound) = (self.shares.values[i], self.shares.errors[i]);
@@ -124,6 +101,15 @@ impl Case {
         });
         claims.into_iter().fold(Claim::nothing(), Claim::worse)
     }
+}
+
+/// The bracket, or one that is longer by a power of two.
+fn longer(bracket: &Bracket, power: f64) -> Option<Bracket> {
+    let high = match power {
+        0.0 => bracket.high,
+        power => bracket.high + 2f64.powf(power),
+    };
+    (power <= 0.0 && high <= 1.0).then_some(Bracket { high, ..*bracket })
 }
 
 /// A vertex that meets the face at a time of few bits, in an edge or a corner as often as not, up to

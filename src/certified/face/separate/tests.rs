@@ -4,46 +4,18 @@ use wide::f64x2;
 
 use super::*;
 use crate::certified::testing::{
-    Claim, Exact, Number, Random, Search, dot as exact_dot, layout, points,
+    Claim, Exact, Number, Random, Search, layout, points, points_and_direction, range,
 };
 
 /// How much farther along `d` the corners are than the vertex, at the start or at the end.
 fn exact_margin(exact: &Exact, d: &Vector, t: f64) -> Number {
-    let (d, t) = (d.map(Number::from), Number::from(t));
-    let [k, l, m] = [&exact.k, &exact.l, &exact.m]
-        .map(|x| exact_dot(&x.each_ref().map(|component| component.at(&t)), &d));
+    let [k, l, m] = exact.along(d, t);
     &Number::zero().smaller(k).smaller(l) - &m
 }
 
 fn margin(star: &Motion<f64x2>, d: &Vector) -> f64x2 {
     let [k, l, m] = [&star.k, &star.l, &star.m].map(|x| dot(x, &both(d)));
     k.smaller(l).smaller(f64x2::both(0.0)) - m
-}
-
-fn start(random: &mut Random) -> [f64; 27] {
-    let mut x = [0.0; 27];
-    x[..24].copy_from_slice(&points(random, (-1074, 1020)));
-    let power = match random.below(3) {
-        0 => random.whole(-1000, 1000),
-        _ => 0,
-    };
-    for d in &mut x[24..] {
-        *d = random.signed() * 2f64.powi(power);
-    }
-    if random.coin() {
-        // Apart along an axis, by anything from nothing to far.
-        let gap = x[0].abs() * 2f64.powi(-random.whole(0, 60));
-        let axis = random.below(3) as usize;
-        x[24..].fill(0.0);
-        x[24 + axis] = 2f64.powi(power);
-        for time in [0, 12] {
-            x[time + axis] = -x[time + axis].abs();
-            for corner in [3, 6, 9] {
-                x[time + corner + axis] = x[time + corner + axis].abs() + gap;
-            }
-        }
-    }
-    x
 }
 
 #[test]
@@ -79,7 +51,7 @@ fn face_margins_are_within_their_bound_and_no_claim_is_wrong() {
         starts: 200,
         steps: 2000,
     };
-    let worst = search.worst(start, claims);
+    let worst = search.worst(|random| points_and_direction(random, &[0]), claims);
     println!("face: margins {worst:?}, {} claims", claimed.get());
     assert!(worst.iter().all(|&ratio| ratio > 0.08) && claimed.get() > 500);
 }
@@ -91,15 +63,7 @@ fn face_boxes_are_disjoint_exactly_where_an_axis_separates() {
     for _ in 0..200_000 {
         let x = points(&mut random, (-1074, 1020));
         let are_disjoint = (0..3).any(|i| {
-            let of = |p: usize| [x[3 * p + i], x[3 * p + 12 + i]];
-            let range = |values: &[f64]| {
-                let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-                (
-                    low,
-                    values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-                )
-            };
-            let (vertex, face) = (range(&of(0)), range(&[of(1), of(2), of(3)].concat()));
+            let (vertex, face) = (range(&x, i, &[0]), range(&x, i, &[1, 2, 3]));
             vertex.1 < face.0 || face.1 < vertex.0
         });
         let boxes = boxes(&layout(&x).points::<f64x2>());
