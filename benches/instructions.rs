@@ -143,7 +143,9 @@ fn instructions(arguments: &[&str]) -> u64 {
 }
 
 fn work(set: &str, method: &str) {
-    let queries = data::set(set).unwrap();
+    let mut sets = data::all().into_iter();
+    let (_, make) = sets.find(|(name, _)| *name == set).unwrap();
+    let queries = make();
     let each = |answer: &dyn Fn(&EdgeEdge)| queries.iter().for_each(answer);
     let batch = || {
         let mut batch = Batch::new();

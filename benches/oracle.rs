@@ -7,7 +7,7 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use tunnelproof::query::{EdgeEdge, Query};
+use tunnelproof::query::Query;
 use tunnelproof_reference::field::{self, Integer};
 use tunnelproof_reference::oracle;
 
@@ -15,25 +15,34 @@ mod data;
 
 fn bench(c: &mut Criterion) {
     let mut group = c.benchmark_group(format!("oracle/{}", <field::Default as Integer>::BACKEND));
-    for (name, queries) in data::sets() {
+    let edges = data::sets().map(|(name, queries)| {
+        let queries = queries.into_iter().map(Query::EdgeEdge);
+        (name.to_owned(), queries.collect())
+    });
+    let faces = data::vertex_face_sets().into_iter().map(|(name, queries)| {
+        let queries = queries.into_iter().map(Query::VertexFace);
+        (format!("vertex-face-{name}"), queries.collect())
+    });
+    for (name, queries) in edges.chain(faces) {
+        let queries: Vec<Query> = queries;
         group.throughput(Throughput::Elements(queries.len() as u64));
-        group.bench_with_input(BenchmarkId::new("toi", name), &queries, |b, queries| {
+        group.bench_with_input(BenchmarkId::new("toi", &name), &queries, |b, queries| {
             b.iter(|| queries.iter().for_each(decide_toi));
         });
-        group.bench_with_input(BenchmarkId::new("answer", name), &queries, |b, queries| {
+        group.bench_with_input(BenchmarkId::new("answer", &name), &queries, |b, queries| {
             b.iter(|| queries.iter().for_each(decide_all));
         });
     }
     group.finish();
 }
 
-fn decide_toi(query: &EdgeEdge) {
-    let decision = oracle::decide::<field::Default>(&Query::EdgeEdge(*query));
+fn decide_toi(query: &Query) {
+    let decision = oracle::decide::<field::Default>(query);
     black_box(decision.toi().map(|toi| toi.enclosure()));
 }
 
-fn decide_all(query: &EdgeEdge) {
-    black_box(oracle::decide::<field::Default>(&Query::EdgeEdge(*query)).written());
+fn decide_all(query: &Query) {
+    black_box(oracle::decide::<field::Default>(query).written());
 }
 
 criterion_group! {

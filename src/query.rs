@@ -140,6 +140,22 @@ impl Query {
         }
     }
 
+    /// The query, if it is of two edges.
+    pub fn as_edge_edge(&self) -> Option<&EdgeEdge> {
+        match self {
+            Query::EdgeEdge(query) => Some(query),
+            Query::VertexFace(_) => None,
+        }
+    }
+
+    /// The query, if it is of a vertex and a face.
+    pub fn as_vertex_face(&self) -> Option<&VertexFace> {
+        match self {
+            Query::VertexFace(query) => Some(query),
+            Query::EdgeEdge(_) => None,
+        }
+    }
+
     /// The four points at `t = 0`.
     pub fn start(&self) -> &[Point; 4] {
         match self {

@@ -4,16 +4,15 @@
 //! With the feature `gmp` the default backend is GMP, and the comparisons with `num-bigint` are
 //! between two implementations of arithmetic; without it they hold trivially.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-
 use num_bigint::BigInt;
 use tunnelproof::query::{EdgeEdge, Query, QueryKind};
 use tunnelproof_reference::answer::ExactAnswer;
-use tunnelproof_reference::corpus::{self, Entry, ReadOptions};
+use tunnelproof_reference::corpus::Entry;
 use tunnelproof_reference::field::{self, Integer};
 use tunnelproof_reference::generate::{self, FAMILIES};
 use tunnelproof_reference::{difference, oracle, shadow};
+
+mod public;
 
 const COUNT: u64 = 5_000;
 
@@ -25,41 +24,11 @@ fn by_shadow<Z: Integer>(query: &EdgeEdge) -> ExactAnswer {
     shadow::edge_edge::<Z>(query, tunnelproof::thesis::Repairs::ALL)
 }
 
-/// Every csv of this kind of queries below a folder.
-fn csv_files(folder: &Path, kind: QueryKind) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        let path = entry.path();
-        if path.is_dir() {
-            files.extend(csv_files(&path, kind));
-        } else if path.extension().is_some_and(|extension| extension == "csv")
-            && path.to_string_lossy().contains(kind.name())
-        {
-            files.push(path);
-        }
-    }
-    files.sort();
-    files
-}
-
 /// Calls `check` on every query of this kind of the public sets, which are skipped where they are not.
 fn for_every_public_query(kind: QueryKind, check: impl Fn(&Entry)) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
-    let files = csv_files(&folder, kind);
-    if files.is_empty() {
-        eprintln!("skipped: no public sets in {}", folder.display());
-        return;
+    for set in public::SETS {
+        public::set(set, kind).iter().for_each(&check);
     }
-    let mut count = 0;
-    for file in files {
-        let path = file.to_string_lossy();
-        for entry in corpus::open(&path, ReadOptions::default()).expect("a readable file") {
-            check(&entry.expect("a sound file"));
-            count += 1;
-        }
-    }
-    eprintln!("{count} labelled queries");
-    assert!(count >= 1000, "only {count} queries were read");
 }
 
 #[test]

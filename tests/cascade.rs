@@ -3,22 +3,15 @@
 use std::collections::BTreeMap;
 
 use tunnelproof::certified::{self, Batch, Stage, Verdict};
-use tunnelproof::query::{EdgeEdge, Query};
+use tunnelproof::query::EdgeEdge;
 use tunnelproof_reference::generate::{FAMILIES, Family};
-
-fn edge_edge(query: Query) -> Option<EdgeEdge> {
-    match query {
-        Query::EdgeEdge(query) => Some(query),
-        Query::VertexFace(_) => None,
-    }
-}
 
 #[test]
 fn certified_batch_is_certified_one_by_one() {
     for family in FAMILIES {
         for count in [0, 1, 7, 8, 9, 255, 256, 257, 5000] {
             let queries: Vec<EdgeEdge> = (0..count)
-                .filter_map(|index| edge_edge(family.query(3, index)))
+                .filter_map(|index| family.query(3, index).as_edge_edge().copied())
                 .collect();
             let mut batch = Batch::new();
             queries
@@ -49,8 +42,8 @@ fn certified_batch_names_one_stage_for_each_query() {
     for family in FAMILIES {
         let mut batch = Batch::new();
         for index in 0..1000 {
-            if let Some(query) = edge_edge(family.query(3, index)) {
-                batch.push(&query).expect("radius 0");
+            if let Some(query) = family.query(3, index).as_edge_edge() {
+                batch.push(query).expect("radius 0");
             }
         }
         let mut named = 0;
@@ -106,7 +99,8 @@ fn certified_exact_stage_is_reached_no_more_often_than_it_must() {
     let families: Vec<_> = FAMILIES.iter().map(Family::name).collect();
     assert_eq!(named, families);
     for (family, (_, at_most)) in FAMILIES.iter().zip(EXACT_AT_MOST) {
-        let shares = shares((0..20_000).filter_map(|index| edge_edge(family.query(1, index))));
+        let queries = (0..20_000).map(|index| family.query(1, index));
+        let shares = shares(queries.filter_map(|query| query.as_edge_edge().copied()));
         let exact = shares.get(&Stage::Exact).copied().unwrap_or(0.0);
         assert!(exact <= *at_most, "{}: {shares:?}", family.name());
     }

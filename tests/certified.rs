@@ -2,34 +2,21 @@
 //! every bit.
 //!
 //! `TUNNELPROOF_CASES` sets the number of queries of a kind.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a test fails by panicking"
-)]
-
-use std::fs;
-use std::path::{Path, PathBuf};
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use proptest::prelude::*;
 use tunnelproof::certified::{Hit, Parameters, Verdict, decide, decide_exactly};
-use tunnelproof::query::{EdgeEdge, Point, Query};
+use tunnelproof::query::{EdgeEdge, Point, Query, QueryKind};
 use tunnelproof_reference::answer::{self, Enclosure};
-use tunnelproof_reference::corpus::{self, ReadOptions};
 use tunnelproof_reference::generate::FAMILIES;
 use tunnelproof_reference::{field, oracle};
 
-use corners::{Corners, all_scales, lattice, nearly_degenerate, number, ordinary_scales, uniform};
+use corners::{
+    Corners, all_scales, cases, lattice, nearly_degenerate, number, ordinary_scales, uniform,
+};
 
 mod corners;
-
-/// Queries of a kind.
-fn cases() -> u32 {
-    let asked = std::env::var("TUNNELPROOF_CASES").ok();
-    asked.map_or(5_000, |text| {
-        text.parse().expect("TUNNELPROOF_CASES is a number")
-    })
-}
+mod public;
 
 fn query(corners: Corners) -> EdgeEdge {
     let p = corners.map(Point::from);
@@ -111,7 +98,7 @@ fn rounded_contact() -> impl Strategy<Value = EdgeEdge> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(cases()))]
+    #![proptest_config(ProptestConfig::with_cases(cases(5_000)))]
 
     #[test]
     fn certified_agrees_with_the_oracle_on_lattice(corners in lattice()) {
@@ -147,7 +134,7 @@ proptest! {
 #[test]
 fn certified_agrees_with_the_oracle_on_every_family() {
     for family in FAMILIES {
-        for index in 0..u64::from(cases()) {
+        for index in 0..u64::from(cases(5_000)) {
             if let Query::EdgeEdge(query) = family.query(7, index) {
                 assert_eq!(difference(&query), Ok(()), "{}:7:{index}", family.name());
             }
@@ -160,80 +147,22 @@ fn certified_agrees_with_the_oracle_on_every_family() {
 fn certified_agrees_with_the_oracle_where_the_middle_one_of_three_roots_is_a_half() {
     let lattice = FAMILIES.iter().find(|family| family.name() == "lattice");
     for index in [996, 3086] {
-        let Query::EdgeEdge(query) = lattice.unwrap().query(1, index) else {
-            panic!("lattice:1:{index} is edge-edge");
-        };
-        assert_eq!(difference(&query), Ok(()), "lattice:1:{index}");
+        let query = lattice.unwrap().query(1, index);
+        let query = query.as_edge_edge().unwrap();
+        assert_eq!(difference(query), Ok(()), "lattice:1:{index}");
     }
-}
-
-/// Every file of edge-edge queries below a folder.
-fn files(folder: &Path) -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        let path = entry.path();
-        let name = path.to_string_lossy();
-        if path.is_dir() {
-            found.extend(files(&path));
-        } else if name.contains("edge-edge") && name.ends_with(".csv") || name.ends_with(".ee.bin")
-        {
-            found.push(path);
-        }
-    }
-    found
-}
-
-/// The queries of a file and their labels.
-fn labelled(path: &Path) -> Vec<(EdgeEdge, bool)> {
-    if path.extension().is_some_and(|extension| extension == "bin") {
-        return labelled_binary(&fs::read(path).unwrap());
-    }
-    let entries = corpus::open(&path.to_string_lossy(), ReadOptions::default()).unwrap();
-    let entries = entries.map(|entry| entry.unwrap());
-    entries
-        .filter_map(|entry| match entry.query {
-            Query::EdgeEdge(query) => Some((query, entry.label?)),
-            Query::VertexFace(_) => None,
-        })
-        .collect()
-}
-
-/// A count, 24 coordinates for each query, a byte for each label.
-fn labelled_binary(bytes: &[u8]) -> Vec<(EdgeEdge, bool)> {
-    let (count, rest) = bytes.split_first_chunk().unwrap();
-    let (queries, labels) = rest.split_at(192 * usize::from_le_bytes(*count));
-    let number = |bytes: &[u8]| f64::from_le_bytes(bytes.try_into().unwrap());
-    let queries = queries.chunks_exact(192).map(|bytes| {
-        let values: Vec<f64> = bytes.chunks_exact(8).map(number).collect();
-        query(std::array::from_fn(|i| {
-            std::array::from_fn(|h| values[3 * i + h])
-        }))
-    });
-    queries
-        .zip(labels.iter().map(|&label| label == 1))
-        .collect()
 }
 
 #[test]
 fn certified_agrees_with_the_oracle_and_the_labels_of_the_public_sets() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
-    let files = files(&folder);
-    if files.is_empty() {
-        eprintln!("skipped: no public sets in {}", folder.display());
-        return;
-    }
-    let mut count = 0;
-    for path in files {
-        for (index, (query, label)) in labelled(&path).into_iter().enumerate() {
-            let id = || format!("{} {index}", path.display());
-            assert_eq!(difference(&query), Ok(()), "{}", id());
-            let is_hit = decide(&query).unwrap() != Verdict::Miss;
-            assert_eq!(is_hit, label, "{}", id());
-            count += 1;
+    for set in public::SETS {
+        for entry in public::set(set, QueryKind::EdgeEdge) {
+            let query = entry.query.as_edge_edge().unwrap();
+            assert_eq!(difference(query), Ok(()), "{}", entry.id);
+            let is_hit = decide(query).unwrap() != Verdict::Miss;
+            assert_eq!(Some(is_hit), entry.label, "{}", entry.id);
         }
     }
-    eprintln!("{count} labelled queries");
-    assert!(count >= 1000, "only {count} queries were read");
 }
 
 #[test]

@@ -9,17 +9,9 @@ use proptest::prelude::*;
 use tunnelproof::certified::decide_discrete;
 use tunnelproof::query::Point;
 
-use corners::{Corners, all_scales, lattice, nearly_degenerate, ordinary_scales, uniform};
+use corners::{Corners, all_scales, cases, lattice, nearly_degenerate, ordinary_scales, uniform};
 
 mod corners;
-
-/// Queries of a kind.
-fn cases() -> u32 {
-    let asked = std::env::var("TUNNELPROOF_CASES").ok();
-    asked.map_or(1_000, |text| {
-        text.parse().expect("TUNNELPROOF_CASES is a number")
-    })
-}
 
 type Vector = [BigRational; 3];
 
@@ -129,7 +121,7 @@ fn radius() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(cases()))]
+    #![proptest_config(ProptestConfig::with_cases(cases(1_000)))]
 
     #[test]
     fn discrete_is_exact_on_lattice(corners in lattice(), radius in radius()) {

@@ -62,13 +62,10 @@ fn seen(subject: &dyn Subject, query: EdgeEdge) -> Option<Seen> {
 }
 
 fn query() -> impl Strategy<Value = EdgeEdge> {
-    (0..FAMILIES.len(), any::<u64>(), 0..1_000_000u64).prop_filter_map(
-        "edge-edge",
-        |(family, seed, index)| match FAMILIES[family].query(seed, index) {
-            Query::EdgeEdge(query) => Some(query),
-            Query::VertexFace(_) => None,
-        },
-    )
+    (0..FAMILIES.len(), any::<u64>(), 0..1_000_000u64)
+        .prop_filter_map("edge-edge", |(family, seed, index)| {
+            FAMILIES[family].query(seed, index).as_edge_edge().copied()
+        })
 }
 
 fn of_points(query: &EdgeEdge, change: impl Fn(&[Point; 4]) -> [Point; 4]) -> EdgeEdge {

@@ -5,8 +5,6 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
 
 use proptest::prelude::*;
 use tunnelproof::certified::{
@@ -15,24 +13,18 @@ use tunnelproof::certified::{
 };
 use tunnelproof::contact::Verdict;
 use tunnelproof::narrow::NarrowPhase;
-use tunnelproof::query::{Point, Query, VertexFace};
+use tunnelproof::query::{Point, Query, QueryKind, VertexFace};
 use tunnelproof_reference::answer::Enclosure;
-use tunnelproof_reference::corpus::{self, ReadOptions};
 use tunnelproof_reference::generate::FAMILIES;
 
-use corners::{Corners, all_scales, lattice, nearly_degenerate, number, ordinary_scales, uniform};
+use corners::{
+    Corners, all_scales, cases, lattice, nearly_degenerate, number, ordinary_scales, uniform,
+};
 
 mod corners;
 #[path = "vertex_face/literal.rs"]
 mod literal;
-
-/// Queries of a kind.
-fn cases() -> u32 {
-    let asked = std::env::var("TUNNELPROOF_CASES").ok();
-    asked.map_or(2_000, |text| {
-        text.parse().expect("TUNNELPROOF_CASES is a number")
-    })
-}
+mod public;
 
 fn query(corners: Corners) -> VertexFace {
     let p = corners.map(Point::from);
@@ -106,7 +98,7 @@ fn rounded_contact() -> impl Strategy<Value = VertexFace> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(cases()))]
+    #![proptest_config(ProptestConfig::with_cases(cases(2_000)))]
 
     #[test]
     fn vertex_face_is_exact_on_lattice(corners in lattice()) {
@@ -148,7 +140,7 @@ fn of_family(query: &Query, order: [usize; 4]) -> VertexFace {
 #[test]
 fn vertex_face_is_exact_on_the_points_of_every_family() {
     for family in FAMILIES {
-        for index in 0..u64::from(cases() / 4) {
+        for index in 0..u64::from(cases(2_000) / 4) {
             let query = family.query(11, index);
             for order in [[0, 1, 2, 3], [2, 0, 1, 3]] {
                 let result = difference(&of_family(&query, order));
@@ -228,58 +220,24 @@ fn vertex_face_batch_is_certified_one_by_one() {
     assert!(hits > 1000, "{hits}");
 }
 
-/// Every csv file of vertex-face queries below a folder.
-fn files(folder: &Path) -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
-        let path = entry.path();
-        let name = path.to_string_lossy();
-        if path.is_dir() {
-            found.extend(files(&path));
-        } else if name.contains("vertex-face") && name.ends_with(".csv") {
-            found.push(path);
-        }
-    }
-    found.sort();
-    found
-}
-
-/// The queries of a file and their labels.
-fn labelled(path: &Path) -> Vec<(VertexFace, bool)> {
-    let entries = corpus::open(&path.to_string_lossy(), ReadOptions::default()).unwrap();
-    let entries = entries.map(|entry| entry.unwrap());
-    entries
-        .filter_map(|entry| match entry.query {
-            Query::VertexFace(query) => Some((query, entry.label?)),
-            Query::EdgeEdge(_) => None,
-        })
-        .collect()
-}
-
 #[test]
 fn vertex_face_is_exact_and_as_labelled_on_the_public_sets() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
-    let files = files(&folder);
-    if files.is_empty() {
-        eprintln!("skipped: no public sets in {}", folder.display());
-        return;
-    }
-    let mut count = 0;
+    let sets = public::SETS.map(|set| public::set(set, QueryKind::VertexFace));
+    let entries = sets.concat();
     let mut shares: BTreeMap<Stage, u32> = BTreeMap::new();
-    for path in files {
-        for (index, (query, label)) in labelled(&path).into_iter().enumerate() {
-            let id = || format!("{} {index}", path.display());
-            assert_eq!(difference(&query), Ok(()), "{}", id());
-            let mut observe = |stage| *shares.entry(stage).or_default() += 1;
-            let hit = decide_vertex_face_observed(&query, &mut observe).unwrap();
-            assert_eq!(hit.is_some(), label, "{}", id());
-            count += 1;
-        }
+    for entry in &entries {
+        let query = entry.query.as_vertex_face().unwrap();
+        assert_eq!(difference(query), Ok(()), "{}", entry.id);
+        let mut observe = |stage| *shares.entry(stage).or_default() += 1;
+        let hit = decide_vertex_face_observed(query, &mut observe).unwrap();
+        assert_eq!(Some(hit.is_some()), entry.label, "{}", entry.id);
     }
-    eprintln!("{count} labelled queries, {shares:?}");
-    assert!(count >= 1000, "only {count} queries were read");
+    eprintln!("{} labelled queries, {shares:?}", entries.len());
     let exact = shares.get(&Stage::Exact).copied().unwrap_or(0);
-    assert!(f64::from(exact) <= 0.048 * f64::from(count), "{shares:?}");
+    assert!(
+        f64::from(exact) <= 0.048 * entries.len() as f64,
+        "{shares:?}"
+    );
 }
 
 #[test]

@@ -5,6 +5,14 @@ use proptest::prelude::*;
 /// The four points at the start, then at the end.
 pub(crate) type Corners = [[f64; 3]; 8];
 
+/// Queries of a kind: as many as `TUNNELPROOF_CASES` says, or else `usual`.
+pub(crate) fn cases(usual: u32) -> u32 {
+    let asked = std::env::var("TUNNELPROOF_CASES").ok();
+    asked.map_or(usual, |text| {
+        text.parse().expect("TUNNELPROOF_CASES is a number")
+    })
+}
+
 /// Small integers, confined to a line or a plane as often as not, with points repeated.
 pub(crate) fn lattice() -> impl Strategy<Value = Corners> {
     let point = prop::array::uniform3(-2i8..=2);

@@ -1,5 +1,3 @@
-use std::path::PathBuf;
-
 use tunnelproof::query::Point;
 
 use super::*;
@@ -190,36 +188,4 @@ fn csv_radius_option_is_checked() {
         read_text("a.csv", csv_with(ROW), options),
         ["a.csv:1: radius is 0.5 + -1, not a finite number of at least 0"]
     );
-}
-
-/// Every csv file in `folder` and below.
-fn csv_files(folder: &Path) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            files.extend(csv_files(&path));
-        } else if path.extension().is_some_and(|extension| extension == "csv") {
-            files.push(path);
-        }
-    }
-    files
-}
-
-#[test]
-fn csv_read_public_sample_queries() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data/ccd-sample-queries");
-    if !root.is_dir() {
-        eprintln!("skipped: {} is not there", root.display());
-        return;
-    }
-    let files = csv_files(&root);
-    assert!(!files.is_empty());
-    for file in files {
-        let path = file.to_str().unwrap();
-        let rows = std::fs::read_to_string(path).unwrap().lines().count();
-        let entries: Result<Vec<_>, _> = open(path, ReadOptions::default()).unwrap().collect();
-        assert_eq!(entries.unwrap().len(), rows / 8, "{path}");
-        assert_eq!(rows % 8, 0, "{path}");
-    }
 }
