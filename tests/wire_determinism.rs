@@ -8,7 +8,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use tunnelproof::query::Point;
-use tunnelproof::scenario::scenes::basic_collision;
+use tunnelproof::scenario::scenes::Scene;
 use tunnelproof::wire::{
     BodyPlan, Collisions, Contact, Drive, Material, Place, Settings, Shape, Stop, Vector, WirePlan,
     World,
@@ -87,7 +87,8 @@ fn steps_give_the_same_bits_in_every_build() {
 
 #[test]
 fn steps_with_collisions_give_the_same_bits_in_every_build() {
-    let mut world = basic_collision().unwrap();
+    let scene = Scene::embedded("basic-collision").unwrap();
+    let mut world = scene.world().unwrap();
     let mut collisions = Collisions::default();
     let (mut prevented, mut contacts) = (0, 0);
     for _ in 0..300 {

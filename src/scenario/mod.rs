@@ -3,5 +3,5 @@
 #[cfg(feature = "wire")]
 pub mod analytic;
 pub mod figures;
-#[cfg(feature = "wire")]
+#[cfg(feature = "scenes")]
 pub mod scenes;

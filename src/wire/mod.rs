@@ -34,6 +34,9 @@ mod settings;
 mod solve;
 mod step;
 
+#[cfg(feature = "scenes")]
+pub(crate) use model::check;
+
 pub use capstan::Slide;
 pub use collide::{
     CollisionError, CollisionRecord, Collisions, Crossing, Held, Mode, Outcome, PairFilter,

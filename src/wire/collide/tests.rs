@@ -3,11 +3,16 @@
 use super::segment::Closest;
 use super::*;
 use crate::query::Point;
-use crate::scenario::scenes::basic_collision;
+use crate::scenario::scenes::Scene;
 use crate::wire::{
     BodyId, BodyPlan, Drive, Material, Phase, Reason, Remesh, RemeshKind, Settings, Shape, Stop,
     Vector, WireId, WirePlan,
 };
+
+fn basic_collision() -> World {
+    let scene = Scene::embedded("basic-collision").unwrap();
+    scene.world().unwrap()
+}
 
 fn outcomes(record: &StepRecord) -> impl Iterator<Item = Outcome> {
     record.collisions.crossings.iter().map(|c| c.outcome)
@@ -38,7 +43,7 @@ fn straight(from: [f64; 3], to: [f64; 3], stop: fn(Point) -> Stop) -> WirePlan {
 
 #[test]
 fn basic_collision_in_guard_mode_crosses_nothing_and_comes_to_rest_on_both() {
-    let mut world = basic_collision().unwrap();
+    let mut world = basic_collision();
     let mut collisions = Collisions::default();
     let mut force = Vector::zeros();
     for step in 0..300 {
@@ -57,7 +62,7 @@ fn basic_collision_in_guard_mode_crosses_nothing_and_comes_to_rest_on_both() {
 
 #[test]
 fn basic_collision_in_thesis_mode_tunnels_twice_and_is_pushed_back_twice() {
-    let mut world = basic_collision().unwrap();
+    let mut world = basic_collision();
     let mut collisions = Collisions::new(Mode::Thesis, Method::default(), &Certified);
     let mut all = Vec::new();
     for _ in 0..300 {
@@ -74,7 +79,7 @@ fn basic_collision_in_thesis_mode_tunnels_twice_and_is_pushed_back_twice() {
 #[test]
 fn broad_phases_lead_to_the_same_bits() {
     let run = |method| {
-        let mut world = basic_collision().unwrap();
+        let mut world = basic_collision();
         let mut collisions = Collisions::new(Mode::Guard, method, &Certified);
         let step = |_| world.step_colliding(&mut collisions, &[]).unwrap();
         let records: Vec<StepRecord> = (0..60).map(step).collect();

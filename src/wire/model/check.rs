@@ -6,36 +6,30 @@ use super::ModelError;
 use crate::query::Point;
 use crate::wire::Vector;
 
-pub(in crate::wire) fn positive(field: &'static str, value: f64) -> Result<(), ModelError> {
+pub(crate) fn positive(field: &'static str, value: f64) -> Result<(), ModelError> {
     let accepted = "finite and above 0";
     accept(value > 0.0 && value.is_finite(), field, value, accepted)
 }
 
-pub(in crate::wire) fn not_negative(field: &'static str, value: f64) -> Result<(), ModelError> {
+pub(crate) fn not_negative(field: &'static str, value: f64) -> Result<(), ModelError> {
     let accepted = "finite and at least 0";
     accept(value >= 0.0 && value.is_finite(), field, value, accepted)
 }
 
-pub(in crate::wire) fn finite(field: &'static str, value: f64) -> Result<(), ModelError> {
+pub(crate) fn finite(field: &'static str, value: f64) -> Result<(), ModelError> {
     accept(value.is_finite(), field, value, "finite")
 }
 
-pub(in crate::wire) fn finite_vector(
-    field: &'static str,
-    vector: &Vector,
-) -> Result<(), ModelError> {
+pub(crate) fn finite_vector(field: &'static str, vector: &Vector) -> Result<(), ModelError> {
     vector.iter().try_for_each(|&value| finite(field, value))
 }
 
-pub(in crate::wire) fn finite_point(field: &'static str, point: &Point) -> Result<(), ModelError> {
+pub(crate) fn finite_point(field: &'static str, point: &Point) -> Result<(), ModelError> {
     finite_vector(field, &point.coords)
 }
 
 /// A vector of any length above 0, made a unit vector.
-pub(in crate::wire) fn direction(
-    field: &'static str,
-    vector: &Vector,
-) -> Result<Vector, ModelError> {
+pub(crate) fn direction(field: &'static str, vector: &Vector) -> Result<Vector, ModelError> {
     finite_vector(field, vector)?;
     let length = vector.norm();
     positive(field, length)?;

@@ -1,7 +1,7 @@
 //! What is simulated: bodies, wires, and the world that holds them.
 
 mod body;
-pub(in crate::wire) mod check;
+pub(crate) mod check;
 mod error;
 mod material;
 mod mesh;

@@ -8,6 +8,9 @@ use crate::wire::Vector;
 
 use super::body::Body;
 
+/// The most segments that a wire starts with, so that a slip in its resolution does not take all memory.
+const MOST_SEGMENTS: f64 = 1e6;
+
 /// A point a wire's route passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stop {
@@ -114,6 +117,11 @@ impl WirePlan {
         positive("length of the route", path)?;
         let length = self.length.unwrap_or(path);
         positive("length", length)?;
+        if length > self.resolution.length * MOST_SEGMENTS {
+            let accepted = "at least a millionth of the wire's length";
+            let value = self.resolution.length;
+            return Err(ModelError::value("resolution", value, accepted));
+        }
         Ok(length / path)
     }
 
