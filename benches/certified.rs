@@ -26,7 +26,7 @@ fn bench(c: &mut Criterion) {
         );
         let mut batch = Batch::new();
         for query in &queries {
-            batch.push(query).expect("radius 0");
+            batch.push(query);
         }
         let mut group = c.benchmark_group(format!("narrow/{name}"));
         group.throughput(Throughput::Elements(queries.len() as u64));
@@ -63,7 +63,7 @@ fn bench_vertex_face(c: &mut Criterion) {
     for (name, queries) in data::vertex_face_sets() {
         let mut batch = FaceBatch::new();
         for query in &queries {
-            batch.push(query).expect("radius 0");
+            batch.push(query);
         }
         let mut group = c.benchmark_group(format!("narrow/vertex-face-{name}"));
         group.throughput(Throughput::Elements(queries.len() as u64));

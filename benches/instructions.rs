@@ -150,7 +150,7 @@ fn work(set: &str, method: &str) {
     let batch = || {
         let mut batch = Batch::new();
         for query in &queries {
-            batch.push(query).unwrap();
+            batch.push(query);
         }
         batch
     };
@@ -171,7 +171,7 @@ fn work_vertex_face(set: &str, method: &str) {
     let batch = || {
         let mut batch = FaceBatch::new();
         for query in queries {
-            batch.push(query).unwrap();
+            batch.push(query);
         }
         batch
     };

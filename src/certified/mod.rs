@@ -48,6 +48,7 @@ mod separate;
 mod start;
 #[cfg(test)]
 mod testing;
+mod thick;
 mod verdict;
 
 pub use batch::{Batch, BatchError, FaceBatch, PairBatch};
