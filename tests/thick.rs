@@ -11,12 +11,12 @@ use tunnelproof::certified::{
     decide_vertex_face_exactly,
 };
 use tunnelproof::query::{Point, Query, QueryKind};
-use tunnelproof::scenario::FIGURES;
+use tunnelproof::scenario::figures::FIGURES;
 use tunnelproof_reference::answer::{Enclosure, ExactAnswer, Parameters};
 use tunnelproof_reference::generate::{Family, OTHER_KINDS};
 use tunnelproof_reference::oracle;
 
-use corners::{all_scales, cases, lattice, nearly_degenerate, uniform};
+use corners::{all_scales, cases, lattice, nearly_degenerate, ordinary_scales, uniform};
 
 mod corners;
 mod public;
@@ -124,16 +124,16 @@ fn is_same(said: Option<&Said>, exact: &ExactAnswer) -> bool {
         && said.places.iter().zip(&places).all(is_near)
 }
 
-/// The most that integers may decide of each family, in percent: what they did when this was written,
-/// rounded up.
+/// The most that integers may decide of each family, in percent: some points more than they did when this was
+/// written. Half of the radii are distances at the ends of the step, which `f64` cannot tell from a miss.
 const EXACT_AT_MOST: &[(&str, f64)] = &[
-    ("thick_uniform", 100.0),
-    ("thick_lattice", 100.0),
-    ("thick_parallel", 100.0),
-    ("thick_grazing", 100.0),
-    ("thick_scales", 100.0),
-    ("thick_face_uniform", 100.0),
-    ("thick_face_lattice", 100.0),
+    ("thick_uniform", 32.0),
+    ("thick_lattice", 69.0),
+    ("thick_parallel", 94.0),
+    ("thick_grazing", 46.0),
+    ("thick_scales", 98.0),
+    ("thick_face_uniform", 34.0),
+    ("thick_face_lattice", 72.0),
 ];
 
 #[test]
@@ -142,14 +142,14 @@ fn thick_certified_agrees_with_the_oracle_on_every_family() {
     assert_eq!(named, families().map(Family::name).collect::<Vec<_>>());
     for (family, (name, at_most)) in families().zip(EXACT_AT_MOST) {
         let mut shares: BTreeMap<Stage, u32> = BTreeMap::new();
-        for index in 0..u64::from(cases(1000)) {
+        for index in 0..u64::from(cases(300)) {
             let stage = judge(&family.query(7, index));
             let stage = stage.unwrap_or_else(|error| unreachable!("{name}:7:{index}: {error}"));
             *shares.entry(stage).or_default() += 1;
         }
         eprintln!("{name}: {shares:?}");
         let exact = shares.get(&Stage::Exact).copied().unwrap_or(0);
-        let share = 100.0 * f64::from(exact) / f64::from(cases(1000));
+        let share = 100.0 * f64::from(exact) / f64::from(cases(300));
         assert!(share <= *at_most, "{name}: {share}%");
     }
 }
@@ -173,7 +173,13 @@ proptest! {
 
     #[test]
     fn thick_certified_agrees_with_the_oracle_on_any_corners(
-        corners in prop_oneof![lattice(), uniform(), nearly_degenerate(), all_scales()],
+        corners in prop_oneof![
+            lattice(),
+            uniform(),
+            nearly_degenerate(),
+            ordinary_scales(),
+            all_scales(),
+        ],
         radius in radius(),
         is_face in any::<bool>(),
     ) {
@@ -235,12 +241,16 @@ fn thick_batch_is_certified_one_by_one() {
     assert_eq!((edges_found, faces_found), (edge_hits, face_hits));
 }
 
-/// Every query of the handcrafted public sets, both kinds, with radii of a tenth and a thousandth of its size.
+/// The public sets, both kinds, the first thousands of each, with radii of a tenth and a thousandth of the size of
+/// a query.
 #[test]
 fn thick_certified_agrees_with_the_oracle_on_public_sets() {
     let mut shares: BTreeMap<Stage, u32> = BTreeMap::new();
-    for kind in [QueryKind::EdgeEdge, QueryKind::VertexFace] {
-        for (index, entry) in public::set("handcrafted", kind).iter().enumerate() {
+    for (set, kind) in public::SETS
+        .into_iter()
+        .flat_map(|set| [QueryKind::EdgeEdge, QueryKind::VertexFace].map(|kind| (set, kind)))
+    {
+        for (index, entry) in public::set(set, kind).iter().take(3000).enumerate() {
             let (start, end) = (*entry.query.start(), *entry.query.end());
             let points = start.iter().chain(&end);
             let size = points.fold(0.0f64, |size, point| size.max(point.coords.amax()));

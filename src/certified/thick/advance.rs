@@ -164,3 +164,6 @@ const SMALLEST: f64 = f64::from_bits((1023 - 900) << 52);
 
 /// 2^900.
 const LARGEST: f64 = f64::from_bits((1023 + 900) << 52);
+
+#[cfg(test)]
+mod tests;

@@ -238,3 +238,6 @@ fn between(first: Twice, last: Twice, time: f64x2) -> Twice {
 fn dot_twice(x: &[Twice; 3], y: &[Twice; 3]) -> Twice {
     x[0].mul(y[0]).add(x[1].mul(y[1])).add(x[2].mul(y[2]))
 }
+
+#[cfg(test)]
+mod tests;
