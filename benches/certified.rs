@@ -26,7 +26,7 @@ fn bench(c: &mut Criterion) {
         );
         let mut batch = Batch::new();
         for query in &queries {
-            batch.push(query).expect("radius 0");
+            batch.push(query);
         }
         let mut group = c.benchmark_group(format!("narrow/{name}"));
         group.throughput(Throughput::Elements(queries.len() as u64));
@@ -59,11 +59,40 @@ fn bench(c: &mut Criterion) {
     }
 }
 
+/// With a radius, beside additive CCD with the same minimum separation.
+fn bench_thick(c: &mut Criterion) {
+    for (name, queries) in data::sets() {
+        let queries = data::thick(&queries);
+        let count = queries.len();
+        println!(
+            "\nthick-{name}: {count} queries, decided by {}",
+            shares(&queries)
+        );
+        let mut group = c.benchmark_group(format!("narrow/thick-{name}"));
+        group.throughput(Throughput::Elements(count as u64));
+        group.bench_function("additive", |b| {
+            b.iter(|| {
+                for query in &queries {
+                    answer(&Additive::default(), query);
+                }
+            });
+        });
+        group.bench_function("certified", |b| {
+            b.iter(|| {
+                for query in &queries {
+                    consume(certified::decide(black_box(query)));
+                }
+            });
+        });
+        group.finish();
+    }
+}
+
 fn bench_vertex_face(c: &mut Criterion) {
     for (name, queries) in data::vertex_face_sets() {
         let mut batch = FaceBatch::new();
         for query in &queries {
-            batch.push(query).expect("radius 0");
+            batch.push(query);
         }
         let mut group = c.benchmark_group(format!("narrow/vertex-face-{name}"));
         group.throughput(Throughput::Elements(queries.len() as u64));
@@ -114,6 +143,6 @@ fn shares(queries: &[EdgeEdge]) -> String {
 criterion_group! {
     name = benches;
     config = Criterion::default().sample_size(20);
-    targets = bench, bench_vertex_face
+    targets = bench, bench_thick, bench_vertex_face
 }
 criterion_main!(benches);

@@ -31,13 +31,15 @@ mod span;
 const STEPS: usize = 4;
 
 const METHODS: [&str; 4] = ["thesis", "additive", "certified", "certified-batch"];
+const THICK_METHODS: [&str; 2] = ["additive", "certified"];
 const FACE_METHODS: [&str; 2] = ["certified", "certified-batch"];
 
 fn main() {
     let arguments: Vec<String> = env::args().skip(1).collect();
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match arguments[..] {
-        ["run", set, method] => return work(set, method),
+        ["run", set, method] => return work(&edges(set), method),
+        ["run-thick", set, method] => return work(&data::thick(&edges(set)), method),
         ["run-vertex-face", set, method] => return work_vertex_face(set, method),
         ["step", scene, count, method, steps] => {
             return step(
@@ -65,6 +67,9 @@ fn narrow_phases() {
     println!("instructions per query of two edges");
     let sets = data::sets().map(|(set, queries)| (set, queries.len()));
     table("run", METHODS, sets);
+    println!("\ninstructions per query of two edges with a radius");
+    let sets = data::sets().map(|(set, queries)| (set, queries.len()));
+    table("run-thick", THICK_METHODS, sets);
     println!("\ninstructions per query of a vertex and a face");
     let sets = data::vertex_face_sets();
     let sets = sets.iter().map(|(set, queries)| (*set, queries.len()));
@@ -142,15 +147,18 @@ fn instructions(arguments: &[&str]) -> u64 {
     count.trim().parse().unwrap()
 }
 
-fn work(set: &str, method: &str) {
+fn edges(set: &str) -> Vec<EdgeEdge> {
     let mut sets = data::all().into_iter();
     let (_, make) = sets.find(|(name, _)| *name == set).unwrap();
-    let queries = make();
+    make()
+}
+
+fn work(queries: &[EdgeEdge], method: &str) {
     let each = |answer: &dyn Fn(&EdgeEdge)| queries.iter().for_each(answer);
     let batch = || {
         let mut batch = Batch::new();
-        for query in &queries {
-            batch.push(query).unwrap();
+        for query in queries {
+            batch.push(query);
         }
         batch
     };
@@ -171,7 +179,7 @@ fn work_vertex_face(set: &str, method: &str) {
     let batch = || {
         let mut batch = FaceBatch::new();
         for query in queries {
-            batch.push(query).unwrap();
+            batch.push(query);
         }
         batch
     };

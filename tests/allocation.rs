@@ -1,6 +1,8 @@
 //! The certified path does not allocate for coordinates of ordinary magnitude, its exact stage
 //! included.
 
+use std::hint::black_box;
+
 use allocation_counter::measure;
 use tunnelproof::certified::{
     Verdict, decide, decide_exactly, decide_vertex_face, decide_vertex_face_exactly,
@@ -24,7 +26,7 @@ fn is_ordinary(query: &EdgeEdge) -> bool {
     let sizes = sizes.filter(|size| *size > 0.0);
     let least = sizes.clone().fold(f64::MAX, f64::min);
     let is_late = match decide(query) {
-        Ok(Verdict::Hit(hit)) => hit.toi == 0.0 || hit.toi > 1e-12,
+        Verdict::Hit(hit) => hit.toi == 0.0 || hit.toi > 1e-12,
         _ => true,
     };
     is_late && sizes.fold(0.0, f64::max) <= 1e12 * least
@@ -32,7 +34,7 @@ fn is_ordinary(query: &EdgeEdge) -> bool {
 
 /// Whether the vertex touches the face soon after the start.
 fn is_early(face: &VertexFace) -> bool {
-    let hit = decide_vertex_face(face).ok().flatten();
+    let hit = decide_vertex_face(face);
     hit.is_some_and(|hit| hit.toi > 0.0 && hit.toi <= 1e-12)
 }
 
@@ -52,9 +54,11 @@ fn certified_does_not_allocate_for_ordinary_coordinates() {
                 ordinary += 1;
                 let face = VertexFace::new(*query.start(), *query.end(), 0.0).expect("finite");
                 let allocations = measure(|| {
-                    assert!(decide(&query).is_ok() && decide_exactly(&query).is_ok());
-                    assert!(decide_vertex_face(&face).is_ok());
-                    assert!(is_early(&face) || decide_vertex_face_exactly(&face).is_ok());
+                    black_box((decide(&query), decide_exactly(&query)));
+                    black_box(decide_vertex_face(&face));
+                    if !is_early(&face) {
+                        black_box(decide_vertex_face_exactly(&face));
+                    }
                 });
                 let id = || format!("{}:4:{index} times {factor} plus {offset}", family.name());
                 assert_eq!(allocations.count_total, 0, "{}", id());

@@ -30,6 +30,20 @@ pub(crate) fn sets() -> impl Iterator<Item = (&'static str, Vec<EdgeEdge>)> {
     made.filter(|(_, queries)| !queries.is_empty())
 }
 
+/// A set with a radius: a twentieth of the mean length of its edges at the start, as of wires ten times as long as
+/// thick.
+#[allow(dead_code, reason = "not every bench asks for these")]
+pub(crate) fn thick(queries: &[EdgeEdge]) -> Vec<EdgeEdge> {
+    let length = |query: &EdgeEdge| {
+        let [a, b, c, d] = query.start();
+        (b - a).norm() + (d - c).norm()
+    };
+    let mean = queries.iter().map(length).sum::<f64>() / (2 * queries.len()) as f64;
+    let with_radius = |query: &EdgeEdge| EdgeEdge::new(*query.start(), *query.end(), mean / 20.0);
+    let queries = queries.iter().map(with_radius);
+    queries.map(|query| query.expect("finite")).collect()
+}
+
 /// Vertex-face queries: the points of a generated set, and the public ones that are there.
 pub(crate) fn vertex_face_sets() -> Vec<(&'static str, Vec<VertexFace>)> {
     let of_points = |query: &EdgeEdge| VertexFace::new(*query.start(), *query.end(), 0.0);

@@ -1,7 +1,7 @@
 //! Many queries at once, coordinates in separate arrays.
 //!
 //! The first stages of the cascade are taken for a block of queries at once (`block`); what they leave
-//! goes through the rest one by one.
+//! goes through the rest one by one. So do, from the start, the queries of a batch that has radii above 0.
 
 use std::marker::PhantomData;
 use std::ops::Range;
@@ -10,17 +10,18 @@ use super::block::{BLOCK, Block};
 use super::cascade::Stage;
 use super::motion::Positions;
 use super::pair::Pair;
-use crate::narrow::Unsupported;
-use crate::query::{EdgeEdge, Point, QueryError, VertexFace};
+use crate::query::{EdgeEdge, Point, QueryError, Radius, VertexFace};
 
 /// How many blocks are not screened after one for which that did not pay.
 const UNSCREENED: u32 = 15;
 
-/// Queries of one kind and of radius 0 as a structure of arrays.
+/// Queries of one kind as a structure of arrays.
 #[derive(Clone, Debug)]
 pub struct PairBatch<Q> {
     /// Coordinate `3 p + i` is axis `i` of point `p`: A, B, C, D at `t = 0`, then at `t = 1`.
     coordinates: [Vec<f64>; 24],
+    /// As long as the coordinates, or empty if all are 0.
+    radii: Vec<Radius>,
     kind: PhantomData<fn() -> Q>,
 }
 
@@ -34,6 +35,7 @@ impl<Q> Default for PairBatch<Q> {
     fn default() -> Self {
         PairBatch {
             coordinates: Default::default(),
+            radii: Vec::new(),
             kind: PhantomData,
         }
     }
@@ -62,35 +64,46 @@ impl<Q: Pair> PairBatch<Q> {
     /// Removes all queries and keeps the memory.
     pub fn clear(&mut self) {
         self.coordinates.iter_mut().for_each(Vec::clear);
+        self.radii.clear();
     }
 
     /// Adds a query.
-    ///
-    /// # Errors
-    ///
-    /// [`Unsupported`] for a radius above 0.
-    pub fn push(&mut self, query: &Q) -> Result<(), Unsupported> {
+    pub fn push(&mut self, query: &Q) {
         let ([start, end], radius) = query.parts();
-        if !radius.is_zero() {
-            return Err(Unsupported::Radius(radius));
+        if !(radius.is_zero() && self.radii.is_empty()) {
+            self.radii.resize(self.len(), Radius::ZERO);
+            self.radii.push(radius);
         }
         let points = start.iter().chain(end);
         let values = points.flat_map(|point| [point.x, point.y, point.z]);
         for (array, value) in self.coordinates.iter_mut().zip(values) {
             array.push(value);
         }
-        Ok(())
     }
 
     /// The queries of whole arrays, of which `3 p + i` holds axis `i` of point `p`: A, B, C, D at
-    /// `t = 0`, then at `t = 1`.
+    /// `t = 0`, then at `t = 1`. All have the same radius.
     ///
     /// # Errors
     ///
-    /// [`BatchError`] if the arrays differ in length or hold a number that is not finite.
-    pub fn from_arrays(coordinates: [Vec<f64>; 24]) -> Result<Self, BatchError> {
+    /// [`BatchError`] if the arrays differ in length or hold a number that is not finite, or if the radius is
+    /// not a finite number of at least 0.
+    pub fn from_arrays(
+        coordinates: [Vec<f64>; 24],
+        radius: impl Into<Radius>,
+    ) -> Result<Self, BatchError> {
+        let radius = radius.into();
+        let radii = if radius.is_zero() {
+            Vec::new()
+        } else {
+            vec![radius; coordinates[0].len()]
+        };
         let kind = PhantomData;
-        let batch = PairBatch { coordinates, kind };
+        let batch = PairBatch {
+            coordinates,
+            radii,
+            kind,
+        };
         let length = batch.len();
         if let Some(array) = batch
             .coordinates
@@ -149,11 +162,11 @@ impl<Q: Pair> PairBatch<Q> {
         let mut unscreened = 0;
         for start in range.clone().step_by(BLOCK) {
             let end = range.end.min(start + BLOCK);
-            if unscreened > 0 {
-                unscreened -= 1;
+            let is_thick = !self.radii.is_empty();
+            if is_thick || unscreened > 0 {
+                unscreened -= u32::from(!is_thick);
                 for index in start..end {
-                    let positions = || self.positions(index);
-                    if let Some(found) = Q::decide_all(positions, &mut observe) {
+                    if let Some(found) = self.decide_one(index, &mut observe) {
                         hit(index, found);
                     }
                 }
@@ -173,6 +186,19 @@ impl<Q: Pair> PairBatch<Q> {
         }
     }
 
+    fn decide_one(&self, index: usize, observe: &mut impl FnMut(Stage)) -> Option<Q::Hit> {
+        let radius = self.radius(index);
+        if radius.is_zero() {
+            Q::decide_all(|| self.positions(index), observe)
+        } else {
+            Q::decide_thick(&self.positions(index), radius, observe)
+        }
+    }
+
+    fn radius(&self, index: usize) -> Radius {
+        self.radii.get(index).copied().unwrap_or(Radius::ZERO)
+    }
+
     #[inline(always)]
     fn positions(&self, index: usize) -> Positions {
         let of = |i: usize| self.coordinates[i][index];
@@ -185,7 +211,11 @@ impl<Q: Pair> PairBatch<Q> {
 
     fn query(&self, index: usize) -> Result<Q, QueryError> {
         let Positions { start, end } = self.positions(index);
-        Q::of_points(start.map(Point::from), end.map(Point::from))
+        Q::of_points(
+            start.map(Point::from),
+            end.map(Point::from),
+            self.radius(index),
+        )
     }
 }
 
@@ -201,7 +231,7 @@ pub enum BatchError {
         /// How long the first is.
         expected: usize,
     },
-    /// A coordinate is not a finite number.
+    /// A coordinate is not a finite number, or the radius is not one of at least 0.
     Query {
         /// Which query, from 0.
         index: usize,

@@ -11,9 +11,9 @@ use super::refine::Root;
 use super::root::Bracket;
 use super::separate::SweptBoxes;
 use super::start;
+use super::thick;
 use super::verdict::{Hit, Parameters, Verdict};
 use crate::contact::{Case, ContactKind, Flags};
-use crate::narrow::Unsupported;
 use crate::query::EdgeEdge;
 
 /// The stage of the cascade that decided a query.
@@ -29,18 +29,21 @@ pub enum Stage {
     Roots,
     /// A separating direction, found by search.
     Search,
+    /// With a radius: planes that separate, each for a part of the step, up to its end or the contact.
+    Planes,
     /// Integers.
     Exact,
 }
 
 impl Stage {
     /// Every stage, in the order in which they are tried.
-    pub const ALL: [Stage; 6] = [
+    pub const ALL: [Stage; 7] = [
         Stage::Boxes,
         Stage::Direction,
         Stage::Signs,
         Stage::Roots,
         Stage::Search,
+        Stage::Planes,
         Stage::Exact,
     ];
 
@@ -52,6 +55,7 @@ impl Stage {
             Stage::Signs => "signs",
             Stage::Roots => "roots",
             Stage::Search => "search",
+            Stage::Planes => "planes",
             Stage::Exact => "exact",
         }
     }
@@ -61,27 +65,19 @@ impl Stage {
 ///
 /// No hit is false, no contact is missed, and `toi` is the exact time of impact rounded down.
 ///
-/// # Errors
-///
-/// [`Unsupported`] for a radius above 0.
-pub fn decide(query: &EdgeEdge) -> Result<Verdict, Unsupported> {
+/// With a radius above 0 contact is a distance of at most the radius, at [`Hit::toi`] that of the nearest points.
+pub fn decide(query: &EdgeEdge) -> Verdict {
     decide_observed(query, &mut |_| {})
 }
 
 /// As [`decide`], and says which stage decided.
-///
-/// # Errors
-///
-/// [`Unsupported`] for a radius above 0.
 #[inline]
-pub fn decide_observed(
-    query: &EdgeEdge,
-    observe: &mut impl FnMut(Stage),
-) -> Result<Verdict, Unsupported> {
+pub fn decide_observed(query: &EdgeEdge, observe: &mut impl FnMut(Stage)) -> Verdict {
     if !query.radius().is_zero() {
-        return Err(Unsupported::Radius(query.radius()));
+        let hit = thick::decide_edges(&Positions::new(query), query.radius(), observe);
+        return hit.map_or(Verdict::Miss, Verdict::Hit);
     }
-    Ok(decide_all(|| Positions::new(query), observe))
+    decide_all(|| Positions::new(query), observe)
 }
 
 /// All stages.

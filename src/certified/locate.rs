@@ -96,7 +96,7 @@ impl<E: Ends> Motion<E> {
 
 /// A vector at a time.
 #[inline(always)]
-fn at<E: Ends>([x, y, z]: &[E; 3], t: f64) -> Vector {
+pub(super) fn at<E: Ends>([x, y, z]: &[E; 3], t: f64) -> Vector {
     let weights = E::new(1.0 - t, t);
     [
         (weights * *x).sum(),

@@ -20,6 +20,9 @@
 //! [`Batch`] takes the first four stages for many queries at once, as far as they need no branch
 //! (`block`); both ends of the step are a pair of numbers (`ends`) throughout.
 //!
+//! With a radius above 0 other stages take their place (`thick`): planes that separate for a part of the step, up to
+//! the contact, where double-double arithmetic settles the time; and integers again.
+//!
 //! [`decide_discrete`] is the question at one instant, with a radius (`discrete`).
 //!
 //! No stage has a threshold: an error bound is a proof, and what it cannot prove it hands on.
@@ -48,6 +51,7 @@ mod separate;
 mod start;
 #[cfg(test)]
 mod testing;
+mod thick;
 mod verdict;
 
 pub use batch::{Batch, BatchError, FaceBatch, PairBatch};

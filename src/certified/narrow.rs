@@ -9,7 +9,7 @@ use crate::query::{EdgeEdge, VertexFace};
 
 /// The certified path: no miss, no false hit, a proved time of impact.
 ///
-/// Takes queries of radius 0. Of a miss it does not know the case.
+/// Takes every query. Of a miss it does not know the case.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Certified;
 
@@ -19,7 +19,7 @@ impl NarrowPhase for Certified {
     }
 
     fn edge_edge(&self, query: &EdgeEdge) -> Result<Report, Unsupported> {
-        Ok(match decide(query)? {
+        Ok(match decide(query) {
             Verdict::Miss => miss(),
             Verdict::Hit(hit) => Report {
                 verdict: contact::Verdict::Hit(hit.contact(query)),
@@ -29,7 +29,7 @@ impl NarrowPhase for Certified {
         })
     }
     fn vertex_face(&self, query: &VertexFace) -> Result<Report, Unsupported> {
-        Ok(match decide_vertex_face(query)? {
+        Ok(match decide_vertex_face(query) {
             None => miss(),
             Some(hit) => Report {
                 verdict: contact::Verdict::Hit(hit.contact(query)),

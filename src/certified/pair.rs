@@ -8,6 +8,7 @@ use super::face::{self, FaceHit};
 use super::motion::{Motion, Positions};
 use super::root::Half;
 use super::separate::SweptBoxes;
+use super::thick;
 use super::verdict::{Hit, Verdict};
 use crate::query::{EdgeEdge, Point, QueryError, Radius, VertexFace};
 
@@ -27,8 +28,7 @@ impl Batched for VertexFace {
 
 /// A kind of query, as the stages see it.
 pub(super) trait Pair: Batched + Sized {
-    /// The query of four points and radius 0.
-    fn of_points(start: [Point; 4], end: [Point; 4]) -> Result<Self, QueryError>;
+    fn of_points(start: [Point; 4], end: [Point; 4], radius: Radius) -> Result<Self, QueryError>;
 
     /// The points at both ends of the step and the radius.
     fn parts(&self) -> ([&[Point; 4]; 2], Radius);
@@ -55,12 +55,23 @@ pub(super) trait Pair: Batched + Sized {
         positions: impl Fn() -> Positions,
         observe: &mut impl FnMut(Stage),
     ) -> Option<Self::Hit>;
+
+    /// All stages for a radius above 0.
+    fn decide_thick(
+        positions: &Positions,
+        radius: Radius,
+        observe: &mut impl FnMut(Stage),
+    ) -> Option<Self::Hit>;
 }
 
 macro_rules! points_and_radius {
     () => {
-        fn of_points(start: [Point; 4], end: [Point; 4]) -> Result<Self, QueryError> {
-            Self::new(start, end, Radius::ZERO)
+        fn of_points(
+            start: [Point; 4],
+            end: [Point; 4],
+            radius: Radius,
+        ) -> Result<Self, QueryError> {
+            Self::new(start, end, radius)
         }
 
         fn parts(&self) -> ([&[Point; 4]; 2], Radius) {
@@ -105,6 +116,14 @@ impl Pair for EdgeEdge {
         observe: &mut impl FnMut(Stage),
     ) -> Option<Hit> {
         hit(cascade::decide_rest(positions, observe))
+    }
+
+    fn decide_thick(
+        positions: &Positions,
+        radius: Radius,
+        observe: &mut impl FnMut(Stage),
+    ) -> Option<Hit> {
+        thick::decide_edges(positions, radius, observe)
     }
 }
 
@@ -151,5 +170,13 @@ impl Pair for VertexFace {
         observe: &mut impl FnMut(Stage),
     ) -> Option<FaceHit> {
         face::decide_rest(positions, observe)
+    }
+
+    fn decide_thick(
+        positions: &Positions,
+        radius: Radius,
+        observe: &mut impl FnMut(Stage),
+    ) -> Option<FaceHit> {
+        thick::decide_face(positions, radius, observe)
     }
 }

@@ -6,7 +6,7 @@ use super::motion::{Motion, Vector, add, both, dot, sub};
 /// The boxes around two swept edges.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SweptBoxes {
-    /// Whether they have no point in common: comparisons are exact.
+    /// Whether they have no point in common, or none within the distance.
     pub(super) are_disjoint: bool,
     /// The size of the box around both: no difference of two of the points is larger, but for the
     /// rounding of one subtraction.
@@ -16,14 +16,19 @@ pub(super) struct SweptBoxes {
 impl SweptBoxes {
     #[inline(always)]
     pub(super) fn new<E: Ends>([a, b, c, d]: &[[E; 3]; 4]) -> Self {
-        Self::around([a, b], [c, d])
+        Self::around([a, b], [c, d], 0.0)
     }
 
-    /// The boxes around two sets of points.
+    /// The boxes around two sets of points, which count as disjoint if they are certainly farther apart than
+    /// a distance on an axis.
+    ///
+    /// A difference is rounded once, and of the sign of the exact one: a distance above 0 has to be larger than the
+    /// one that is meant by some `u`.
     #[inline(always)]
     pub(super) fn around<E: Ends, const M: usize, const N: usize>(
         first: [&[E; 3]; M],
         second: [&[E; 3]; N],
+        distance: f64,
     ) -> Self {
         let axis = |i: usize| {
             let ((low, high), (other_low, other_high)) = (span(&first, i), span(&second, i));
@@ -31,7 +36,7 @@ impl SweptBoxes {
             let [low, end_low] = low.transposed(other_low);
             let [high, end_high] = high.transposed(other_high);
             let (low, high) = (low.smaller(end_low), high.larger(end_high));
-            let [x, y] = low.swapped().is_above(high);
+            let [x, y] = (low.swapped() - high).is_above(E::both(distance));
             (x | y, high.largest() - low.least())
         };
         let ((x, x_extent), (y, y_extent), (z, z_extent)) = (axis(0), axis(1), axis(2));
@@ -64,6 +69,13 @@ impl SweptBoxes {
     pub(super) fn bound(&self, d: &Vector) -> f64 {
         let size = |i: usize| self.extent[i] * d[i].abs();
         (size(0) + size(1) + size(2)) * (24.0 * U) + TINY
+    }
+}
+
+impl SweptBoxes {
+    /// The length of the diagonal of the box around both, about.
+    pub(super) fn size(&self) -> f64 {
+        dot(&self.extent, &self.extent).sqrt()
     }
 }
 

@@ -29,14 +29,15 @@ pub struct Hit {
     /// `f` is not identically 0, a crossing if `f` changes its sign at the contact and the lines meet
     /// at an angle, strictly inside both edges; where all points stay in a plane, if an end of one edge
     /// passes through the line of the other edge, inside that edge or onto an overlap; where they
-    /// stay on a line, always.
+    /// stay on a line, always. With a radius: whether there is a crossing of the midlines, at radius 0, at
+    /// any time of the step.
     pub kind: ContactKind,
     /// The sign of `f` just before the contact, which is the side the edges come from: 1, -1, or 0
     /// where `f` is identically 0 or the contact is at `t = 0`. Exact.
     pub side: i8,
-    /// Where they touch; of an overlap, the end with the smaller `u`.
+    /// Where they touch; of an overlap, the end with the smaller `u`. With a radius, where they are nearest.
     pub first: Parameters,
-    /// The other end of the overlap, if they overlap in more than a point.
+    /// The other end of the overlap, if they overlap, or are nearest, in more than a point.
     pub second: Option<Parameters>,
     /// No parameter is farther from the exact one than this, which is at most
     /// [`Hit::PARAMETER_ERROR`].

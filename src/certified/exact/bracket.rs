@@ -10,13 +10,14 @@ use std::cmp::Ordering;
 use super::dyadic::Dyadic;
 use super::guess::between;
 use super::integer::{Integer, ratio, scale};
+use super::modular::are_coprime;
 use super::poly::Poly;
 use super::sturm;
 
 /// The only root of a polynomial strictly between two numbers, a simple one.
 #[derive(Clone, Debug)]
-pub(super) struct Bracket<'a> {
-    poly: &'a Poly,
+pub(super) struct Bracket<'a, const N: usize = 4> {
+    poly: &'a Poly<N>,
     /// The sign of the polynomial between `low` and the root.
     before: Ordering,
     low: Dyadic,
@@ -40,10 +41,10 @@ pub(super) enum Settled {
 /// The most bits that a chord is worth, computed in floating point.
 pub(super) const MOST_BITS: u32 = 48;
 
-impl<'a> Bracket<'a> {
+impl<'a, const N: usize> Bracket<'a, N> {
     /// The only root of `poly` strictly between `low` and `high`; `before` is the sign between `low`
     /// and the root.
-    pub(super) fn new(poly: &'a Poly, low: Dyadic, high: Dyadic, before: Ordering) -> Self {
+    pub(super) fn new(poly: &'a Poly<N>, low: Dyadic, high: Dyadic, before: Ordering) -> Self {
         Bracket {
             poly,
             before,
@@ -57,7 +58,7 @@ impl<'a> Bracket<'a> {
     }
 
     /// The same for ends that are known not to be roots.
-    pub(super) fn proved(poly: &'a Poly, low: Dyadic, high: Dyadic, before: Ordering) -> Self {
+    pub(super) fn proved(poly: &'a Poly<N>, low: Dyadic, high: Dyadic, before: Ordering) -> Self {
         Bracket {
             is_low_proved: true,
             is_high_proved: true,
@@ -168,7 +169,7 @@ impl<'a> Bracket<'a> {
     }
 
     /// The root compared with another one.
-    pub(super) fn compare(&self, other: &Bracket) -> Ordering {
+    pub(super) fn compare(&self, other: &Self) -> Ordering {
         if self.compare_dyadic(&other.low).is_le() {
             return Ordering::Less;
         }
@@ -184,27 +185,46 @@ impl<'a> Bracket<'a> {
     }
 
     /// The sign of a polynomial at the root.
-    pub(super) fn sign_of(&self, q: Poly) -> Ordering {
-        let (value, variation) = self.range(&q);
-        if value.exceeds(&variation) {
-            return value.sign();
+    pub(super) fn sign_of(&self, q: Poly<N>) -> Ordering {
+        self.plain_sign_of(&q).unwrap_or_else(|| {
+            if are_coprime(self.poly, &q) {
+                self.sign_by_narrowing(&q)
+            } else {
+                self.sturm_sign_of(q)
+            }
+        })
+    }
+
+    /// The sign of a polynomial at the root, if it has that in the whole bracket.
+    fn plain_sign_of(&self, q: &Poly<N>) -> Option<Ordering> {
+        let (value, variation) = self.range(q, q.degree().max(1));
+        value.exceeds(&variation).then(|| value.sign())
+    }
+
+    /// The sign of a polynomial that is not 0 at the root: it is shown in the end.
+    fn sign_by_narrowing(&self, q: &Poly<N>) -> Ordering {
+        let mut bracket = self.clone();
+        loop {
+            if let Some(at) = bracket.refine() {
+                return q.sign_at(&at);
+            }
+            if let Some(sign) = bracket.plain_sign_of(q) {
+                return sign;
+            }
         }
-        self.sturm_sign_of(q)
     }
 
     /// The same for a polynomial that is likely to be 0 there.
-    pub(super) fn sturm_sign_of(&self, q: Poly) -> Ordering {
+    pub(super) fn sturm_sign_of(&self, q: Poly<N>) -> Ordering {
         sturm::sign_at_root(self.poly, q, self.before, &self.low, &self.high)
     }
 
     /// The value of a polynomial at `low` and how much it changes at most up to `high`, both times
-    /// the same power of two: `2^(2 exponent)` for the exponent of both ends, if the degree is at
-    /// most 2.
+    /// the same power of two: `2^(degree exponent)` for the exponent of both ends. The degree is at
+    /// least 1 and that of the polynomial.
     ///
-    /// On `[0, 1]` the derivative of `c0 + c1 t + c2 t^2 + c3 t^3` is at most
-    /// `|c1| + 2 |c2| + 3 |c3|`.
-    fn range(&self, q: &Poly) -> (Integer, Integer) {
-        let degree = q.degree().max(2);
+    /// On `[0, 1]` the derivative of the sum of the `c_i t^i` is at most that of the `i |c_i|`.
+    fn range(&self, q: &Poly<N>, degree: usize) -> (Integer, Integer) {
         let exponent = self.low.exponent.max(self.high.exponent);
         let missing = exponent - self.low.exponent;
         let value = q
@@ -220,7 +240,7 @@ impl<'a> Bracket<'a> {
         (value, slope.shifted((degree as u64 - 1) * exponent))
     }
 
-    /// `n / d` at the root, which is in `[0, 1]`, for polynomials of degree at most 2.
+    /// `n / d` at the root, which is in `[0, 1]`.
     ///
     /// The error is at most [`PARAMETER_ERROR`](super::PARAMETER_ERROR), `2^-50`. The exact quotient
     /// is between two numbers, each known up to 3/2 2^-52; the middle of what is known of them is
@@ -229,20 +249,22 @@ impl<'a> Bracket<'a> {
     /// It ends: the denominator is not 0 at the root, so that narrowing brings the two numbers together
     /// as near as one likes. What is known of each then differs by a unit in the last place, 2^-52,
     /// in numerator, denominator and quotient: by not more than 3 2^-52.
-    pub(super) fn quotient(&self, n: &Poly, d: &Poly) -> f64 {
+    pub(super) fn quotient(&self, n: &Poly<N>, d: &Poly<N>) -> f64 {
         let mut bracket = self.clone();
         loop {
             if let Some(value) = bracket.try_quotient(n, d) {
                 return value;
             }
             if let Some(at) = bracket.refine() {
-                return exact_ratio(n.evaluate_as(2, &at), d.evaluate_as(2, &at));
+                return exact_ratio(n, d, &at);
             }
         }
     }
 
-    fn try_quotient(&self, n: &Poly, d: &Poly) -> Option<f64> {
-        let ((mut n, n_variation), (mut d, d_variation)) = (self.range(n), self.range(d));
+    fn try_quotient(&self, n: &Poly<N>, d: &Poly<N>) -> Option<f64> {
+        let degree = common_degree(n, d).max(1);
+        let (mut n, n_variation) = self.range(n, degree);
+        let (mut d, d_variation) = self.range(d, degree);
         if d.sign().is_lt() {
             n.negate();
             d.negate();
@@ -267,11 +289,17 @@ impl<'a> Bracket<'a> {
     }
 }
 
-/// `n / d` of two integers whose quotient is in `[0, 1]`.
-pub(super) fn exact_ratio(mut n: Integer, mut d: Integer) -> f64 {
+/// `n / d` at a time, which is in `[0, 1]`.
+pub(super) fn exact_ratio<const N: usize>(n: &Poly<N>, d: &Poly<N>, at: &Dyadic) -> f64 {
+    let degree = common_degree(n, d);
+    let (mut n, mut d) = (n.evaluate_as(degree, at), d.evaluate_as(degree, at));
     if d.sign().is_lt() {
         n.negate();
         d.negate();
     }
     ratio(&n, &d).min(1.0)
+}
+
+fn common_degree<const N: usize>(n: &Poly<N>, d: &Poly<N>) -> usize {
+    n.degree().max(d.degree())
 }

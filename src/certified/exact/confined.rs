@@ -65,13 +65,17 @@ pub(super) fn first_contact<'a, L: Lane, const N: usize>(
 /// What the first contact is, if it is not that of the start.
 pub(super) fn kind<L: Lane>(ends: &[End<L>], toi: &Time<L>, overlap: bool) -> ContactKind {
     // On a line every contact that was not there before is a crossing.
-    let crosses =
-        || ends.iter().all(End::is_on_line) || ends.iter().any(|end| end.passes(toi, overlap));
+    let crosses = || ends.iter().all(End::is_on_line) || passes_any(ends, toi, overlap);
     if toi.is_inside() && crosses() {
         ContactKind::Crossing
     } else {
         ContactKind::Graze
     }
+}
+
+/// Whether an end passes at a time through the line of its edge, inside that or onto an overlap.
+pub(super) fn passes_any<L: Lane>(ends: &[End<L>], time: &Time<L>, overlap: bool) -> bool {
+    ends.iter().any(|end| end.passes(time, overlap))
 }
 
 impl<L: Lane> End<L> {
@@ -80,8 +84,14 @@ impl<L: Lane> End<L> {
     /// never does.
     fn candidates(&self) -> Option<Curve<L>> {
         if self.stays_away() {
-            return None;
+            None
+        } else {
+            self.curve()
         }
+    }
+
+    /// As [`candidates`](Self::candidates), though plainly the end never does.
+    pub(super) fn curve(&self) -> Option<Curve<L>> {
         let moves = |q: &&Quadratic<L>| !q.iter().all(Number::is_zero);
         let mut all = self.turn.iter().chain([&self.between]);
         all.find(moves).map(|q| Curve::Quadratic(q.clone()))
@@ -96,7 +106,7 @@ impl<L: Lane> End<L> {
     }
 
     /// Whether the end is on the line of the other edge for the whole step, or that is a point.
-    fn is_on_line(&self) -> bool {
+    pub(super) fn is_on_line(&self) -> bool {
         self.turn.iter().flatten().all(Number::is_zero)
     }
 

@@ -48,20 +48,20 @@ impl Question for VertexMeetsFace {
 }
 
 /// A vertex and a face.
-struct Face<L: Lane> {
-    motion: Motion<L>,
+pub(super) struct Face<L: Lane> {
+    pub(super) motion: Motion<L>,
     normal: [Quadratic<L>; 3],
 }
 
 /// Where the vertex is in the face at one time.
-struct Place<L: Lane> {
+pub(super) struct Place<L: Lane> {
     /// Of B, C and D.
     weights: [Parameter<L>; 3],
     flags: Flags,
 }
 
 impl<L: Lane> Face<L> {
-    fn new(motion: Motion<L>) -> Self {
+    pub(super) fn new(motion: Motion<L>) -> Self {
         let normal = subtract_vector::<L>(&motion.n, &motion.m.cross(&motion.k));
         Face { motion, normal }
     }
@@ -71,7 +71,7 @@ impl<L: Lane> Face<L> {
         self.normal.iter().flatten().all(Number::is_zero)
     }
 
-    fn case(&self) -> Case {
+    pub(super) fn case(&self) -> Case {
         if self.is_degenerate() {
             Case::Degenerate
         } else if self.motion.is_confined() {
@@ -113,7 +113,7 @@ impl<L: Lane> Face<L> {
     }
 
     /// The vertex against the edges BC, CD and DB.
-    fn edges(&self) -> [End<L>; 3] {
+    pub(super) fn edges(&self) -> [End<L>; 3] {
         let Motion { k, l, m, n, .. } = &self.motion;
         let (ml_turn, ml) = (m.cross(l), m.dot(l));
         [
@@ -133,7 +133,7 @@ impl<L: Lane> Face<L> {
     }
 
     /// Where the vertex is in the face at a time at which `f` is 0; `None` if it is not.
-    fn place(&self, time: &Time<L>) -> Option<Place<L>> {
+    pub(super) fn place(&self, time: &Time<L>) -> Option<Place<L>> {
         match nonzero_axis(&self.normal, time) {
             Some((axis, sign)) => self.place_on_plane(time, axis, sign),
             None => self.place_on_edge(time),
@@ -250,7 +250,7 @@ impl<L: Lane> Face<L> {
 
 impl<L: Lane> Place<L> {
     /// Whether the vertex is strictly inside a face that has an area.
-    fn is_interior(&self) -> bool {
+    pub(super) fn is_interior(&self) -> bool {
         self.weights.iter().all(Parameter::is_interior)
     }
 }

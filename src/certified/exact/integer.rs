@@ -174,6 +174,68 @@ impl Integer {
         product
     }
 
+    /// Divides it by a divisor, which is above 0 (Jebelean, "An algorithm for exact division", 1993).
+    ///
+    /// Modulo `2^64` a limb of the quotient is the lowest limb of what is left times the inverse of the
+    /// lowest one of the divisor, which is made odd.
+    pub(super) fn divide_exactly(&mut self, divisor: &Integer) {
+        let zeros = divisor.trailing_zeros();
+        let (mut rest, divisor) = (self.shifted_down(zeros), divisor.shifted_down(zeros));
+        let Some(&low) = divisor.limbs.first() else {
+            return;
+        };
+        // Right in 3 bits at first, and in twice as many after each step.
+        let inverse = (0..5).fold(low, |inverse: u64, _| {
+            let error = low.wrapping_mul(inverse).wrapping_sub(2).wrapping_neg();
+            inverse.wrapping_mul(error)
+        });
+        for at in 0..rest.limbs.len() {
+            let limb = rest.limbs[at].wrapping_mul(inverse);
+            let (mut carry, mut borrow) = (0, false);
+            let length = divisor.limbs.len().min(rest.limbs.len() - at);
+            let (first, others) = rest.limbs[at..].split_at_mut(length);
+            for (own, &other) in first.iter_mut().zip(&divisor.limbs) {
+                let product;
+                (product, carry) = multiply_add(limb, other, 0, carry);
+                (*own, borrow) = subtract_limbs(*own, product, borrow);
+            }
+            for own in others {
+                (*own, borrow) = subtract_limbs(*own, carry, borrow);
+                carry = 0;
+                if !borrow {
+                    break;
+                }
+            }
+            rest.limbs[at] = limb;
+        }
+        rest.trim();
+        *self = rest;
+    }
+
+    /// The remainder of a division of the magnitude.
+    pub(super) fn residue(&self, modulus: u64) -> u64 {
+        let limbs = self.limbs.iter().rev();
+        limbs.fold(0, |rest, &limb| {
+            let value = u128::from(rest) << 64 | u128::from(limb);
+            (value % u128::from(modulus)) as u64
+        })
+    }
+
+    /// How many of its lowest bits are 0; 0 for 0.
+    fn trailing_zeros(&self) -> u64 {
+        let low = self.limbs.iter().position(|&limb| limb != 0);
+        low.map_or(0, |at| {
+            64 * at as u64 + u64::from(self.limbs[at].trailing_zeros())
+        })
+    }
+
+    /// `self / 2^shift`, which is an integer.
+    fn shifted_down(&self, shift: u64) -> Integer {
+        let windows = (shift..self.bits().max(shift)).step_by(64);
+        let limbs: Limbs = windows.map(|from| self.window(from).0).collect();
+        Integer::from_magnitude(self.negative, &limbs)
+    }
+
     /// `|self|`.
     pub(super) fn magnitude(&self) -> Integer {
         let mut magnitude = self.clone();

@@ -19,6 +19,7 @@ use smallvec::SmallVec;
 use super::dyadic::Dyadic;
 use super::integer::Integer;
 use super::part::Interval;
+use super::piece::{Piece, bernstein, changes, first_sign};
 use super::poly::Poly;
 use super::tick::Tick;
 
@@ -191,7 +192,7 @@ impl Isolated {
         let mut later: SmallVec<[Found; 3]> = SmallVec::new();
         loop {
             let (left, right) = current.halves();
-            let middle = right.coefficients[0].is_zero().then(|| right.low());
+            let middle = right.starts_at_root().then(|| right.low());
             let (in_left, in_right) = (left.changes(), right.changes());
             if in_right == 1 {
                 later.push(Found::Between(right.ends()));
@@ -238,114 +239,6 @@ enum Found {
 /// The interval from 0 to 1.
 fn unit() -> (Dyadic, Dyadic) {
     (Dyadic::zero(), Dyadic::one())
-}
-
-/// Positive multiples of the Bernstein coefficients on `[0, 1]`, one more than the degree.
-fn bernstein(poly: &Poly) -> SmallVec<[Integer; 4]> {
-    let c = |i| poly.coefficient(i);
-    let sum = |parts: &[(i64, usize)]| {
-        let mut sum = Integer::default();
-        for &(factor, i) in parts {
-            sum.add_shifted(&c(i).times(factor), 0);
-        }
-        sum
-    };
-    match poly.degree() {
-        0 => SmallVec::from_iter([c(0).clone()]),
-        1 => SmallVec::from_iter([c(0).clone(), sum(&[(1, 0), (1, 1)])]),
-        2 => SmallVec::from_iter([
-            c(0).times(2),
-            sum(&[(2, 0), (1, 1)]),
-            sum(&[(2, 0), (2, 1), (2, 2)]),
-        ]),
-        _ => SmallVec::from_iter([
-            c(0).times(3),
-            sum(&[(3, 0), (1, 1)]),
-            sum(&[(3, 0), (2, 1), (1, 2)]),
-            sum(&[(3, 0), (3, 1), (3, 2), (3, 3)]),
-        ]),
-    }
-}
-
-/// The first sign that is not 0.
-fn first_sign<'a>(mut coefficients: impl Iterator<Item = &'a Integer>) -> Ordering {
-    coefficients
-        .find(|c| !c.is_zero())
-        .map_or(Ordering::Equal, Integer::sign)
-}
-
-/// The number of sign changes, zeros left out.
-fn changes(coefficients: &[Integer]) -> usize {
-    let mut last = Ordering::Equal;
-    let mut count = 0;
-    for sign in coefficients
-        .iter()
-        .map(Integer::sign)
-        .filter(|sign| sign.is_ne())
-    {
-        count += usize::from(sign == last.reverse() && last.is_ne());
-        last = sign;
-    }
-    count
-}
-
-/// A polynomial on the interval from `index / 2^depth` to `(index + 1) / 2^depth`.
-struct Piece {
-    /// Positive multiples of the Bernstein coefficients there.
-    coefficients: SmallVec<[Integer; 4]>,
-    index: Integer,
-    depth: u64,
-}
-
-impl Piece {
-    fn unit(bernstein: &[Integer]) -> Self {
-        Piece {
-            coefficients: bernstein.iter().cloned().collect(),
-            index: Integer::default(),
-            depth: 0,
-        }
-    }
-
-    fn changes(&self) -> usize {
-        changes(&self.coefficients)
-    }
-
-    fn low(&self) -> Dyadic {
-        Dyadic::new(self.index.clone(), self.depth)
-    }
-
-    fn ends(&self) -> (Dyadic, Dyadic) {
-        let next = Integer::sum(&self.index, &Integer::from(1));
-        (self.low(), Dyadic::new(next, self.depth))
-    }
-
-    /// Both halves, by de Casteljau's algorithm without its divisions: row `i` is `2^i` times too
-    /// large, and what is kept of it is multiplied to the scale of the last row.
-    fn halves(&self) -> (Piece, Piece) {
-        let degree = self.coefficients.len() - 1;
-        let mut row = self.coefficients.clone();
-        let mut left = SmallVec::new();
-        let mut right = SmallVec::new();
-        for i in 0..=degree {
-            let missing = (degree - i) as u64;
-            left.push(row[0].shifted(missing));
-            right.push(row[degree - i].shifted(missing));
-            for j in 0..degree - i {
-                row[j] = Integer::sum(&row[j], &row[j + 1]);
-            }
-        }
-        right.reverse();
-        let half = |coefficients, offset: i128| {
-            let mut index = self.index.shifted(1);
-            index.add_shifted(&Integer::from(offset), 0);
-            Piece {
-                coefficients,
-                index,
-                depth: self.depth + 1,
-            }
-        };
-        (half(left, 0), half(right, 1))
-    }
 }
 
 /// The Hessian covariant of `a t^3 + b t^2 + c t + d`: the quadratic `p t^2 + q t + r` with

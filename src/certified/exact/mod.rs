@@ -1,4 +1,5 @@
-//! The exact stage: every edge-edge query of radius 0, decided in integers.
+//! The exact stage: every query, decided in integers. With a radius above 0 see [`thick`]; what follows is of
+//! edges without, and [`face`] says what is different there.
 //!
 //! All coordinates are dyadic rationals, so that every predicate of contact is the sign of a
 //! polynomial with integer coefficients at a time that is itself a root of one. With
@@ -36,7 +37,6 @@ use std::cmp::Ordering;
 use super::motion::Positions;
 use super::verdict::{Hit, Parameters};
 use crate::contact::{Case, ContactKind};
-use crate::narrow::Unsupported;
 use crate::query::EdgeEdge;
 
 mod bracket;
@@ -52,23 +52,32 @@ mod integer;
 mod isolate;
 mod lane;
 mod locus;
+mod modular;
+mod moment;
 mod motion;
 mod near;
 mod part;
+mod passage;
+mod piece;
 mod pin;
 mod poly;
+mod remainders;
 mod roots;
 mod scaled;
 mod sturm;
+mod thick;
 mod tick;
 mod time;
 
 use self::motion::Motion;
+use super::thick as at_distance;
 pub(super) use face::decide_face;
 use lane::{Fixed, Lane, Number, Unlimited, Wide};
 use locus::{Locus, Place};
 pub(super) use near::are_near;
+pub(super) use passage::{Passage, passage_of_edges, passage_of_face};
 use scaled::Scaled;
+pub(super) use thick::{Approach, approach_of_edges, approach_of_face};
 use time::Time;
 
 /// The largest error of the parameters `u` and `v` of an [`Hit`] of the exact stage, 2^-50.
@@ -86,16 +95,14 @@ pub struct Decision {
 /// The exact answer to an edge-edge query, by integer arithmetic alone.
 ///
 /// Every finite query is decided. It takes about a microsecond where the coordinates are of similar
-/// magnitude, and up to milliseconds where their exponents span the range of `f64`.
-///
-/// # Errors
-///
-/// [`Unsupported`] for a radius above 0.
-pub fn decide_exactly(query: &EdgeEdge) -> Result<Decision, Unsupported> {
+/// magnitude, and up to milliseconds where their exponents span the range of `f64`; with a radius above 0, some
+/// hundred times that.
+pub fn decide_exactly(query: &EdgeEdge) -> Decision {
+    let positions = Positions::new(query);
     if !query.radius().is_zero() {
-        return Err(Unsupported::Radius(query.radius()));
+        return at_distance::decide_edges_exactly(&positions, query.radius());
     }
-    Ok(decide(&Positions::new(query)))
+    decide(&positions)
 }
 
 /// The exact answer for four points.

@@ -21,7 +21,7 @@ use super::dyadic::decompose;
 use super::integer::Integer;
 use crate::certified::motion::Vector;
 
-type Point = [Integer; 3];
+pub(super) type Point = [Integer; 3];
 
 /// Whether the segments AB and CD are within the sum of two radii of each other.
 pub(in crate::certified) fn are_near(points: &[Vector; 4], radii: [f64; 2]) -> bool {
@@ -60,7 +60,10 @@ fn is_fraction(n: &Integer, d: &Integer) -> bool {
 }
 
 /// The points and the sum of the radii times one power of two.
-fn scaled(points: &[Vector; 4], radii: [f64; 2]) -> ([Point; 4], Integer) {
+pub(super) fn scaled<const N: usize>(
+    points: &[Vector; N],
+    radii: [f64; 2],
+) -> ([Point; N], Integer) {
     let numbers = points.iter().flatten().chain(&radii);
     let used = numbers
         .map(|x| decompose(*x))
@@ -80,7 +83,7 @@ fn scaled(points: &[Vector; 4], radii: [f64; 2]) -> ([Point; 4], Integer) {
     )
 }
 
-fn sub(x: &Point, y: &Point) -> Point {
+pub(super) fn sub(x: &Point, y: &Point) -> Point {
     [0, 1, 2].map(|i| Integer::difference(&x[i], &y[i]))
 }
 

@@ -8,7 +8,7 @@
 //! simple, there is one jump, of the sign of `p'(root) q(root)`, or none if `q(root) = 0`. The sign
 //! of `p'(root)` is that of `p(b)`, so that the index tells the sign of `q(root)`, 0 included.
 //!
-//! Remainders may be multiplied by positive numbers, so that they stay integers. With `p` a cubic of
+//! Remainders may be multiplied by positive numbers, so that they stay integers ([`super::remainders`]). With `p` a cubic of
 //! `3b + 8` bits and `q` a quadratic of `2b + 6` bits, the first remainder has
 //! `3b + 8 + 2 (2b + 7)` = `7b + 22` bits and the second `2b + 6 + 2 (7b + 23)` = `16b + 52` bits.
 
@@ -16,14 +16,15 @@ use std::cmp::Ordering;
 
 use super::dyadic::Dyadic;
 use super::poly::Poly;
+use super::remainders::Remainders;
 
 /// The sign of `q` at the root of `p` between `low` and `high`.
 ///
 /// It must be the only root of `p` there, a simple one; neither `low` nor `high` is a root.
 /// `before` is the sign of `p` at `low`.
-pub(super) fn sign_at_root(
-    p: &Poly,
-    q: Poly,
+pub(super) fn sign_at_root<const N: usize>(
+    p: &Poly<N>,
+    q: Poly<N>,
     before: Ordering,
     low: &Dyadic,
     high: &Dyadic,
@@ -39,13 +40,9 @@ pub(super) fn sign_at_root(
     }
     let mut last = (before, before.reverse());
     let mut index = 0;
-    let (mut a, mut b) = (p.clone(), q);
-    while !b.is_zero() {
-        let signs = (b.sign_at(low), b.sign_at(high));
+    for poly in Remainders::new(p.clone(), q) {
+        let signs = (poly.sign_at(low), poly.sign_at(high));
         index += change(&mut last.0, signs.0) - change(&mut last.1, signs.1);
-        let mut remainder = a.remainder(&b);
-        remainder.negate();
-        (a, b) = (b, remainder);
     }
     if before.is_lt() {
         index.cmp(&0)

@@ -5,13 +5,14 @@
 
 use std::cmp::Ordering;
 
-use super::bracket::{Bracket, Settled, exact_ratio};
+use super::bracket::Bracket;
 use super::curve::Curve;
 use super::dyadic::Dyadic;
 use super::fraction::Fraction;
 use super::integer::TWO_64;
 use super::isolate::{Isolated, Place};
 use super::lane::{Lane, Number};
+use super::moment::Moment;
 use super::motion::Quadratic;
 use super::pin::{Pin, pin, tighten};
 use super::poly::Poly;
@@ -130,13 +131,14 @@ impl<'a, L: Lane> Time<'a, L> {
     }
 
     /// The only root strictly between the ends of a bracket.
-    pub(super) fn between(mut bracket: Bracket<'a>) -> Self {
-        match bracket.settle() {
-            Settled::At(at) => Time::at(at),
-            Settled::Between(below, above) => Time {
-                below,
-                above,
-                exact: Exact::Bracket(bracket),
+    pub(super) fn between(bracket: Bracket<'a>) -> Self {
+        let (moment, [below, above]) = Moment::settled(bracket);
+        Time {
+            below,
+            above,
+            exact: match moment {
+                Moment::At(at) => Exact::Dyadic(at),
+                Moment::Between(bracket) => Exact::Bracket(bracket),
             },
         }
     }
@@ -179,7 +181,7 @@ impl<'a, L: Lane> Time<'a, L> {
                 }
             }
             Exact::Bracket(bracket) => bracket.sign_of(Poly::new(q)),
-            Exact::Dyadic(at) => Poly::new(q).sign_at(at),
+            Exact::Dyadic(at) => Poly::<3>::new(q).sign_at(at),
             // These are quick.
             Exact::Start | Exact::End | Exact::Fraction { .. } => Ordering::Equal,
         }
@@ -220,13 +222,7 @@ impl<'a, L: Lane> Time<'a, L> {
             let quick = nearer.quick_quotient(n, d);
             quick.or_else(|| nearer.tightened()?.quick_quotient(n, d))
         });
-        quick.unwrap_or_else(|| {
-            let (n, d) = (Poly::new(n), Poly::new(d));
-            match self.view() {
-                View::At(at) => exact_ratio(n.evaluate_as(2, &at), d.evaluate_as(2, &at)),
-                View::Between(bracket) => bracket.quotient(&n, &d),
-            }
-        })
+        quick.unwrap_or_else(|| self.moment().quotient(&Poly::new(n), &Poly::new(d)))
     }
 
     /// The time in narrower bounds, if a Newton step finds them.
@@ -291,12 +287,7 @@ impl<'a, L: Lane> Time<'a, L> {
         if let Some(order) = self.quick_compare(other) {
             return order;
         }
-        match (self.view(), other.view()) {
-            (View::At(a), View::At(b)) => a.compare(&b),
-            (View::At(a), View::Between(b)) => b.compare_dyadic(&a).reverse(),
-            (View::Between(a), View::At(b)) => a.compare_dyadic(&b),
-            (View::Between(a), View::Between(b)) => a.compare(&b),
-        }
+        self.moment().compare(&other.moment())
     }
 
     /// The same for two roots on the grid, the other one of a polynomial of degree 2.
@@ -353,40 +344,28 @@ impl<'a, L: Lane> Time<'a, L> {
         })
     }
 
-    fn view(&self) -> View<'_> {
+    fn moment(&self) -> Moment<'_> {
         match &self.exact {
-            Exact::Start => View::At(Dyadic::zero()),
-            Exact::End => View::At(Dyadic::one()),
-            Exact::At(at) => View::At(at.to_dyadic()),
-            Exact::Dyadic(at) => View::At(at.clone()),
+            Exact::Start => Moment::At(Dyadic::zero()),
+            Exact::End => Moment::At(Dyadic::one()),
+            Exact::At(at) => Moment::At(at.to_dyadic()),
+            Exact::Dyadic(at) => Moment::At(at.clone()),
             Exact::Fraction {
                 of,
                 before,
                 low,
                 high,
                 ..
-            } => {
-                let mut bracket = of.unproved(*before, *low, *high);
-                match bracket.settle() {
-                    Settled::At(at) => View::At(at),
-                    Settled::Between(..) => View::Between(bracket),
-                }
-            }
+            } => Moment::settled(of.unproved(*before, *low, *high)).0,
             Exact::Root {
                 of,
                 before,
                 low,
                 high,
-            } => View::Between(of.bracket(*before, *low, *high)),
-            Exact::Bracket(bracket) => View::Between(bracket.clone()),
+            } => Moment::Between(of.bracket(*before, *low, *high)),
+            Exact::Bracket(bracket) => Moment::Between(bracket.clone()),
         }
     }
-}
-
-/// A time in integers of any size.
-enum View<'a> {
-    At(Dyadic),
-    Between(Bracket<'a>),
 }
 
 /// See [`Time::quick_value_of`].

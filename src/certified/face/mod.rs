@@ -26,46 +26,38 @@ use super::exact;
 use super::motion::{Motion, Positions};
 use super::refine::Root;
 use super::root::Bracket;
+use super::thick;
 use crate::contact::{Case, ContactKind, Flags};
-use crate::narrow::Unsupported;
 use crate::query::VertexFace;
 
 /// The first contact of a moving vertex and a moving face, `None` for a miss: certified, without
-/// thresholds.
+/// thresholds. With a radius above 0 contact is a distance of at most the radius.
 ///
 /// No hit is false, no contact is missed, and `toi` is the exact time of impact rounded down.
-///
-/// # Errors
-///
-/// [`Unsupported`] for a radius above 0.
-pub fn decide_vertex_face(query: &VertexFace) -> Result<Option<FaceHit>, Unsupported> {
+pub fn decide_vertex_face(query: &VertexFace) -> Option<FaceHit> {
     decide_vertex_face_observed(query, &mut |_| {})
 }
 
 /// As [`decide_vertex_face`], by integer arithmetic alone.
-///
-/// # Errors
-///
-/// [`Unsupported`] for a radius above 0.
-pub fn decide_vertex_face_exactly(query: &VertexFace) -> Result<Option<FaceHit>, Unsupported> {
-    refuse_radius(query)?;
+pub fn decide_vertex_face_exactly(query: &VertexFace) -> Option<FaceHit> {
     let positions = Positions::of(query.start(), query.end());
-    Ok(exact::decide_face(&as_edges(&positions)))
+    if !query.radius().is_zero() {
+        return thick::decide_face_exactly(&positions, query.radius());
+    }
+    exact::decide_face(&as_edges(&positions))
 }
 
 /// As [`decide_vertex_face`], and says which stage decided.
-///
-/// # Errors
-///
-/// [`Unsupported`] for a radius above 0.
 #[inline]
 pub fn decide_vertex_face_observed(
     query: &VertexFace,
     observe: &mut impl FnMut(Stage),
-) -> Result<Option<FaceHit>, Unsupported> {
-    refuse_radius(query)?;
+) -> Option<FaceHit> {
     let positions = || Positions::of(query.start(), query.end());
-    Ok(decide_all(positions, observe))
+    if !query.radius().is_zero() {
+        return thick::decide_face(&positions(), query.radius(), observe);
+    }
+    decide_all(positions, observe)
 }
 
 /// All stages.
@@ -116,16 +108,8 @@ fn decide_open<E: Ends>(
     exact::decide_face(&as_edges(&positions()))
 }
 
-fn refuse_radius(query: &VertexFace) -> Result<(), Unsupported> {
-    if query.radius().is_zero() {
-        Ok(())
-    } else {
-        Err(Unsupported::Radius(query.radius()))
-    }
-}
-
 /// The ends of the edges BC and AD.
-fn as_edges(Positions { start, end }: &Positions) -> Positions {
+pub(super) fn as_edges(Positions { start, end }: &Positions) -> Positions {
     let order = |[a, b, c, d]: [_; 4]| [b, c, a, d];
     Positions {
         start: order(*start),
@@ -180,6 +164,19 @@ fn decide_at_root<E: Ends>(
     match of_edges(&root.meeting(&edges, &edge_motion, &edge_cubic)).place() {
         Place::Apart => Some(None),
         place => crossing(root.round_down()?, &sharp, place).map(Some),
+    }
+}
+
+/// Whether the vertex is inside the face at the root in a bracket, if that is certain.
+pub(super) fn is_inside_at(
+    points: &[[f64x2; 3]; 4],
+    cubic: &Cubic,
+    bracket: &Bracket,
+) -> Option<bool> {
+    match shares(&star(points), cubic, bracket).place() {
+        Place::Apart => Some(false),
+        Place::Inside { .. } => Some(true),
+        Place::Unclear => None,
     }
 }
 

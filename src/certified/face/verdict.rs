@@ -19,12 +19,14 @@ pub struct FaceHit {
     /// Contact at time 0 or 1 is a graze. Otherwise, with `f = ((C - B) x (D - B)) . (A - B)`: where
     /// `f` is not identically 0, a crossing if `f` changes its sign at the contact and the vertex is
     /// strictly inside the face, which has a plane then; where all points stay in a plane, if the vertex
-    /// passes through the line of an edge, strictly inside that edge; where they stay on a line, always.
+    /// passes through the line of an edge, strictly inside that edge; where they stay on a line, always. With a
+    /// radius: whether there is a crossing, at radius 0, at any time of the step.
     pub kind: ContactKind,
     /// The sign of `f` just before the contact, 1 where the vertex comes from the side to which
     /// `(C - B) x (D - B)` points; 0 where `f` is identically 0 or the contact is at `t = 0`. Exact.
     pub side: i8,
-    /// Where the vertex is in the face: the weights of B, C and D in it, in `[0, 1]`.
+    /// Where the vertex is in the face: the weights of B, C and D in it, in `[0, 1]`. With a radius, where the face
+    /// is nearest to it.
     ///
     /// In a face without area at that time they are those at the first of B, C and D, or else on the first
     /// of BC, CD and DB, that the vertex is on.

@@ -51,6 +51,12 @@ proptest! {
         prop_assert_eq!(checked(&Integer::difference(&a, &b)), &x - &y);
         prop_assert_eq!(checked(&Integer::difference(&a, &a)), BigInt::ZERO);
         prop_assert_eq!(checked(&Integer::product(&a, &b)), &x * &y);
+        if !b.is_zero() {
+            let mut quotient = Integer::product(&a, &b.magnitude()).shifted(shift);
+            quotient.divide_exactly(&b.magnitude().shifted(shift / 2));
+            prop_assert_eq!(checked(&quotient), &x << (shift - shift / 2));
+        }
+        prop_assert_eq!(BigInt::from(a.residue(97)), BigInt::from(x.magnitude().clone()) % 97);
         prop_assert_eq!(checked(&a.shifted(shift)), &x << shift);
         prop_assert_eq!(checked(&a.times(-3)), &x * -3);
         prop_assert_eq!(checked(&a.magnitude()), BigInt::from(x.magnitude().clone()));

@@ -49,9 +49,9 @@ proptest! {
             });
             let exact_sign = |q: [i128; 3]| {
                 let poly = Poly::new(&q.map(Integer::from));
-                match time.view() {
-                    View::At(at) => poly.sign_at(&at),
-                    View::Between(bracket) => bracket.sturm_sign_of(poly),
+                match time.moment() {
+                    Moment::At(at) => poly.sign_at(&at),
+                    Moment::Between(bracket) => bracket.sturm_sign_of(poly),
                 }
             };
             for q in [n, d] {
@@ -74,9 +74,9 @@ proptest! {
                         let product = Integer::product(&d[i].into(), &other.into());
                         Integer::difference(&Integer::from(n[i]).shifted(54), &product)
                     });
-                    let sign = match time.view() {
-                        View::At(at) => Poly::new(&terms).sign_at(&at),
-                        View::Between(bracket) => bracket.sturm_sign_of(Poly::new(&terms)),
+                    let sign = match time.moment() {
+                        Moment::At(at) => Poly::<4>::new(&terms).sign_at(&at),
+                        Moment::Between(bracket) => bracket.sturm_sign_of(Poly::new(&terms)),
                     };
                     prop_assert!(sign == side || sign.is_eq(), "{n:?} / {d:?}: {value}");
                 }

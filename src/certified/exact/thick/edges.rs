@@ -1,0 +1,124 @@
+//! Two edges: `K = B - A`, `L = D - C`, `M = C - A`, `N = K x L`, `f = M . N`.
+
+use super::pair::{Pair, Place, Share};
+use super::vector::{Vector, add, cross, dot, is_zero, sub};
+use super::{Poly, Sides, Time};
+use crate::contact::Flags;
+
+pub(super) struct Edges {
+    k: Vector,
+    l: Vector,
+    m: Vector,
+    n: Vector,
+    n2: Poly,
+    f: Poly,
+}
+
+impl Edges {
+    pub(super) fn new([a, b, c, d]: &[Vector; 4]) -> Self {
+        let (k, l, m) = (sub(b, a), sub(d, c), sub(c, a));
+        let n = cross(&k, &l);
+        Edges {
+            n2: dot(&n, &n),
+            f: dot(&m, &n),
+            k,
+            l,
+            m,
+            n,
+        }
+    }
+
+    /// The lines are nearest at `u = (M x L) . N / N . N` and `v = (M x K) . N / N . N`.
+    fn insides(&self) -> Pair<2> {
+        let Edges { k, l, m, n, n2, f } = self;
+        let (u, v) = (dot(&cross(m, l), n), dot(&cross(m, k), n));
+        let quotient = |n: &Poly| Share::Quotient(n.clone(), n2.clone());
+        let place = [quotient(&u), quotient(&v)];
+        let rest = |n: &Poly| Poly::difference(n2, n);
+        let inside = vec![rest(&u), rest(&v), u, v];
+        Pair::insides(f, n2, inside, place)
+    }
+
+    /// Whether an edge is a point at a time.
+    fn is_point(edge: &Vector, time: &Time) -> bool {
+        time.sign_of(&dot(edge, edge)).is_eq()
+    }
+}
+
+impl Sides<2> for Edges {
+    fn pairs(&self) -> Vec<Pair<2>> {
+        use Share::{All, None};
+        let (a_c, a_d) = (&self.m, &add(&self.m, &self.l));
+        let (b_c, b_d) = (&sub(a_c, &self.k), &sub(a_d, &self.k));
+        let neg = |x: &Vector| sub(&Default::default(), x);
+        let (c_a, c_b, d_a, d_b) = (&neg(a_c), &neg(b_c), &neg(a_d), &neg(b_d));
+        vec![
+            Pair::vertices(a_c, [None, None]),
+            Pair::vertices(a_d, [None, All]),
+            Pair::vertices(b_c, [All, None]),
+            Pair::vertices(b_d, [All, All]),
+            Pair::vertex_edge(a_c, a_d, |[v, _]| [None, v]),
+            Pair::vertex_edge(b_c, b_d, |[v, _]| [All, v]),
+            Pair::vertex_edge(c_a, c_b, |[u, _]| [u, None]),
+            Pair::vertex_edge(d_a, d_b, |[u, _]| [u, All]),
+            self.insides(),
+        ]
+    }
+
+    fn f(&self) -> &Poly {
+        &self.f
+    }
+
+    /// Along K, A is at 0, B at `K . K`, C at `M . K` and D at `(M + L) . K`: what both edges have of that
+    /// where they are parallel.
+    fn overlap(&self, time: &Time) -> Option<(Place<2>, Option<Place<2>>)> {
+        let Edges { k, l, m, .. } = self;
+        let is_parallel = time.sign_of(&self.n2).is_eq();
+        if !is_parallel || Self::is_point(k, time) || Self::is_point(l, time) {
+            return None;
+        }
+        let (kk, ll, ml) = (dot(k, k), dot(l, l), dot(m, l));
+        let (to_c, to_d) = (dot(m, k), dot(&add(m, l), k));
+        let is_same_way = time.sign_of(&dot(k, l)).is_gt();
+        let [low, high] = if is_same_way {
+            [&to_c, &to_d]
+        } else {
+            [&to_d, &to_c]
+        };
+        let low_to_b = time.sign_of(&Poly::difference(&kk, low));
+        let high_to_a = time.sign_of(high);
+        if low_to_b.is_lt() || high_to_a.is_lt() {
+            return None;
+        }
+        let [v_low, v_high] = match is_same_way {
+            true => [Share::None, Share::All],
+            false => [Share::All, Share::None],
+        };
+        let on_ab = |at: &Poly| Share::Quotient(at.clone(), kk.clone());
+        let on_cd = |at: Poly| Share::Quotient(at, ll.clone());
+        let at_a = Poly::difference(&Poly::default(), &ml);
+        let at_b = Poly::difference(&dot(k, l), &ml);
+        let first = match time.sign_of(low).is_le() {
+            true => [Share::None, on_cd(at_a)],
+            false => [on_ab(low), v_low],
+        };
+        let second = match time.sign_of(&Poly::difference(&kk, high)).is_le() {
+            true => [Share::All, on_cd(at_b)],
+            false => [on_ab(high), v_high],
+        };
+        let is_more = low_to_b.is_gt() && high_to_a.is_gt();
+        Some((Place(first), is_more.then_some(Place(second))))
+    }
+
+    fn flags(&self, time: &Time) -> Flags {
+        let Edges { k, l, n, n2, .. } = self;
+        if time.sign_of(n2).is_ne() {
+            return Flags::default();
+        }
+        let (first, second) = (Self::is_point(k, time), Self::is_point(l, time));
+        Flags {
+            temporarily_parallel: !first && !second && !is_zero(n),
+            temporarily_point: first && !is_zero(k) || second && !is_zero(l),
+        }
+    }
+}

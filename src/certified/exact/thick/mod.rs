@@ -1,0 +1,183 @@
+//! Contact at a distance: when two edges, or a vertex and a face, first come within a radius of each other,
+//! decided in integers.
+//!
+//! The distance of two convex sets is that of two features, vertices, edges or a face without what bounds
+//! them, which hold the nearest points; there these are the nearest points of what the features span: of
+//! points, lines and planes. So with the features' squared distance `p / q` and the conditions `i` that the
+//! nearest points are inside them ([`pair`], from [`edges`] and [`face`])
+//!
+//! ```text
+//! contact(t)  <=>  for some two features  q > 0,  all i >= 0,  p <= R^2 q
+//! ```
+//!
+//! Let the first contact be at `s > 0`, and take the features with the fewest points that hold the nearest
+//! points there. Their `p - R^2 q` is 0 at `s`; not for all `t`, or they would be in contact shortly before
+//! too, their nearest points still inside. So the first contact is at 0 or at a root of one of these
+//! polynomials ([`roots`]), of degree 2, 4 or 6.
+//!
+//! The radius is an integer in the unit of the coordinates and so never rounded. Here all integers are of any
+//! size: what `f64` leaves open is little.
+
+mod edges;
+mod face;
+mod pair;
+mod roots;
+mod vector;
+
+use std::cmp::Ordering;
+
+use super::moment::Moment;
+use super::near::{Point, scaled, sub};
+use super::poly;
+use crate::certified::motion::Positions;
+use crate::contact::Flags;
+use edges::Edges;
+use face::Face;
+use pair::{Pair, Place};
+use roots::Roots;
+use vector::Vector;
+
+use super::dyadic::Dyadic;
+use super::integer::Integer;
+
+/// Polynomials of degree at most 6.
+type Poly = poly::Poly<7>;
+
+/// Times at which such a polynomial is 0.
+type Time<'a> = Moment<'a, 7>;
+
+/// The first contact at a distance. A place has `W` numbers: `u` and `v`, or the weights of B, C and D.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::certified) struct Approach<const W: usize> {
+    /// The neighbours in `f64` of the time of impact.
+    pub(in crate::certified) toi: [f64; 2],
+    /// The sign of `f` just before it; 0 at the start.
+    pub(in crate::certified) side: i8,
+    /// The nearest points; each number is within [`PARAMETER_ERROR`](super::PARAMETER_ERROR).
+    pub(in crate::certified) first: [f64; W],
+    /// The other end of the part along which parallel edges are nearest.
+    pub(in crate::certified) second: Option<[f64; W]>,
+    pub(in crate::certified) flags: Flags,
+}
+
+/// The first contact of two edges at most the sum of two radii apart.
+pub(in crate::certified) fn approach_of_edges(
+    positions: &Positions,
+    radii: [f64; 2],
+) -> Option<Approach<2>> {
+    let (points, square) = integers(positions, radii);
+    first_approach(&Edges::new(&points), &square)
+}
+
+/// The same of a vertex A and a face BCD.
+pub(in crate::certified) fn approach_of_face(
+    positions: &Positions,
+    radii: [f64; 2],
+) -> Option<Approach<3>> {
+    let (points, square) = integers(positions, radii);
+    first_approach(&Face::new(&points), &square)
+}
+
+/// Two sides that may come near each other.
+trait Sides<const W: usize> {
+    /// The pairs of features, those with fewer points first; vertices always hold.
+    fn pairs(&self) -> Vec<Pair<W>>;
+
+    /// Six times the volume of the four points.
+    fn f(&self) -> &Poly;
+
+    /// The ends of the part along which two sides are nearest, if that is more than a point or they are parallel.
+    fn overlap(&self, time: &Time) -> Option<(Place<W>, Option<Place<W>>)>;
+
+    /// The configuration at a time.
+    fn flags(&self, time: &Time) -> Flags;
+}
+
+/// The positions at the start and their changes, and the square of the radius.
+fn integers(Positions { start, end }: &Positions, radii: [f64; 2]) -> ([Vector; 4], Integer) {
+    let [[a, b, c, d], [e, f, g, h]] = [*start, *end];
+    let (points, radius) = scaled(&[a, b, c, d, e, f, g, h], radii);
+    let (start, end) = points.split_at(4);
+    let moving = |i: usize| -> Vector {
+        let change: Point = sub(&end[i], &start[i]);
+        [0, 1, 2].map(|axis: usize| Poly::new(&[start[i][axis].clone(), change[axis].clone()]))
+    };
+    let square = Integer::product(&radius, &radius);
+    ([0, 1, 2, 3].map(moving), square)
+}
+
+fn first_approach<const W: usize>(sides: &impl Sides<W>, square: &Integer) -> Option<Approach<W>> {
+    let pairs = sides.pairs();
+    let start = Time::At(Dyadic::zero());
+    let is_near =
+        |pair: &Pair<W>, time: &Time| pair.holds(time) && pair.excess_sign(square, time).is_le();
+    let roots: Vec<Roots>;
+    let (time, toi) = if pairs.iter().any(|pair| is_near(pair, &start)) {
+        (start, [0.0; 2])
+    } else {
+        roots = pairs
+            .iter()
+            .map(|pair| Roots::new(pair.excess(square)))
+            .collect();
+        first_root(&pairs, &roots)?
+    };
+    let (first, second) = match sides.overlap(&time) {
+        Some(overlap) => overlap,
+        None if toi[1] == 0.0 => (Pair::nearest_at_start(&pairs)?.place.clone(), None),
+        // They are as far apart as the radius, and no feature is nearer.
+        None => (
+            pairs
+                .iter()
+                .find(|pair| is_near(pair, &time))?
+                .place
+                .clone(),
+            None,
+        ),
+    };
+    Some(Approach {
+        toi,
+        side: side(sides.f(), &time, toi),
+        first: first.values(&time),
+        second: second.map(|place| place.values(&time)),
+        flags: sides.flags(&time),
+    })
+}
+
+/// The first root, with its neighbours in `f64`, at which the nearest points of its pair are inside.
+fn first_root<'a, const W: usize>(
+    pairs: &[Pair<W>],
+    roots: &'a [Roots],
+) -> Option<(Time<'a>, [f64; 2])> {
+    let mut first: Option<(Time, [f64; 2])> = None;
+    for (pair, roots) in pairs.iter().zip(roots) {
+        for (time, neighbours) in roots.times() {
+            let is_earlier = |(first, _): &(Time, _)| time.compare(first).is_lt();
+            if !first.as_ref().is_none_or(is_earlier) {
+                break;
+            }
+            if pair.holds(&time) {
+                first = Some((time, neighbours));
+                break;
+            }
+        }
+    }
+    first
+}
+
+/// The sign of `f` just before a time: that of the first derivative that is not 0, reversed if its order
+/// is odd. 0 at the start, or where `f` is identically 0.
+fn side(f: &Poly, time: &Time, toi: [f64; 2]) -> i8 {
+    if toi[1] == 0.0 {
+        return 0;
+    }
+    let (mut derivative, mut is_odd) = (f.clone(), false);
+    while !derivative.is_zero() {
+        let sign = time.sign_of(&derivative);
+        if sign.is_ne() {
+            let before: Ordering = if is_odd { sign.reverse() } else { sign };
+            return before as i8;
+        }
+        (derivative, is_odd) = (derivative.derivative(), !is_odd);
+    }
+    0
+}

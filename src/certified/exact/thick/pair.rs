@@ -1,0 +1,126 @@
+//! Two features, one of each side, and when their distance is that of the two sides.
+
+use std::cmp::Ordering;
+
+use super::vector::{Vector, cross, dot, sub};
+use super::{Poly, Time};
+use crate::certified::exact::dyadic::Dyadic;
+use crate::certified::exact::integer::Integer;
+
+/// Two features.
+pub(super) struct Pair<const W: usize> {
+    /// The squared distance of what they span is `numerator / denominator`.
+    numerator: Poly,
+    /// At least 0; where it is 0, features with fewer points are as near.
+    denominator: Poly,
+    /// At least 0, all of them, where the nearest points are inside the features or where these end.
+    inside: Vec<Poly>,
+    /// The nearest points.
+    pub(super) place: Place<W>,
+}
+
+/// Numbers that say where the nearest points are.
+#[derive(Clone)]
+pub(super) struct Place<const W: usize>(pub(super) [Share; W]);
+
+/// A parameter on an edge or a weight in a face, in `[0, 1]` at a time that is known from the context.
+#[derive(Clone)]
+pub(super) enum Share {
+    /// 0.
+    None,
+    /// 1.
+    All,
+    /// The quotient of two polynomials.
+    Quotient(Poly, Poly),
+}
+
+impl<const W: usize> Place<W> {
+    pub(super) fn values(&self, time: &Time) -> [f64; W] {
+        self.0.each_ref().map(|share| match share {
+            Share::None => 0.0,
+            Share::All => 1.0,
+            Share::Quotient(n, d) => time.quotient(n, d).max(0.0),
+        })
+    }
+}
+
+impl<const W: usize> Pair<W> {
+    /// Two vertices with this way from one to the other.
+    pub(super) fn vertices(way: &Vector, place: [Share; W]) -> Self {
+        Pair {
+            numerator: dot(way, way),
+            denominator: Poly::new(&[Integer::from(1)]),
+            inside: Vec::new(),
+            place: Place(place),
+        }
+    }
+
+    /// A vertex `X` and an edge `YZ`, from the ways from `X` to both. With `E = Z - Y`, the line is
+    /// `|(Y - X) x (Z - X)| / |E|` away, and the nearest point is `(X - Y) . E / E . E` of the way from `Y`;
+    /// that share and the rest are given to `place`.
+    pub(super) fn vertex_edge(
+        to_y: &Vector,
+        to_z: &Vector,
+        place: impl FnOnce([Share; 2]) -> [Share; W],
+    ) -> Self {
+        let (turn, edge) = (cross(to_y, to_z), sub(to_z, to_y));
+        let (rest, length) = (dot(to_z, &edge), dot(&edge, &edge));
+        let share = Poly::difference(&length, &rest);
+        let quotient = |n: &Poly| Share::Quotient(n.clone(), length.clone());
+        Pair {
+            numerator: dot(&turn, &turn),
+            place: Place(place([quotient(&share), quotient(&rest)])),
+            inside: vec![share, rest],
+            denominator: length,
+        }
+    }
+
+    /// Two edges, or a vertex and a face, whose lines or plane and point are `|f| / |N|` apart. The shares times
+    /// `N . N` are `inside`, as far as they have to be at least 0.
+    pub(super) fn insides(f: &Poly, n2: &Poly, inside: Vec<Poly>, place: [Share; W]) -> Self {
+        Pair {
+            numerator: Poly::product(f, f),
+            denominator: n2.clone(),
+            inside,
+            place: Place(place),
+        }
+    }
+
+    /// `numerator - square denominator`: 0 where what they span is at the distance.
+    pub(super) fn excess(&self, square: &Integer) -> Poly {
+        let scaled = Poly::product(&Poly::new(&[square.magnitude()]), &self.denominator);
+        Poly::difference(&self.numerator, &scaled)
+    }
+
+    pub(super) fn excess_sign(&self, square: &Integer, time: &Time) -> Ordering {
+        time.sign_of(&self.excess(square))
+    }
+
+    /// Whether the nearest points of what they span are on the features at a time.
+    pub(super) fn holds(&self, time: &Time) -> bool {
+        self.inside
+            .iter()
+            .all(|inside| time.sign_of(inside).is_ge())
+            && time.sign_of(&self.denominator).is_gt()
+    }
+
+    /// The first of the nearest of those that hold at the start.
+    pub(super) fn nearest_at_start(pairs: &[Self]) -> Option<&Self> {
+        let start = Dyadic::zero();
+        let mut nearest: Option<&Self> = None;
+        for pair in pairs
+            .iter()
+            .filter(|pair| pair.holds(&Time::At(start.clone())))
+        {
+            let is_nearer = |other: &Self| {
+                let [own_p, own_q] = [&pair.numerator, &pair.denominator].map(|p| p.coefficient(0));
+                let [p, q] = [&other.numerator, &other.denominator].map(|p| p.coefficient(0));
+                Integer::product(own_p, q) < Integer::product(p, own_q)
+            };
+            if nearest.is_none_or(is_nearer) {
+                nearest = Some(pair);
+            }
+        }
+        nearest
+    }
+}

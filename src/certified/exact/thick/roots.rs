@@ -1,0 +1,120 @@
+//! The roots of a polynomial of any small degree, each by itself in an interval.
+
+use std::cmp::Ordering;
+
+use smallvec::SmallVec;
+
+use super::{Poly, Time};
+use crate::certified::exact::bracket::Bracket;
+use crate::certified::exact::dyadic::Dyadic;
+use crate::certified::exact::integer::Integer;
+use crate::certified::exact::modular::are_coprime;
+use crate::certified::exact::piece::{Piece, bernstein};
+use crate::certified::exact::remainders::Remainders;
+
+/// How often the step is halved before multiple roots are made simple: these never part.
+const FEW_HALVINGS: u64 = 20;
+
+/// The distinct roots in `(0, 1]`, in ascending order; none of the polynomial that is 0.
+pub(super) struct Roots {
+    /// A polynomial with these roots.
+    poly: Poly,
+    cells: SmallVec<[Cell; 2]>,
+}
+
+/// Where a root is.
+enum Cell {
+    /// It is this number.
+    At(Dyadic),
+    /// It is the only root strictly between these numbers, and a simple one.
+    Between {
+        low: Dyadic,
+        high: Dyadic,
+        /// The sign of the polynomial before the root.
+        before: Ordering,
+    },
+}
+
+impl Roots {
+    pub(super) fn new(poly: Poly) -> Self {
+        if poly.is_zero() {
+            let cells = SmallVec::new();
+            return Roots { poly, cells };
+        }
+        if let Some(cells) = isolate(&poly, FEW_HALVINGS) {
+            return Roots { poly, cells };
+        }
+        // Now they part in the end (two circles theorem).
+        let poly = square_free(poly);
+        let cells = isolate(&poly, u64::MAX).unwrap_or_default();
+        Roots { poly, cells }
+    }
+
+    /// The roots, each with its neighbours in `f64`.
+    pub(super) fn times(&self) -> impl Iterator<Item = (Time<'_>, [f64; 2])> {
+        self.cells.iter().map(|cell| match cell {
+            Cell::At(at) => (Time::At(at.clone()), [at.below(), at.above()]),
+            Cell::Between { low, high, before } => {
+                let bracket = Bracket::new(&self.poly, low.clone(), high.clone(), *before);
+                Time::settled(bracket)
+            }
+        })
+    }
+}
+
+/// Halves the step until every part has one root or none; `None` if that takes more than so many halvings of
+/// a part. Not by recursion: with a radius of 1e-161 two roots are as near as that.
+fn isolate(poly: &Poly, halvings: u64) -> Option<SmallVec<[Cell; 2]>> {
+    let bernstein = bernstein(poly);
+    let mut cells = SmallVec::new();
+    // What is still to be looked at, the last one first.
+    let mut parts = vec![Part::Open(Piece::unit(&bernstein))];
+    while let Some(part) = parts.pop() {
+        match part {
+            Part::Root(at) => cells.push(Cell::At(at)),
+            Part::Open(piece) => match piece.changes() {
+                0 => {}
+                1 => {
+                    let (low, high) = piece.ends();
+                    let before = piece.first_sign();
+                    cells.push(Cell::Between { low, high, before });
+                }
+                _ if piece.depth() == halvings => return None,
+                _ => {
+                    let (left, right) = piece.halves();
+                    let middle = right.starts_at_root().then(|| Part::Root(right.low()));
+                    parts.push(Part::Open(right));
+                    parts.extend(middle);
+                    parts.push(Part::Open(left));
+                }
+            },
+        }
+    }
+    if bernstein.last().is_some_and(Integer::is_zero) {
+        cells.push(Cell::At(Dyadic::one()));
+    }
+    Some(cells)
+}
+
+/// A part of the step.
+enum Part {
+    /// This time, which is a root.
+    Root(Dyadic),
+    /// An interval without its ends.
+    Open(Piece),
+}
+
+/// The polynomial divided by its greatest common divisor with its derivative.
+fn square_free(poly: Poly) -> Poly {
+    let derivative = poly.derivative();
+    if are_coprime(&poly, &derivative) {
+        return poly;
+    }
+    match Remainders::new(poly.clone(), derivative).last() {
+        Some(divisor) if divisor.degree() > 0 => poly.quotient(&divisor),
+        _ => poly,
+    }
+}
+
+#[cfg(test)]
+mod tests;

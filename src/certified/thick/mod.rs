@@ -1,0 +1,334 @@
+//! The certified path for a radius above 0: the distance of two edges, or of a vertex and a face.
+//!
+//! 1. The swept boxes are farther apart than the radius (`separate`).
+//! 2. The direction from middle to middle separates them by more than the radius for the whole step (`advance`).
+//! 3. Other planes do so for one part of the step after the other, up to its end or to the contact (`advance`). There,
+//!    in double-double arithmetic, a plane and two points hold the time of impact between neighbours in `f64`
+//!    (`settle`). Points that are near at the start are a contact there. The rest of the answer is bounded in
+//!    `f64` too (`place`).
+//! 4. Integers decide what is left (`exact::thick`).
+//!
+//! The proofs need no case distinction: a plane between two sides bounds their distance from below, two points
+//! bound it from above, wherever they come from.
+
+mod advance;
+mod place;
+mod settle;
+mod shape;
+
+use wide::f64x2;
+
+use super::cascade::Stage;
+use super::cubic::Cubic;
+use super::exact::{self, Approach, Passage};
+use super::face::{self, FaceHit};
+use super::locate::Place;
+use super::motion::{Motion, Positions, dot};
+use super::root::Bracket;
+use super::separate::{SweptBoxes, U};
+use super::verdict::{Hit, Parameters};
+use crate::contact::{Case, ContactKind, Flags};
+use crate::query::Radius;
+use advance::{Advance, Moving, rounded_up};
+use settle::settle;
+use shape::{Shape, Spot};
+
+/// The first contact of two edges within a radius above 0.
+pub(super) fn decide_edges(
+    positions: &Positions,
+    radius: Radius,
+    observe: &mut impl FnMut(Stage),
+) -> Option<Hit> {
+    decide::<shape::Edges>(positions, radius, observe)
+}
+
+/// The first contact of a vertex and a face within a radius above 0.
+pub(super) fn decide_face(
+    positions: &Positions,
+    radius: Radius,
+    observe: &mut impl FnMut(Stage),
+) -> Option<FaceHit> {
+    decide::<shape::Face>(positions, radius, observe)
+}
+
+/// The first contact of two edges, by integers alone, and the case of the motion.
+pub(super) fn decide_edges_exactly(positions: &Positions, radius: Radius) -> exact::Decision {
+    let Passage { case, kind } = exact::passage_of_edges(positions);
+    let hit = exact::approach_of_edges(positions, radius.parts()).map(|approach| {
+        let parameters = |[u, v]: [f64; 2]| Parameters { u, v };
+        Hit {
+            toi: approach.toi[0],
+            toi_above: approach.toi[1],
+            kind,
+            side: approach.side,
+            first: parameters(approach.first),
+            second: approach.second.map(parameters),
+            parameter_error: exact::PARAMETER_ERROR,
+            case,
+            flags: approach.flags,
+        }
+    });
+    exact::Decision { case, hit }
+}
+
+/// The first contact of a vertex and a face, by integers alone.
+pub(super) fn decide_face_exactly(positions: &Positions, radius: Radius) -> Option<FaceHit> {
+    let Approach {
+        toi: [toi, toi_above],
+        side,
+        first,
+        second: _,
+        flags,
+    } = exact::approach_of_face(positions, radius.parts())?;
+    let Passage { case, kind } = exact::passage_of_face(&face::as_edges(positions));
+    Some(FaceHit {
+        toi,
+        toi_above,
+        kind,
+        side,
+        weights: first,
+        weight_error: exact::PARAMETER_ERROR,
+        case,
+        flags,
+    })
+}
+
+/// A kind of query.
+trait Kind: Shape {
+    type Hit;
+
+    /// The swept boxes, disjoint if they are farther apart than a distance.
+    fn boxes(points: &[[f64x2; 3]; 4], distance: f64) -> SweptBoxes;
+
+    /// Where the midlines, or the vertex and the face, are at a root of `f`.
+    fn crosses_at(points: &[[f64x2; 3]; 4], cubic: &Cubic, bracket: &Bracket) -> Option<bool>;
+
+    /// What integers say of the midlines.
+    fn passage(positions: &Positions) -> Passage;
+
+    fn hit(contact: &Contact) -> Self::Hit;
+
+    fn decide_exactly(positions: &Positions, radius: Radius) -> Option<Self::Hit>;
+}
+
+/// A contact that is certain, in a place that is a single one.
+struct Contact {
+    toi: [f64; 2],
+    side: i8,
+    spot: Spot,
+    error: f64,
+    passage: Passage,
+}
+
+/// All stages.
+fn decide<K: Kind>(
+    positions: &Positions,
+    radius: Radius,
+    observe: &mut impl FnMut(Stage),
+) -> Option<K::Hit> {
+    let points = positions.points::<f64x2>();
+    let rounded = rounded_up(radius);
+    let boxes = K::boxes(&points, rounded * (1.0 + 4.0 * U));
+    if boxes.are_disjoint {
+        observe(Stage::Boxes);
+        return None;
+    }
+    let moving = Moving::new::<K>(positions, boxes, rounded);
+    let span = moving.span_of_centres::<K>();
+    if span.is_all() {
+        observe(Stage::Direction);
+        return None;
+    }
+    let proved = if span.from <= 0.0 { span.to } else { 0.0 };
+    if moving.is_ordinary()
+        && let Some(contact) = decide_by_planes::<K>(positions, &moving, radius, proved)
+    {
+        observe(Stage::Planes);
+        return contact.map(|contact| K::hit(&contact));
+    }
+    observe(Stage::Exact);
+    K::decide_exactly(positions, radius)
+}
+
+/// The contact, if any; `None` if something is not certain.
+#[inline(never)]
+fn decide_by_planes<K: Kind>(
+    positions: &Positions,
+    moving: &Moving<f64x2>,
+    radius: Radius,
+    proved: f64,
+) -> Option<Option<Contact>> {
+    let contact = match moving.advance::<K>(proved) {
+        Advance::Apart => return Some(None),
+        Advance::Near if moving.is_near_at_start::<K>(radius) => {
+            let (spot, _) = moving.nearest::<K>(0.0);
+            contact::<K>(positions, moving, 0.0, spot)
+        }
+        Advance::Near => None,
+        Advance::Until(proved) => {
+            let settled = settle::<K>(positions, moving, radius, proved)?;
+            contact::<K>(positions, moving, settled.below, settled.spot)
+        }
+    };
+    contact.map(Some)
+}
+
+/// The whole answer for a contact at a time or just above it, 0 if at the start.
+fn contact<K: Kind>(
+    positions: &Positions,
+    moving: &Moving<f64x2>,
+    below: f64,
+    spot: Spot,
+) -> Option<Contact> {
+    let error = place::parameter_error::<K, _>(moving, below, &spot)?;
+    if !(error <= Hit::PARAMETER_ERROR / 4.0) {
+        return None;
+    }
+    let cubic = Cubic::new(&moving.motion)?;
+    let is_start = below == 0.0;
+    let passage = passage::<K>(positions, &cubic);
+    let side = match passage.case {
+        _ if is_start => 0,
+        Case::General => place::side(&cubic, below)?,
+        _ => 0,
+    };
+    Some(Contact {
+        toi: if is_start {
+            [0.0; 2]
+        } else {
+            [below, below.next_up()]
+        },
+        side,
+        spot,
+        error,
+        passage,
+    })
+}
+
+/// What the midlines do during the step.
+fn passage<K: Kind>(positions: &Positions, cubic: &Cubic) -> Passage {
+    let quick = || {
+        if !cubic.is_not_identically_0() {
+            return None;
+        }
+        let points = positions.points::<f64x2>();
+        let mut crosses = false;
+        if !cubic.has_no_root() {
+            for bracket in cubic.isolate(|_, _| false)?.as_slice() {
+                crosses |= K::crosses_at(&points, cubic, bracket)?;
+            }
+        }
+        Some(crosses)
+    };
+    match quick() {
+        Some(crosses) => Passage {
+            case: Case::General,
+            kind: if crosses {
+                ContactKind::Crossing
+            } else {
+                ContactKind::Graze
+            },
+        },
+        None => K::passage(positions),
+    }
+}
+
+impl Moving<f64x2> {
+    /// Whether squares, and their errors in double-double arithmetic, neither over- nor underflow.
+    fn is_ordinary(&self) -> bool {
+        self.radius > SMALLEST && self.radius < LARGEST && self.boxes.size() < LARGEST
+    }
+
+    /// Whether two points are certainly within the radius of each other at the start.
+    ///
+    /// With the size `e` of the box around all points, a component of the way is within `12 u e` of the exact one;
+    /// its length then within `12 u |e|`, and computed with a relative error below `4 u`.
+    fn is_near_at_start<S: Shape>(&self, radius: Radius) -> bool {
+        let (_, way) = self.nearest::<S>(0.0);
+        let length = dot(&way, &way).sqrt();
+        let high = (length + 16.0 * U * self.boxes.size()) * (1.0 + 16.0 * U) + f64::MIN_POSITIVE;
+        length.is_finite() && high <= radius.rounded().next_down()
+    }
+}
+
+/// 2^-200.
+const SMALLEST: f64 = f64::from_bits((1023 - 200) << 52);
+
+/// 2^180.
+const LARGEST: f64 = f64::from_bits((1023 + 180) << 52);
+
+impl Kind for shape::Edges {
+    type Hit = Hit;
+
+    fn boxes([a, b, c, d]: &[[f64x2; 3]; 4], distance: f64) -> SweptBoxes {
+        SweptBoxes::around([a, b], [c, d], distance)
+    }
+
+    fn crosses_at(points: &[[f64x2; 3]; 4], cubic: &Cubic, bracket: &Bracket) -> Option<bool> {
+        match Motion::new(points).meeting(cubic, bracket).place() {
+            Place::Apart => Some(false),
+            Place::Inside { .. } => Some(true),
+            Place::Unclear => None,
+        }
+    }
+
+    fn passage(positions: &Positions) -> Passage {
+        exact::passage_of_edges(positions)
+    }
+
+    fn hit(contact: &Contact) -> Hit {
+        let Spot { u, v, .. } = contact.spot;
+        let Passage { case, kind } = contact.passage;
+        Hit {
+            toi: contact.toi[0],
+            toi_above: contact.toi[1],
+            kind,
+            side: contact.side,
+            first: Parameters { u, v },
+            second: None,
+            parameter_error: contact.error,
+            case,
+            flags: Flags::default(),
+        }
+    }
+
+    fn decide_exactly(positions: &Positions, radius: Radius) -> Option<Hit> {
+        decide_edges_exactly(positions, radius).hit
+    }
+}
+
+impl Kind for shape::Face {
+    type Hit = FaceHit;
+
+    fn boxes([a, b, c, d]: &[[f64x2; 3]; 4], distance: f64) -> SweptBoxes {
+        SweptBoxes::around([a], [b, c, d], distance)
+    }
+
+    fn crosses_at(points: &[[f64x2; 3]; 4], cubic: &Cubic, bracket: &Bracket) -> Option<bool> {
+        face::is_inside_at(points, cubic, bracket)
+    }
+
+    fn passage(positions: &Positions) -> Passage {
+        exact::passage_of_face(&face::as_edges(positions))
+    }
+
+    /// The weight of B is what the others leave of 1, rounded twice.
+    fn hit(contact: &Contact) -> FaceHit {
+        let Spot { u, v, .. } = contact.spot;
+        let Passage { case, kind } = contact.passage;
+        FaceHit {
+            toi: contact.toi[0],
+            toi_above: contact.toi[1],
+            kind,
+            side: contact.side,
+            weights: [(1.0 - u - v).max(0.0), u, v],
+            weight_error: 2.0 * contact.error + 4.0 * U,
+            case,
+            flags: Flags::default(),
+        }
+    }
+
+    fn decide_exactly(positions: &Positions, radius: Radius) -> Option<FaceHit> {
+        decide_face_exactly(positions, radius)
+    }
+}
