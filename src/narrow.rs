@@ -7,7 +7,58 @@ use crate::query::{EdgeEdge, QueryKind, Radius, VertexFace};
 
 /// A continuous narrow phase: the thesis path, the certified path, or a user's own.
 ///
-/// Only [`edge_edge`](Self::edge_edge) has to be written.
+/// Only [`edge_edge`](Self::edge_edge) has to be written. An answer is a function of the query: batches are judged
+/// on several threads, in any order. Of a [`Report`] the time of impact is judged, whether it is a hit, and the
+/// case, if it is stated; contact points and flags are not.
+///
+/// The judge, `tunnelproof_reference`, compares it with the exact answer. This one sees whether the four points
+/// change their orientation during the step, and takes the middle of the step for the time of impact:
+///
+/// ```
+/// use tunnelproof::contact::{Contact, ContactPoint, Flags, Verdict};
+/// use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
+/// use tunnelproof::query::{EdgeEdge, Point};
+///
+/// struct Orientation;
+///
+/// impl NarrowPhase for Orientation {
+///     fn name(&self) -> &str {
+///         "orientation"
+///     }
+///
+///     fn edge_edge(&self, query: &EdgeEdge) -> Result<Report, Unsupported> {
+///         if !query.radius().is_zero() {
+///             return Err(Unsupported::Radius(query.radius()));
+///         }
+///         let volume = |[a, b, c, d]: &[Point; 4]| (b - a).cross(&(d - c)).dot(&(c - a));
+///         let changes = volume(query.start()) * volume(query.end()) < 0.0;
+///         let first = ContactPoint {
+///             point: query.end()[0],
+///             u: 0.0,
+///             v: 0.0,
+///             normal: None,
+///         };
+///         let contact = Contact {
+///             toi: 0.5,
+///             first,
+///             second: None,
+///         };
+///         Ok(Report {
+///             verdict: if changes { Verdict::Hit(contact) } else { Verdict::Miss },
+///             case: None,
+///             flags: Flags::default(),
+///         })
+///     }
+/// }
+///
+/// let outcome = tunnelproof_reference::certify(Orientation).count(100).run()?;
+/// assert!(outcome.failures[0].starts_with("orientation: "));
+/// assert!(outcome.failures[0].contains(" tunnels"));
+/// assert!(outcome.failures[0].contains(" false hits"));
+/// # Ok::<(), tunnelproof_reference::certify::run::RunError>(())
+/// ```
+///
+/// `certify(...).assert_passes()` in a `#[test]` fails with the worst witness of each kind.
 pub trait NarrowPhase: Sync {
     /// A short name for tables, such as `thesis`.
     fn name(&self) -> &str;

@@ -57,7 +57,7 @@ fn seen(subject: &dyn Subject, query: EdgeEdge) -> Option<Seen> {
             case: Some(hit.case),
             places: Vec::new(),
         }),
-        Answer::Engine(report) => panic!("not an exact subject: {report:?}"),
+        answer => panic!("not of an exact subject: {answer:?}"),
     }
 }
 

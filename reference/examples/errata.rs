@@ -42,7 +42,9 @@ impl Tally {
         let reported = match answer {
             Answer::Exact(exact) => exact.hit.is_some(),
             Answer::Engine(report) => report.verdict.is_hit(),
-            Answer::Certified(_) => unreachable!("neither the shadow nor the thesis path"),
+            Answer::Certified(_) | Answer::Said(_) => {
+                unreachable!("neither the shadow nor the thesis path")
+            }
         };
         match (&truth.hit, reported) {
             (None, false) => return,

@@ -1,5 +1,5 @@
 //! The judge: an exact oracle, an exact shadow of the thesis' algorithms, and what compares them
-//! with an engine.
+//! with an engine. [`certify()`] judges an engine from a test.
 
 pub mod algebraic;
 pub mod answer;
@@ -11,6 +11,7 @@ pub mod fuzz;
 pub mod generate;
 pub mod oracle;
 pub mod poly;
+pub mod program;
 pub mod registry;
 pub mod report;
 pub mod scaled;
@@ -21,3 +22,5 @@ pub mod subject;
 pub mod sweep;
 pub mod tune;
 pub mod vectors;
+
+pub use certify::trial::certify;

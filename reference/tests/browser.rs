@@ -1,4 +1,4 @@
-//! The pages of `sweep` and `tune` in a real browser: they are drawn, on a telephone and on a desk, light
+//! The pages of `sweep`, `tune` and `certify` in a real browser: they are drawn, on a telephone and on a desk, light
 //! and dark, without an error on the console.
 //!
 //! The browser is Chromium, without a window. Where there is none the test is skipped and says so; with
@@ -26,7 +26,8 @@ addEventListener("load", () => {
     overflow: document.documentElement.scrollWidth - document.documentElement.clientWidth,
     paper: getComputedStyle(document.body).backgroundColor,
     ink: getComputedStyle(document.body).color,
-    card: all("figure > svg > rect").map(e => getComputedStyle(e).fill)[0],
+    card: all("figure > svg > rect").map(e => getComputedStyle(e).fill)
+      .concat(all("figure").map(e => getComputedStyle(e).backgroundColor))[0],
     charts: all("figure > svg").map(e => [e.parentNode.id, ...box(e), e.querySelectorAll("text").length,
       e.querySelectorAll("circle, rect, polyline").length]),
     letters: all("figure > svg text").filter(e => e.textContent.trim())
@@ -161,7 +162,7 @@ fn assert_is_drawn(browser: &str, page: &Path, charts: &[&str], pictures: usize)
 fn run(arguments: &[&str], page: &Path) {
     let output = Command::new(env!("CARGO_BIN_EXE_tunnelproof"))
         .args(arguments)
-        .args(["--no-cache", "--html"])
+        .arg("--html")
         .arg(page)
         .output()
         .unwrap();
@@ -179,7 +180,7 @@ fn browser_draws_the_page_of_a_sweep() {
     let Some(browser) = browser() else { return };
     let folder = tempfile::tempdir().unwrap();
     let page = folder.path().join("sweep.html");
-    run(&[&["sweep"], &SMALL[..]].concat(), &page);
+    run(&[&["sweep", "--no-cache"], &SMALL[..]].concat(), &page);
     let thresholds = [
         "dist",
         "dist_1d",
@@ -215,7 +216,10 @@ fn browser_draws_heat_maps() {
         "--steps",
         "5",
     ];
-    run(&[&["sweep"], &SMALL[..], &axes[..]].concat(), &page);
+    run(
+        &[&["sweep", "--no-cache"], &SMALL[..], &axes[..]].concat(),
+        &page,
+    );
     let pictures = fs::read_to_string(&page).unwrap().matches("<img").count();
     let charts = ["heat-crossings", "heat-false-hits", "front", "gaps"];
     assert_is_drawn(browser, &page, &charts, pictures);
@@ -227,10 +231,33 @@ fn browser_draws_the_page_of_a_search() {
     let folder = tempfile::tempdir().unwrap();
     let page = folder.path().join("tune.html");
     run(
-        &[&["tune"], &SMALL[..], &["--unseen-count", "50"]].concat(),
+        &[
+            &["tune", "--no-cache"],
+            &SMALL[..],
+            &["--unseen-count", "50"],
+        ]
+        .concat(),
         &page,
     );
     assert_is_drawn(browser, &page, &["front-by-count", "front-by-gap"], 0);
+}
+
+#[test]
+fn browser_draws_a_certificate() {
+    let Some(browser) = browser() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("certificate.html");
+    let program = format!(
+        "cmd:{} eval --subject thesis -",
+        env!("CARGO_BIN_EXE_tunnelproof")
+    );
+    let subjects = ["--subject", "additive,certified", "--subject", &program];
+    run(&[&["certify"], &SMALL[..], &subjects[..]].concat(), &page);
+    let html = fs::read_to_string(&page).unwrap();
+    assert!(!html.contains("<script") && !html.contains("src=\"http"));
+    let pictures = html.matches("<img").count();
+    assert!(pictures >= 4, "{pictures} pictures of witnesses");
+    assert_is_drawn(browser, &page, &[], pictures);
 }
 
 #[test]

@@ -387,7 +387,10 @@ fn certify_json_holds_rows_and_witnesses_that_explain_understands() {
     let results: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
     assert_eq!(results["sources"].as_array().unwrap().len(), 17);
     assert_eq!(results["total"]["queries"], 4012);
-    assert_eq!(results["total"]["disagreements"]["shadow"]["count"], 0);
+    assert_eq!(
+        results["total"]["agreements"]["shadow"]["disagreements"]["count"],
+        0
+    );
     let published = &results["total"]["subjects"][2];
     assert_eq!(published["subject"], "shadow-published");
     let tunnel = &published["faults"]["tunnel"];

@@ -75,7 +75,9 @@ impl Witness {
         match answer.expect(&self.id) {
             Answer::Exact(answer) => answer.hit.map(|hit| hit.toi.below),
             Answer::Engine(report) => report.verdict.contact().map(|contact| contact.toi),
-            Answer::Certified(_) => unreachable!("neither the shadow nor the thesis path"),
+            Answer::Certified(_) | Answer::Said(_) => {
+                unreachable!("neither the shadow nor the thesis path")
+            }
         }
     }
 }

@@ -5,17 +5,21 @@
 //! counted in the order of the queries, so that the result does not depend on the threads.
 //!
 //! [`verdict`] says what one answer is worth, [`tally`] counts, [`run`] does it for a whole
-//! [`source`], [`strict`] says whether the result passes and [`table`] writes it down. How far a
+//! [`source`] or a [`shard`] of it, all of which are the [`findings`], [`strict`] says whether the result passes and [`table`] writes it down. How far a
 //! subject may be off is in [`permitted`] and nowhere else; [`margin`] is its rule for thresholds.
 
 pub mod batch;
+pub mod findings;
+pub mod fingerprint;
 pub mod margin;
 pub mod permitted;
 pub mod run;
+pub mod shard;
 pub mod source;
 pub mod strict;
 pub mod table;
 pub mod tally;
+pub mod trial;
 pub mod verdict;
 
 #[cfg(test)]

@@ -2,20 +2,22 @@
 
 use std::fmt;
 use std::iter;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::slice;
 
 use tunnelproof::narrow::Unsupported;
 use tunnelproof::query::Query;
 
 use crate::answer::ExactAnswer;
-use crate::corpus::{CorpusError, Entries, Entry};
+use crate::corpus::{CorpusError, Entry};
 use crate::oracle;
-use crate::subject::{Answer, Subject};
+use crate::subject::{Answer, Lapse, LapseKind, NoAnswer, Subject};
 
-use super::batch::map_in_order;
-use super::source::Source;
-use super::tally::{Fault, Finding, Sort, Tally, Witness};
-use super::verdict::{Outline, judge};
+use super::batch::map_chunks_in_order;
+use super::fingerprint::Fingerprint;
+use super::shard::Shard;
+use super::source::{Group, Source};
+use super::tally::{Fault, Finding, Sort, Statement, Tally, Witness};
+use super::verdict::{Outline, Verdict, judge};
 
 /// The names of the errata that together make an answer differ from the exact one.
 pub type Explain<'a> = &'a (dyn Fn(&Query, &ExactAnswer) -> Vec<&'static str> + Sync);
@@ -43,6 +45,8 @@ pub struct Panel<'a> {
 pub struct Block {
     /// The name of the source.
     pub name: String,
+    /// A hash of the queries.
+    pub fingerprint: Fingerprint,
     /// How many queries there were.
     pub queries: u64,
     /// How many of them are hits.
@@ -75,12 +79,12 @@ pub struct Agreement {
 pub enum RunError {
     /// The corpus is wrong.
     Corpus(CorpusError),
-    /// A query that the oracle does not take.
-    Unsupported {
+    /// A query that whoever has to answer it does not.
+    NoAnswer {
         /// Where the query comes from.
         place: String,
-        /// Why it is not taken.
-        reason: Unsupported,
+        /// Why there is none.
+        reason: NoAnswer,
     },
 }
 
@@ -88,7 +92,7 @@ impl fmt::Display for RunError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             RunError::Corpus(error) => error.fmt(f),
-            RunError::Unsupported { place, reason } => write!(f, "{place}: {reason}"),
+            RunError::NoAnswer { place, reason } => write!(f, "{place}: {reason}"),
         }
     }
 }
@@ -109,6 +113,20 @@ impl Panel<'_> {
     ///
     /// [`RunError`] for the first query that cannot be read or that the oracle does not take.
     pub fn run(&self, source: &Source, progress: impl Fn(u64)) -> Result<Block, RunError> {
+        self.run_shard(source, Shard::WHOLE, progress)
+    }
+
+    /// Judges every query of a part of a source, as [`run`](Self::run).
+    ///
+    /// # Errors
+    ///
+    /// As [`run`](Self::run).
+    pub fn run_shard(
+        &self,
+        source: &Source,
+        shard: Shard,
+        progress: impl Fn(u64),
+    ) -> Result<Block, RunError> {
         let mut block = Block {
             name: source.name(),
             tallies: vec![Tally::default(); self.subjects.len()],
@@ -116,12 +134,10 @@ impl Panel<'_> {
             ..Block::default()
         };
         let size = source.group_size();
-        let groups = groups(source.entries()?, size);
-        let work = |group: Vec<Entry>| -> Result<Vec<_>, _> {
-            let judged = group.into_iter().map(|entry| self.judge(source, entry));
-            judged.collect()
-        };
-        map_in_order(groups, work, |groups: Vec<Vec<Judgements>>| {
+        let groups = source.groups(shard)?;
+        let groups = groups.map(|group| group.map_err(RunError::from));
+        let work = |groups| self.judge_all(source, groups);
+        map_chunks_in_order(groups, CHUNK, work, |groups: Vec<Vec<Judgements>>| {
             for group in groups {
                 progress(group.len() as u64);
                 if group.len() == size && size > 1 {
@@ -135,26 +151,68 @@ impl Panel<'_> {
         Ok(block)
     }
 
-    fn judge(&self, source: &Source, entry: Entry) -> Result<Judgements, RunError> {
+    /// Judges groups of queries. Each subject that is no judge is asked for all of them at once.
+    fn judge_all(
+        &self,
+        source: &Source,
+        groups: Vec<Group>,
+    ) -> Vec<Result<Vec<Judgements>, RunError>> {
+        let entries = groups.iter().flat_map(|group| &group.entries);
+        let queries: Vec<_> = entries.map(|entry| entry.query).collect();
+        let asked = self.subjects.iter().map(|judged| match judged.subject {
+            judge if self.is_judge(judge) => Vec::new(),
+            subject => ask_all(subject, &queries),
+        });
+        let mut asked: Vec<_> = asked.map(Vec::into_iter).collect();
+        let mut judge = |(place, entry)| {
+            let replies = asked.iter_mut().map(Iterator::next).collect();
+            self.judge(source, place, entry, replies)
+        };
+        let groups = groups.into_iter();
+        groups
+            .map(|group| (group.first..).zip(group.entries).map(&mut judge).collect())
+            .collect()
+    }
+
+    fn is_judge(&self, subject: &dyn Subject) -> bool {
+        let seconds = self.second_judges.iter().map(|judge| judge.name());
+        iter::once(oracle::Oracle.name())
+            .chain(seconds)
+            .any(|name| name == subject.name())
+    }
+
+    /// Judges a query to which the subjects that are no judges gave these replies.
+    fn judge(
+        &self,
+        source: &Source,
+        place: u64,
+        entry: Entry,
+        replies: Vec<Option<Reply>>,
+    ) -> Result<Judgements, RunError> {
         let query = entry.query;
-        let refused = |reason| RunError::Unsupported {
+        let refused = |reason: Unsupported| RunError::NoAnswer {
             place: source.place(&entry),
-            reason,
+            reason: reason.into(),
         };
         let truth = oracle::decide_query(&query).map_err(refused)?;
         let second = self.second(&query);
         // What the judges said need not be asked again.
-        let said = |judged: &Judged| match judged.subject.name() {
-            name if name == oracle::Oracle.name() => Reply::Answer(Answer::Exact(truth)),
-            name => match second {
-                Some((judge, reply)) if self.second_judges[judge].name() == name => reply,
-                _ => ask(judged.subject, &query),
-            },
+        let by_judge = |name: &str| match &second {
+            _ if name == oracle::Oracle.name() => Some(Reply::Answer(Answer::Exact(truth))),
+            Some((judge, reply)) if self.second_judges[*judge].name() == name => {
+                Some(reply.clone())
+            }
+            _ => None,
         };
-        let found = |judged: &Judged| judged.compare(&query, &truth, said(judged));
+        let found = |(judged, reply): (&Judged, Option<Reply>)| {
+            let reply = reply.or_else(|| by_judge(judged.subject.name()));
+            let reply = reply.unwrap_or_else(|| ask(judged.subject, &query));
+            judged.compare(&query, &truth, reply)
+        };
         Ok(Judgements {
-            subjects: self.subjects.iter().map(found).collect(),
+            subjects: self.subjects.iter().zip(replies).map(found).collect(),
             id: source.identifier(&entry),
+            place,
             query,
             label: entry.label,
             truth,
@@ -170,23 +228,13 @@ impl Panel<'_> {
     }
 }
 
-/// The entries in groups of `size`, the last one of what is left.
-fn groups(
-    mut entries: Entries,
-    size: usize,
-) -> impl Iterator<Item = Result<Vec<Entry>, RunError>> + Send {
-    iter::from_fn(move || {
-        let group: Result<Vec<_>, _> = entries.by_ref().take(size).collect();
-        match group {
-            Ok(group) if group.is_empty() => None,
-            group => Some(group.map_err(RunError::from)),
-        }
-    })
-}
+/// How many groups of queries are judged in one go, so that a subject is asked for several at once.
+const CHUNK: usize = 64;
 
 /// A query and all that was said and found about it.
 struct Judgements {
     id: String,
+    place: u64,
     query: Query,
     label: Option<bool>,
     truth: ExactAnswer,
@@ -196,13 +244,24 @@ struct Judgements {
 }
 
 impl Judgements {
-    fn witness(&self, answer: Option<Answer>, severity: f64) -> Witness {
+    fn witness(&self, severity: f64) -> Witness {
         Witness {
             severity,
+            rank: severity,
+            place: self.place,
             id: self.id.clone(),
             query: self.query,
             truth: self.truth,
-            answer,
+            answer: None,
+            lapse: None,
+        }
+    }
+
+    fn witness_of(&self, found: &Found, severity: f64) -> Witness {
+        Witness {
+            answer: found.answer.map(Statement::Answer),
+            lapse: found.lapse.clone(),
+            ..self.witness(severity)
         }
     }
 
@@ -218,6 +277,8 @@ impl Judgements {
 pub struct Found {
     /// What the subject says; `None` for no answer.
     pub answer: Option<Answer>,
+    /// How it fails, if it does.
+    pub lapse: Option<Lapse>,
     /// Whether it takes such queries; if not, nothing is wrong.
     pub is_asked: bool,
     /// Whether it reports a hit.
@@ -234,6 +295,7 @@ impl Found {
     /// Of a subject that does not take such queries.
     const NOT_ASKED: Found = Found {
         answer: None,
+        lapse: None,
         is_asked: false,
         is_hit: false,
         is_miss: false,
@@ -250,10 +312,10 @@ impl Judged<'_> {
     }
 
     fn compare(&self, query: &Query, truth: &ExactAnswer, reply: Reply) -> Found {
-        let answer = match reply {
+        let (answer, lapse) = match reply {
             Reply::NotAsked => return Found::NOT_ASKED,
-            Reply::Answer(answer) => Some(answer),
-            Reply::Nothing => None,
+            Reply::Answer(answer) => (Some(answer), None),
+            Reply::Nothing(lapse) => (None, Some(lapse)),
         };
         let declared = self.subject.declared_distance();
         let judgement = judge(truth, answer.as_ref(), || {
@@ -263,6 +325,7 @@ impl Judged<'_> {
         let explain = self.explain.filter(|_| judgement.differs);
         Found {
             answer,
+            lapse: lapse.or_else(|| no_time(judgement.verdict)),
             is_asked: true,
             is_hit: judgement.is_hit,
             is_miss: judgement.is_miss(),
@@ -274,20 +337,23 @@ impl Judged<'_> {
 
 impl Block {
     fn add(&mut self, case: Judgements) {
-        let witness = |answer, severity| case.witness(answer, severity);
         let hit = case.truth.hit;
         self.queries += 1;
+        self.fingerprint.add(case.place, &case.query);
         self.hits += u64::from(hit.is_some());
         self.crossings += u64::from(hit.is_some_and(|hit| hit.crosses));
         self.labels += u64::from(case.label.is_some());
         if case.label.is_some_and(|label| label != hit.is_some()) {
-            self.wrong_labels.add(witness(None, 0.0));
+            self.wrong_labels.add(case.witness(0.0));
         }
-        if let Some((judge, reply)) = case.second {
-            let agreement = &mut self.agreements[judge];
+        if let Some((judge, reply)) = &case.second {
+            let agreement = &mut self.agreements[*judge];
             agreement.queries += 1;
-            if reply != Reply::Answer(Answer::Exact(case.truth)) {
-                agreement.disagreements.add(witness(reply.answer(), 0.0));
+            if *reply != Reply::Answer(Answer::Exact(case.truth)) {
+                agreement.disagreements.add(Witness {
+                    answer: reply.answer().map(Statement::Answer),
+                    ..case.witness(0.0)
+                });
             }
         }
         for (tally, found) in self.tallies.iter_mut().zip(&case.subjects) {
@@ -298,17 +364,20 @@ impl Block {
                 *tally.refused.entry(sort).or_default() += 1;
             }
             tally.hits += u64::from(found.is_hit);
+            if let Some(lapse) = &found.lapse {
+                *tally.lapses.entry(lapse.kind).or_default() += 1;
+            }
             for &(fault, severity) in &found.faults {
                 let finding = tally.faults.entry(fault).or_default();
-                finding.add(witness(found.answer, severity));
+                finding.add(case.witness_of(found, severity));
             }
             for erratum in &found.errata {
-                let explained = tally.errata.entry(erratum).or_default();
+                let explained = tally.errata.entry((*erratum).to_owned()).or_default();
                 let finding = match found.errata.len() {
                     1 => &mut explained.alone,
                     _ => &mut explained.with_others,
                 };
-                finding.add(witness(found.answer, 0.0));
+                finding.add(case.witness_of(found, 0.0));
             }
         }
     }
@@ -324,7 +393,7 @@ impl Block {
         };
         for (i, tally) in self.tallies.iter_mut().enumerate() {
             if members.iter().all(|member| member.subjects[i].is_miss) {
-                let witness = shown.witness(shown.subjects[i].answer, shown.centrality());
+                let witness = shown.witness_of(&shown.subjects[i], shown.centrality());
                 tally
                     .faults
                     .entry(Fault::JointTunnel)
@@ -336,22 +405,37 @@ impl Block {
 
     /// Adds what was found on a later source.
     pub fn merge(&mut self, later: Block) {
+        self.add_block(later, Finding::merge, Tally::merge);
+    }
+
+    /// Adds what was found on another part of the same source, whichever was first.
+    pub fn join(&mut self, other: Block) {
+        self.add_block(other, Finding::join, Tally::join);
+    }
+
+    fn add_block(
+        &mut self,
+        later: Block,
+        add: fn(&mut Finding, Finding),
+        add_tally: fn(&mut Tally, Tally),
+    ) {
+        self.fingerprint.merge(later.fingerprint);
         self.queries += later.queries;
         self.hits += later.hits;
         self.crossings += later.crossings;
         self.joints += later.joints;
         self.labels += later.labels;
-        self.wrong_labels.merge(later.wrong_labels);
+        add(&mut self.wrong_labels, later.wrong_labels);
         self.agreements
             .resize_with(later.agreements.len(), Agreement::default);
         for (agreement, later) in self.agreements.iter_mut().zip(later.agreements) {
             agreement.queries += later.queries;
-            agreement.disagreements.merge(later.disagreements);
+            add(&mut agreement.disagreements, later.disagreements);
         }
         self.tallies
             .resize_with(later.tallies.len(), Tally::default);
         for (tally, later) in self.tallies.iter_mut().zip(later.tallies) {
-            tally.merge(later);
+            add_tally(tally, later);
         }
     }
 }
@@ -372,32 +456,55 @@ pub fn exact_gap(query: &Query) -> f64 {
     oracle::least_gap(query).below
 }
 
+/// That a time of impact is no time of the step, if that is why an answer is none.
+fn no_time(verdict: Verdict) -> Option<Lapse> {
+    let lapse = || Lapse::new(LapseKind::NoTime, "toi is not a number from 0 to 1");
+    (verdict == Verdict::NoAnswer).then(lapse)
+}
+
 /// What comes of asking a subject.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 enum Reply {
     Answer(Answer),
     /// It does not take such queries.
     NotAsked,
-    /// It panics, or refuses for a reason that is not that of the query.
-    Nothing,
+    /// It takes them and fails.
+    Nothing(Lapse),
 }
 
 impl Reply {
-    fn answer(self) -> Option<Answer> {
+    fn answer(&self) -> Option<Answer> {
         match self {
-            Reply::Answer(answer) => Some(answer),
-            Reply::NotAsked | Reply::Nothing => None,
+            Reply::Answer(answer) => Some(*answer),
+            Reply::NotAsked | Reply::Nothing(_) => None,
         }
     }
 }
 
 fn ask(subject: &dyn Subject, query: &Query) -> Reply {
-    match catch_unwind(AssertUnwindSafe(|| subject.answer(query))) {
-        Ok(Ok(answer)) => Reply::Answer(answer),
-        Ok(Err(refusal)) if is_of_sort(refusal, query) => Reply::NotAsked,
-        Ok(Err(_)) => Reply::Nothing,
-        Err(_) => Reply::Nothing,
-    }
+    let mut replies = ask_all(subject, slice::from_ref(query));
+    replies.remove(0)
+}
+
+fn ask_all(subject: &dyn Subject, queries: &[Query]) -> Vec<Reply> {
+    let answers = subject.answers(queries);
+    assert_eq!(
+        answers.len(),
+        queries.len(),
+        "{} answers each query once",
+        subject.name()
+    );
+    let replies = answers.into_iter().zip(queries);
+    replies
+        .map(|(answer, query)| match answer {
+            Ok(answer) => Reply::Answer(answer),
+            Err(NoAnswer::Lapse(lapse)) => Reply::Nothing(lapse),
+            Err(NoAnswer::Unsupported(reason)) if is_of_sort(reason, query) => Reply::NotAsked,
+            Err(NoAnswer::Unsupported(reason)) => {
+                Reply::Nothing(Lapse::new(LapseKind::Refused, reason.to_string()))
+            }
+        })
+        .collect()
 }
 
 /// Whether what a subject says it does not take is what the query is.

@@ -1,9 +1,14 @@
 //! Where the queries that are judged come from.
 
+use std::sync::Arc;
+
+use tunnelproof::query::Query;
 use tunnelproof::scenario::figures::FIGURES;
 
 use crate::corpus::{self, CorpusError, Entries, Entry, ReadOptions};
 use crate::generate::{Family, GeneratedId};
+
+use super::shard::Shard;
 
 /// A finite sequence of queries with a name.
 #[derive(Clone, Debug)]
@@ -19,6 +24,13 @@ pub enum Source {
         /// How many queries.
         count: u64,
     },
+    /// Queries that are there.
+    Queries {
+        /// What they are called, together.
+        name: String,
+        /// The queries.
+        queries: Arc<[Query]>,
+    },
     /// A corpus.
     File {
         /// Its path, `-` for the standard input.
@@ -28,12 +40,33 @@ pub enum Source {
     },
 }
 
+/// Consecutive queries that belong together ([`Family::group_size`]).
+pub struct Group {
+    /// The place of the first in the source, from 0.
+    pub first: u64,
+    /// The queries.
+    pub entries: Vec<Entry>,
+}
+
+/// Groups of queries. After an error there are no more.
+pub type Groups = Box<dyn Iterator<Item = Result<Group, CorpusError>> + Send>;
+
+fn generated(family: &'static Family, seed: u64, index: u64) -> Entry {
+    let id = GeneratedId {
+        family,
+        seed,
+        index,
+    };
+    Entry::unlabelled(id.to_string(), id.query())
+}
+
 impl Source {
     /// The name used in tables.
     pub fn name(&self) -> String {
         match self {
             Source::Figures => "figures".to_owned(),
             Source::Family { family, .. } => family.name().to_owned(),
+            Source::Queries { name, .. } => name.clone(),
             Source::File { path, .. } => path.clone(),
         }
     }
@@ -43,6 +76,7 @@ impl Source {
         match self {
             Source::Figures => Some(FIGURES.len() as u64),
             Source::Family { count, .. } => Some(*count),
+            Source::Queries { queries, .. } => Some(queries.len() as u64),
             Source::File { .. } => None,
         }
     }
@@ -51,7 +85,7 @@ impl Source {
     pub fn group_size(&self) -> usize {
         match self {
             Source::Family { family, .. } => family.group_size(),
-            Source::Figures | Source::File { .. } => 1,
+            Source::Figures | Source::Queries { .. } | Source::File { .. } => 1,
         }
     }
 
@@ -68,17 +102,51 @@ impl Source {
                 seed,
                 count,
             } => {
-                let ids = (0..count).map(move |index| GeneratedId {
-                    family,
-                    seed,
-                    index,
-                });
-                Ok(Box::new(ids.map(|id| {
-                    Ok(Entry::unlabelled(id.to_string(), id.query()))
-                })))
+                let entries = (0..count).map(move |index| Ok(generated(family, seed, index)));
+                Ok(Box::new(entries))
+            }
+            Source::Queries { name, queries } => {
+                let (name, queries) = (name.clone(), Arc::clone(queries));
+                let entry =
+                    move |index| Entry::unlabelled(format!("-#{name}:{index}"), queries[index]);
+                Ok(Box::new(
+                    (0..self.count().unwrap_or(0) as usize).map(entry).map(Ok),
+                ))
             }
             Source::File { path, options } => corpus::open(path, *options),
         }
+    }
+
+    /// The groups of queries of a part of the source, in their order. Queries of other parts are not made,
+    /// where they need not be read.
+    ///
+    /// # Errors
+    ///
+    /// [`CorpusError`] if a corpus cannot be opened.
+    pub fn groups(&self, shard: Shard) -> Result<Groups, CorpusError> {
+        let size = self.group_size() as u64;
+        if let &Source::Family {
+            family,
+            seed,
+            count,
+        } = self
+        {
+            let firsts = (0..count.div_ceil(size)).filter(move |group| shard.has(*group));
+            return Ok(Box::new(firsts.map(move |group| {
+                let first = group * size;
+                let indices = first..count.min(first + size);
+                let entries = indices.map(|index| generated(family, seed, index));
+                let entries = entries.collect();
+                Ok(Group { first, entries })
+            })));
+        }
+        let places = (0..).zip(self.entries()?);
+        let is_mine =
+            move |(place, entry): &(u64, Result<_, _>)| entry.is_err() || shard.has(*place);
+        Ok(Box::new(places.filter(is_mine).map(|(first, entry)| {
+            let entries = vec![entry?];
+            Ok(Group { first, entries })
+        })))
     }
 
     /// What `explain` knows an entry of this source by.

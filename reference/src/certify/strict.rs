@@ -13,15 +13,23 @@ use super::tally::{Fault, Tally};
 /// differs. A wrong case alone does not fail an engine: it is a way to an answer, not the answer.
 pub fn failures(panel: &Panel, total: &Block) -> Vec<String> {
     let subjects = panel.subjects.iter().zip(&total.tallies);
-    let mut lines: Vec<_> = subjects
-        .filter_map(|(judged, tally)| {
-            let faults: Vec<_> = faults(judged, tally)
-                .chain(refusals(total, tally))
-                .collect();
-            let name = judged.subject.name();
-            (!faults.is_empty()).then(|| format!("{name}: {}", faults.join(", ")))
-        })
-        .collect();
+    let lines = subjects.filter_map(|(judged, tally)| {
+        let failures = failures_of(judged, total, tally);
+        let name = judged.subject.name();
+        (!failures.is_empty()).then(|| format!("{name}: {}", failures.join(", ")))
+    });
+    lines.chain(disagreements(panel, total)).collect()
+}
+
+/// What a subject fails by, of all that was found; none if it passes.
+pub fn failures_of(judged: &Judged, block: &Block, tally: &Tally) -> Vec<String> {
+    let faults = faults(judged, tally);
+    faults.chain(refusals(block, tally)).collect()
+}
+
+/// What judges and labels disagree on with the oracle: a line each.
+pub fn disagreements(panel: &Panel, total: &Block) -> Vec<String> {
+    let mut lines = Vec::new();
     let judges = panel.second_judges.iter().zip(&total.agreements);
     let seconds = judges.map(|(judge, agreement)| {
         let what = format!("oracle and {} disagree", judge.name());
@@ -36,7 +44,7 @@ pub fn failures(panel: &Panel, total: &Block) -> Vec<String> {
     lines
 }
 
-/// Who does not answer does not pass.
+/// Who does not answer each query once does not pass.
 fn refusals(total: &Block, tally: &Tally) -> impl Iterator<Item = String> {
     let refused = tally.refused_of_taken();
     let of_taken = (refused > 0).then(|| {
@@ -47,7 +55,9 @@ fn refusals(total: &Block, tally: &Tally) -> impl Iterator<Item = String> {
     });
     let takes_none = total.queries > 0 && tally.taken.is_empty();
     let none = takes_none.then(|| "takes none of the queries".to_owned());
-    of_taken.into_iter().chain(none)
+    let surplus =
+        (tally.surplus > 0).then(|| format!("{} answers too many", grouped(tally.surplus)));
+    of_taken.into_iter().chain(none).chain(surplus)
 }
 
 fn faults<'a>(judged: &Judged, tally: &'a Tally) -> impl Iterator<Item = String> + use<'a> {

@@ -1,12 +1,15 @@
 //! The result of certification as text.
 
+use super::findings::Findings;
 use super::run::{Block, Panel};
 use super::tally::{Explained, Fault, Finding, Tally, Witness};
 use crate::corpus::Entry;
 use crate::corpus::jsonl::{self, Numbers};
+use crate::field::{self, Integer};
+use crate::program::Conduct;
 
-/// The width of the subjects' names.
-const NAME: usize = 18;
+/// The least and the greatest width of the subjects' names.
+const NAME: [usize; 2] = [18, 48];
 
 /// A column after the subject: two lines of heading, the width, what stands in it.
 type Column = ([&'static str; 2], usize, fn(&Tally) -> String);
@@ -27,17 +30,47 @@ const COLUMNS: [Column; 9] = [
     (["worst", "early"], 10, |tally| worst(tally, Fault::Early)),
 ];
 
+/// All that was found, as text.
+pub fn text(findings: &Findings) -> String {
+    let Findings {
+        panel,
+        settings,
+        total,
+        ..
+    } = findings;
+    let everything = (findings.blocks.len() > 1).then(|| total.clone());
+    let all: Vec<_> = findings.blocks.iter().cloned().chain(everything).collect();
+    let shard = match settings.shard.is_whole() {
+        true => String::new(),
+        false => format!(", shard {}", settings.shard),
+    };
+    let heading = format!(
+        "tunnelproof {}, seed {}, exact arithmetic by {}{shard}",
+        env!("CARGO_PKG_VERSION"),
+        settings.seed,
+        field::Default::BACKEND
+    );
+    [
+        heading,
+        blocks(panel, &all),
+        agreement(panel, total),
+        witnesses(panel, total) + &programs(&findings.programs),
+    ]
+    .join("\n")
+}
+
 /// What was found, a block of lines for each source.
 pub fn blocks(panel: &Panel, blocks: &[Block]) -> String {
+    let width = name_width(panel);
     let mut lines = vec![
-        line("", |(heading, ..)| heading[0].to_owned()),
-        line("subject", |(heading, ..)| heading[1].to_owned()),
+        line(width, "", |(heading, ..)| heading[0].to_owned()),
+        line(width, "subject", |(heading, ..)| heading[1].to_owned()),
     ];
     for block in blocks {
         lines.push(String::new());
         lines.push(heading(block));
         for (judged, tally) in panel.subjects.iter().zip(&block.tallies) {
-            lines.push(row(judged.subject.name(), block, tally));
+            lines.push(row(width, judged.subject.name(), block, tally));
         }
     }
     lines.push(String::new());
@@ -45,20 +78,39 @@ pub fn blocks(panel: &Panel, blocks: &[Block]) -> String {
 }
 
 /// A line of the table: a name, then a cell in each column.
-fn line(name: &str, cell: impl Fn(&Column) -> String) -> String {
+fn line(width: usize, name: &str, cell: impl Fn(&Column) -> String) -> String {
     let cells = COLUMNS
         .iter()
         .map(|column| format!("{:>width$}", cell(column), width = column.1));
-    format!("  {name:<NAME$}{}", cells.collect::<String>())
+    format!("  {:<width$}{}", cut(name), cells.collect::<String>())
+}
+
+/// As wide as the longest name and a blank, so that columns stand below each other.
+fn name_width(panel: &Panel) -> usize {
+    let names = panel.subjects.iter().map(|judged| judged.subject.name());
+    let longest = names.map(|name| cut(name).chars().count() + 1).max();
+    longest.unwrap_or(0).max(NAME[0])
+}
+
+/// A name, or as much of its start as there is room for.
+fn cut(name: &str) -> String {
+    match name.char_indices().nth(NAME[1]) {
+        None => name.to_owned(),
+        Some(_) => name
+            .chars()
+            .take(NAME[1] - 3)
+            .chain("...".chars())
+            .collect(),
+    }
 }
 
 /// The line of a subject, with how many queries it was not asked where it takes only some.
-fn row(name: &str, block: &Block, tally: &Tally) -> String {
+fn row(width: usize, name: &str, block: &Block, tally: &Tally) -> String {
     match tally.not_asked() {
-        0 => line(name, |(.., cell)| cell(tally)),
-        all if all == block.queries => format!("  {name:<NAME$}{:>9}", "not asked"),
+        0 => line(width, name, |(.., cell)| cell(tally)),
+        all if all == block.queries => format!("  {:<width$}{:>9}", cut(name), "not asked"),
         some => {
-            let cells = line(name, |(.., cell)| cell(tally));
+            let cells = line(width, name, |(.., cell)| cell(tally));
             format!("{cells}  (not asked {})", grouped(some))
         }
     }
@@ -101,6 +153,9 @@ pub fn agreement(panel: &Panel, total: &Block) -> String {
         lines.push(joints(panel, total));
     }
     for (judged, tally) in panel.subjects.iter().zip(&total.tallies) {
+        lines.extend(lapses(judged.subject.name(), tally));
+    }
+    for (judged, tally) in panel.subjects.iter().zip(&total.tallies) {
         if tally.errata.is_empty() {
             continue;
         }
@@ -127,6 +182,52 @@ pub fn agreement(panel: &Panel, total: &Block) -> String {
     lines.push(String::new());
     lines.join("\n")
 }
+
+/// In which ways a subject gives no answer, and how often.
+pub fn lapse_counts(tally: &Tally) -> String {
+    let kinds = tally.lapses.iter();
+    let kinds = kinds.map(|(kind, count)| format!("{} {}", grouped(*count), kind.name()));
+    kinds.collect::<Vec<_>>().join(", ")
+}
+
+/// In which ways a subject gives no answer, with the first of them.
+fn lapses(name: &str, tally: &Tally) -> Option<String> {
+    let first = tally.faults.get(&Fault::NoAnswer)?.worst.as_ref()?;
+    let detail = first.lapse.as_ref().map_or("", |lapse| &lapse.detail);
+    Some(format!(
+        "{name} gives no answer to {} queries: {}; first on {}: {detail}",
+        count(tally, Fault::NoAnswer),
+        lapse_counts(tally),
+        first.id,
+    ))
+}
+
+/// What programs did besides answering.
+fn programs(programs: &[(String, Conduct)]) -> String {
+    let mut text = String::new();
+    for (name, conduct) in programs {
+        let times = match conduct.starts {
+            1 => "once".to_owned(),
+            starts => format!("{} times", grouped(starts)),
+        };
+        text += &format!("\n{name} was started {times}");
+        if conduct.surplus > 0 {
+            text += &format!(", and wrote {} answers too many", grouped(conduct.surplus));
+        }
+        text += "\n";
+        if !conduct.stderr.is_empty() {
+            text += "The end of its standard error:\n";
+        }
+        let shown = conduct.stderr.lines().count().saturating_sub(SHOWN);
+        for line in conduct.stderr.lines().skip(shown) {
+            text += &format!("  | {line}\n");
+        }
+    }
+    text
+}
+
+/// How many lines of a program's standard error are shown.
+const SHOWN: usize = 10;
 
 /// Who lets wires tunnel though no single segment's miss looks bad.
 fn joints(panel: &Panel, total: &Block) -> String {
@@ -165,6 +266,7 @@ fn first(finding: &Finding) -> &str {
 
 /// The worst witness of each fault of each subject, with the command that explains it.
 pub fn witnesses(panel: &Panel, total: &Block) -> String {
+    let width = name_width(panel);
     let mut lines = Vec::new();
     for (judged, tally) in panel.subjects.iter().zip(&total.tallies) {
         for (fault, finding) in &tally.faults {
@@ -172,8 +274,8 @@ pub fn witnesses(panel: &Panel, total: &Block) -> String {
                 continue;
             };
             lines.push(format!(
-                "  {:<NAME$}{:<14}{:<15}{}",
-                judged.subject.name(),
+                "  {:<width$}{:<14}{:<15}{}",
+                cut(judged.subject.name()),
                 fault.name(),
                 measure(*fault, witness.severity),
                 command(witness)
@@ -187,7 +289,7 @@ pub fn witnesses(panel: &Panel, total: &Block) -> String {
 }
 
 /// How bad a witness is, in a few letters.
-fn measure(fault: Fault, severity: f64) -> String {
+pub fn measure(fault: Fault, severity: f64) -> String {
     match fault {
         Fault::Tunnel | Fault::JointTunnel | Fault::MissedGraze => format!("central {severity:.2}"),
         Fault::FalseHit => format!("gap {} m", short(severity)),
@@ -212,11 +314,14 @@ pub fn explain_line(entry: &Entry) -> String {
 
 const EXPLAIN: &str = "cargo run --release -- explain";
 
+/// What commands that judge again begin with.
+pub const CERTIFY: &str = "cargo run --release -- certify";
+
 /// What the identifiers of queries begin with that no file holds.
 const STANDARD_INPUT: &str = "-#";
 
 /// A text as one word of a shell.
-fn quoted(text: &str) -> String {
+pub fn quoted(text: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-./:@%+,=".contains(c);
     match text.chars().all(is_plain) {
         true => text.to_owned(),

@@ -1,12 +1,14 @@
 //! What was found: counts, and the worst witness of each kind.
 
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
+use serde_json::Value;
 use tunnelproof::query::{Query, QueryKind};
 
 use crate::answer::ExactAnswer;
 use crate::corpus::Entry;
-use crate::subject::Answer;
+use crate::subject::{Answer, Lapse, LapseKind};
 
 use super::verdict::{Judgement, Outline, Verdict};
 
@@ -37,11 +39,24 @@ pub enum Fault {
     Early,
 }
 
+/// What a subject says of a witness.
+#[derive(Clone, Debug)]
+pub enum Statement {
+    /// The answer.
+    Answer(Answer),
+    /// The answer as results have it that were read from a file.
+    Written(Value),
+}
+
 /// A query that shows a fault.
 #[derive(Clone, Debug)]
 pub struct Witness {
     /// How bad it is, by the measure of its [`Fault`].
     pub severity: f64,
+    /// What it was chosen by among those of its source: the severity, or an estimate of it.
+    pub rank: f64,
+    /// The place of the query in its source, from 0.
+    pub place: u64,
     /// The identifier of the query.
     pub id: String,
     /// The query.
@@ -49,7 +64,9 @@ pub struct Witness {
     /// The exact answer.
     pub truth: ExactAnswer,
     /// What the subject says; `None` for no answer.
-    pub answer: Option<Answer>,
+    pub answer: Option<Statement>,
+    /// How the subject fails, if it does.
+    pub lapse: Option<Lapse>,
 }
 
 /// How often something was found, and its worst witness.
@@ -64,8 +81,10 @@ pub struct Finding {
 /// What a subject may take or not as a whole: queries of a kind, with a radius or without.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Sort {
-    kind: QueryKind,
-    has_radius: bool,
+    /// Their kind.
+    pub kind: QueryKind,
+    /// Whether they have a radius above 0.
+    pub has_radius: bool,
 }
 
 impl Sort {
@@ -87,11 +106,15 @@ pub struct Tally {
     pub taken: BTreeSet<Sort>,
     /// How many hits it reports.
     pub hits: u64,
+    /// In which ways it gives no answer, and how often.
+    pub lapses: BTreeMap<LapseKind, u64>,
+    /// Answers at the end though nothing was asked any more.
+    pub surplus: u64,
     /// What was wrong with its answers.
     pub faults: BTreeMap<Fault, Finding>,
     /// For a subject with known errata: its answers that differ from the exact one, by the erratum
     /// that explains them.
-    pub errata: BTreeMap<&'static str, Explained>,
+    pub errata: BTreeMap<String, Explained>,
 }
 
 /// The answers that one erratum explains.
@@ -189,6 +212,20 @@ impl Finding {
     }
 }
 
+impl Finding {
+    /// Adds what was found on another part of the same source, whichever was first.
+    pub fn join(&mut self, other: Finding) {
+        self.count += other.count;
+        let key = |witness: &Witness| (witness.rank, Reverse(witness.place));
+        let worst = self.worst.as_ref().map(key);
+        if let Some(witness) = other.worst
+            && worst.is_none_or(|worst| key(&witness) > worst)
+        {
+            self.worst = Some(witness);
+        }
+    }
+}
+
 impl Tally {
     /// How often this fault was found.
     pub fn count(&self, fault: Fault) -> u64 {
@@ -215,20 +252,33 @@ impl Tally {
         of_taken.map(|(_, count)| count).sum()
     }
 
-    /// Adds what was found after all that is counted.
+    /// Adds what was found on a later source.
     pub fn merge(&mut self, later: Tally) {
+        self.add(later, Finding::merge);
+    }
+
+    /// Adds what was found on another part of the same source, whichever was first.
+    pub fn join(&mut self, other: Tally) {
+        self.add(other, Finding::join);
+    }
+
+    fn add(&mut self, later: Tally, add: fn(&mut Finding, Finding)) {
         for (sort, count) in later.refused {
             *self.refused.entry(sort).or_default() += count;
         }
         self.taken.extend(later.taken);
         self.hits += later.hits;
+        self.surplus += later.surplus;
+        for (kind, count) in later.lapses {
+            *self.lapses.entry(kind).or_default() += count;
+        }
         for (fault, finding) in later.faults {
-            self.faults.entry(fault).or_default().merge(finding);
+            add(self.faults.entry(fault).or_default(), finding);
         }
         for (erratum, finding) in later.errata {
             let explained = self.errata.entry(erratum).or_default();
-            explained.alone.merge(finding.alone);
-            explained.with_others.merge(finding.with_others);
+            add(&mut explained.alone, finding.alone);
+            add(&mut explained.with_others, finding.with_others);
         }
     }
 }

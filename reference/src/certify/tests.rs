@@ -17,7 +17,7 @@ use crate::corpus::jsonl::{self, Numbers};
 use crate::generate;
 use crate::oracle::{Oracle, decide_query, least_gap};
 use crate::shadow::Shadow;
-use crate::subject::{Answer, Subject};
+use crate::subject::{Answer, LapseKind, NoAnswer, Subject};
 
 const COUNT: u64 = 1500;
 
@@ -48,8 +48,8 @@ impl<L: Fn(&Query, ExactAnswer) -> Result<Report, Unsupported> + Sync> Subject f
         "liar"
     }
 
-    fn answer(&self, query: &Query) -> Result<Answer, Unsupported> {
-        (self.lie)(query, decide_query(query)?).map(Answer::Engine)
+    fn answer(&self, query: &Query) -> Result<Answer, NoAnswer> {
+        Ok(Answer::Engine((self.lie)(query, decide_query(query)?)?))
     }
 
     fn declared_distance(&self) -> f64 {
@@ -272,6 +272,7 @@ fn certify_refusals_of_some_queries_alone_are_found() {
     let (tally, failures) = refuse(|_| Unsupported::Radius(1.0.into()));
     let faults = (tally.not_asked(), tally.count(Fault::NoAnswer));
     assert_eq!(faults, (0, refused));
+    assert_eq!(tally.lapses, [(LapseKind::Refused, refused)].into());
     assert_eq!(
         failures,
         [format!("liar: {refused} queries without answer")]
@@ -288,6 +289,7 @@ fn certify_panics_and_meaningless_numbers_are_no_answers() {
         false => Ok(honest(truth)),
     });
     assert_eq!(panics.count(Fault::NoAnswer), hits);
+    assert_eq!(panics.lapses, [(LapseKind::Panicked, hits)].into());
     assert_eq!(failures, [format!("liar: {hits} queries without answer")]);
     for toi in [f64::NAN, f64::INFINITY, -0.5, 1.5] {
         let (tally, _) = judged(|query, truth| {
@@ -298,6 +300,7 @@ fn certify_panics_and_meaningless_numbers_are_no_answers() {
             Ok(report)
         });
         assert_eq!(tally.count(Fault::NoAnswer), hits, "{toi}");
+        assert_eq!(tally.lapses, [(LapseKind::NoTime, hits)].into());
     }
 }
 
@@ -309,7 +312,7 @@ impl Subject for AlmostExact {
         "almost exact"
     }
 
-    fn answer(&self, query: &Query) -> Result<Answer, Unsupported> {
+    fn answer(&self, query: &Query) -> Result<Answer, NoAnswer> {
         let mut answer = decide_query(query)?;
         if let Some(hit) = answer.hit.as_mut().filter(|_| is_chosen(query)) {
             hit.toi = Enclosure {

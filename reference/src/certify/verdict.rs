@@ -4,7 +4,7 @@ use tunnelproof::certified;
 use tunnelproof::contact::Case;
 
 use crate::answer::{Enclosure, ExactAnswer, ExactHit, Parameters};
-use crate::subject::Answer;
+use crate::subject::{Answer, Said};
 
 /// Hit and miss, right or wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,15 +92,6 @@ pub struct OutlineHit {
     pub centrality: f64,
 }
 
-/// What a subject says, as far as everyone says it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Said {
-    /// Time of impact; `None` for a miss.
-    pub toi: Option<Enclosure>,
-    /// The case of the motion, if it is stated.
-    pub case: Option<Case>,
-}
-
 impl From<&ExactAnswer> for Outline {
     fn from(answer: &ExactAnswer) -> Self {
         Outline {
@@ -152,6 +143,7 @@ pub fn judge(
             let toi = report.verdict.contact();
             (toi.map(|c| Enclosure::exactly(c.toi)), report.case, false)
         }
+        Some(Answer::Said(said)) => (said.toi, said.case, false),
         None => return Judgement::NO_ANSWER,
     };
     Judgement {

@@ -1,25 +1,27 @@
 //! `certify`: subjects judged on files and families against the exact answer.
 
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
+use tunnelproof_reference::certify::findings::{Findings, Settings};
 use tunnelproof_reference::certify::run::{Block, Judged, Panel};
+use tunnelproof_reference::certify::shard::Shard;
 use tunnelproof_reference::certify::source::Source;
-use tunnelproof_reference::certify::strict::failures;
 use tunnelproof_reference::certify::table;
-use tunnelproof_reference::field::{self, Integer};
 use tunnelproof_reference::generate::{FAMILIES, Family};
 use tunnelproof_reference::oracle;
+use tunnelproof_reference::program::Conduct;
 use tunnelproof_reference::registry;
-use tunnelproof_reference::report::results::Results;
+use tunnelproof_reference::report::merge::{Kept, MergeError};
 use tunnelproof_reference::shadow::Shadow;
 use tunnelproof_reference::shrink::{Disagreement, MOST_CALLS};
 use tunnelproof_reference::subject::Subject;
 
-use super::output::{OutputFile, print};
+use super::certificate::Certificate;
+use super::output::print;
 use super::sources::{family, of_families, of_files};
-use super::{Failure, Reading, progress};
+use super::subjects::{Answering, AskedList, Programs, asked_list};
+use super::{Failure, Reading, merge, progress};
 
 /// Judge subjects against the exact answer
 ///
@@ -31,6 +33,8 @@ Examples:
   tunnelproof certify --subject thesis --family lattice --count 1000000 --seed 7
   tunnelproof certify --subject thesis --count 1000 --shrink
   tunnelproof certify --strict --subject oracle,shadow queries.jsonl unit-tests/edge-edge/*.csv
+  tunnelproof certify --subject 'cmd:./my_ccd --flags' --html certificate.html
+  tunnelproof certify --shard 3/8 --json part-3.json queries.jsonl.zst
 
 Without files: the figure cases and every family of edges without radius. With files: these, and the
 families asked for. Families of vertices and faces, and of radii: face_... and thick_...; subjects that do
@@ -44,14 +48,21 @@ pass through a wire at a node and are missed by both of its segments there.
 
 Of the witnesses, \"central\" is 1 if the time and the parameters of the missed contact are in the
 middle of the step and the edges, 0 if they are at the ends; \"gap\" is the least distance during the
-step.")]
+step.
+
+A program is started once for each thread. It reads queries as eval does and writes a line for each, at once:
+{\"hit\": false} or {\"hit\": true, \"toi\": 0.25}. A crash, a hang or garbage is no answer to the query whose
+answer is due, and the program is started again. docs/bring-your-own.md has the rest.")]
 pub(super) struct Certify {
     /// Files of queries (.jsonl or .csv); - is the standard input
     #[arg(value_name = "FILE")]
     files: Vec<String>,
-    /// Who is judged; by default everyone but the slow second judge, difference
-    #[arg(long, value_delimiter = ',', value_parser = super::subject())]
-    subject: Vec<&'static dyn Subject>,
+    /// Who is judged: subjects by their names, cmd: and the command of a program, or lib: and the path of a
+    /// shared library; by default every subject but the slow second judge, difference
+    #[arg(long, value_parser = asked_list)]
+    subject: Vec<AskedList>,
+    #[command(flatten)]
+    programs: Programs,
     /// Families of generated queries; by default all of edges without radius, or none if files are given
     #[arg(long, value_delimiter = ',', value_parser = family())]
     family: Vec<&'static Family>,
@@ -64,15 +75,17 @@ pub(super) struct Certify {
     /// Take the oracle's word without asking the second judge, for long runs of other subjects
     #[arg(long)]
     one_judge: bool,
-    /// Write the whole result to this file, as JSON
-    #[arg(long, value_name = "OUT")]
-    json: Option<PathBuf>,
     /// Also print a shrunk twin of each worst witness
     #[arg(long)]
     shrink: bool,
-    /// Exit with 1 unless every subject passes and all judges and labels agree
-    #[arg(long)]
-    strict: bool,
+    /// Judge part I of N of the queries alone; merge puts the parts together
+    #[arg(long, value_name = "I/N", default_value_t = Shard::WHOLE)]
+    shard: Shard,
+    /// If the file of --json is there and of the same command, take the result from it
+    #[arg(long, requires = "json")]
+    resume: bool,
+    #[command(flatten)]
+    certificate: Certificate,
     #[command(flatten)]
     reading: Reading,
 }
@@ -83,43 +96,98 @@ impl Certify {
         if sources.is_empty() {
             return Err(Failure::Nothing);
         }
-        let json = self.json.as_deref().map(OutputFile::create).transpose()?;
-        let panel = self.panel();
-        let blocks = judge(&panel, &sources)?;
-        let mut total = Block {
-            name: "all".to_owned(),
-            ..Block::default()
-        };
-        blocks.iter().for_each(|block| total.merge(block.clone()));
-        if let Some(file) = json {
-            let results = Results::new(&panel, self.seed, self.count, &blocks, &total);
-            file.write(&results.text())?;
+        let answering = self.answering()?;
+        let settings = self.settings(&answering);
+        if let Some(kept) = self.kept(&settings)? {
+            let findings = kept.findings();
+            self.certificate.prepare()?.write(&findings)?;
+            return Ok(self.certificate.code(&findings));
         }
-        print(&self.text(&panel, &blocks, &total))?;
+        let files = self.certificate.prepare()?;
+        let panel = self.panel(&answering);
+        let blocks = judge(&panel, &sources, self.shard)?;
+        let findings = Findings::new(panel, settings, blocks, finish(&answering));
+        files.write(&findings)?;
         if self.shrink {
-            print(&shrunk_witnesses(&panel, &total))?;
+            print(&shrunk_witnesses(&findings))?;
         }
-        let failures = failures(&panel, &total);
-        if !self.strict || failures.is_empty() {
-            return Ok(ExitCode::SUCCESS);
-        }
-        failures
-            .iter()
-            .for_each(|failure| eprintln!("--strict: {failure}"));
-        Ok(ExitCode::FAILURE)
+        Ok(self.certificate.code(&findings))
     }
 
-    fn panel(&self) -> Panel<'static> {
-        let subjects = match self.subject.is_empty() {
-            true => registry::judged_by_default().collect(),
-            false => self.subject.clone(),
+    /// The result of this command that is there already, if it may be taken.
+    fn kept(&self, settings: &Settings) -> Result<Option<Kept>, Failure> {
+        let path = self.certificate.json.as_deref().filter(|_| self.resume);
+        let Some(path) = path else { return Ok(None) };
+        match merge::read_if_there(path)? {
+            Some(kept) if kept.settings() != settings => {
+                let path = path.display().to_string();
+                Err(Failure::merge(&path, MergeError::Other("command")))
+            }
+            kept => Ok(kept),
+        }
+    }
+
+    /// What is judged, and the command that does it again.
+    fn settings(&self, answering: &[Answering]) -> Settings {
+        let mut words = vec![table::CERTIFY.to_owned()];
+        let mut option = |name: &str, value: String| {
+            words.push(format!("--{name} {}", table::quoted(&value)));
         };
+        if !self.subject.is_empty() {
+            for answering in answering {
+                option("subject", answering.subject().name().to_owned());
+            }
+        }
+        if answering
+            .iter()
+            .any(|answering| answering.program().is_some())
+        {
+            let [wire, limit] = self.programs.values();
+            option("wire", wire);
+            option("time-limit", limit);
+        }
+        if !self.family.is_empty() {
+            let names: Vec<_> = self.family.iter().map(|family| family.name()).collect();
+            option("family", names.join(","));
+        }
+        if self.files.is_empty() || !self.family.is_empty() {
+            option("count", self.count.to_string());
+            option("seed", self.seed.to_string());
+        }
+        if let Some(kind) = self.reading.kind {
+            option("kind", kind.to_string());
+        }
+        if let Some(radius) = self.reading.radius {
+            option("radius", radius.to_string());
+        }
+        words.extend(self.one_judge.then(|| "--one-judge".to_owned()));
+        words.extend(self.files.iter().map(|file| table::quoted(file)));
+        Settings {
+            command: words.join(" "),
+            seed: self.seed,
+            count: self.count,
+            shard: self.shard,
+        }
+    }
+
+    fn answering(&self) -> Result<Vec<Answering>, Failure> {
+        match self.subject.is_empty() {
+            true => Ok(registry::judged_by_default()
+                .map(Answering::Known)
+                .collect()),
+            false => self.programs.start_all(&self.subject),
+        }
+    }
+
+    fn panel<'a>(&self, answering: &'a [Answering]) -> Panel<'a> {
         Panel {
             second_judges: match self.one_judge {
                 true => Vec::new(),
                 false => registry::second_judges().to_vec(),
             },
-            subjects: subjects.into_iter().map(judged).collect(),
+            subjects: (answering.iter().map(Answering::subject))
+                .map(judged)
+                .collect(),
         }
     }
 
@@ -134,31 +202,14 @@ impl Certify {
         let files = of_files(&self.files, &self.reading);
         figures.into_iter().chain(families).chain(files).collect()
     }
-
-    fn text(&self, panel: &Panel, blocks: &[Block], total: &Block) -> String {
-        let everything = (blocks.len() > 1).then(|| total.clone());
-        let blocks: Vec<_> = blocks.iter().cloned().chain(everything).collect();
-        let settings = format!(
-            "tunnelproof {}, seed {}, exact arithmetic by {}",
-            env!("CARGO_PKG_VERSION"),
-            self.seed,
-            field::Default::BACKEND
-        );
-        [
-            settings,
-            table::blocks(panel, &blocks),
-            table::agreement(panel, total),
-            table::witnesses(panel, total),
-        ]
-        .join("\n")
-    }
 }
 
 /// The worst witness of each fault of each subject, shrunk, with the command that explains it. Where a
 /// witness shows a worse fault than the one it is listed under, or one that is permitted, there is none.
-fn shrunk_witnesses(panel: &Panel, total: &Block) -> String {
+fn shrunk_witnesses(findings: &Findings) -> String {
     let mut lines = vec!["\nShrunk:".to_owned()];
-    for (judged, tally) in panel.subjects.iter().zip(&total.tallies) {
+    let subjects = findings.panel.subjects.iter();
+    for (judged, tally) in subjects.zip(&findings.total.tallies) {
         let disagreement = Disagreement {
             subject: judged.subject,
             truth: oracle::decide_query,
@@ -179,7 +230,15 @@ fn shrunk_witnesses(panel: &Panel, total: &Block) -> String {
     lines.join("\n")
 }
 
-pub(super) fn judged(subject: &'static dyn Subject) -> Judged<'static> {
+/// Ends the programs and says what each of them did.
+fn finish(answering: &[Answering]) -> Vec<(String, Conduct)> {
+    let programs = answering.iter().filter_map(Answering::program);
+    programs
+        .map(|program| (program.name().to_owned(), program.finish()))
+        .collect()
+}
+
+pub(super) fn judged(subject: &dyn Subject) -> Judged<'_> {
     let is_published = subject.name() == Shadow::PUBLISHED.name();
     Judged {
         subject,
@@ -188,11 +247,11 @@ pub(super) fn judged(subject: &'static dyn Subject) -> Judged<'static> {
 }
 
 /// Judges every source, with a progress bar on the standard error if that is a terminal.
-fn judge(panel: &Panel, sources: &[Source]) -> Result<Vec<Block>, Failure> {
-    let progress = progress::of_sources(sources);
+fn judge(panel: &Panel, sources: &[Source], shard: Shard) -> Result<Vec<Block>, Failure> {
+    let progress = progress::of_sources(sources, shard);
     let blocks = sources.iter().map(|source| {
         progress.set_message(source.name());
-        Ok(panel.run(source, |judged| progress.inc(judged))?)
+        Ok(panel.run_shard(source, shard, |judged| progress.inc(judged))?)
     });
     let blocks = blocks.collect();
     progress.finish_and_clear();

@@ -4,7 +4,7 @@ use std::io::{self, BufWriter, Write};
 use std::process::ExitCode;
 
 use clap::Args;
-use tunnelproof_reference::certify::batch::map_in_order;
+use tunnelproof_reference::certify::batch::map_chunks_in_order;
 use tunnelproof_reference::certify::run::RunError;
 use tunnelproof_reference::certify::source::Source;
 use tunnelproof_reference::corpus::Entry;
@@ -12,6 +12,7 @@ use tunnelproof_reference::report::answer;
 use tunnelproof_reference::subject::Subject;
 
 use super::output::standard_output;
+use super::subjects::{Asked, Programs, asked};
 use super::{Failure, Reading};
 
 /// Answer every query of files, a line of JSON each
@@ -33,23 +34,28 @@ pub(super) struct Eval {
     /// Files of queries (.jsonl or .csv); - is the standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<String>,
-    /// Who answers
-    #[arg(long, default_value = "oracle", value_parser = super::subject())]
-    subject: &'static dyn Subject,
+    /// Who answers: a subject by its name, cmd: and the command of a program, or lib: and the path of
+    /// a shared library
+    #[arg(long, default_value = "oracle", value_parser = asked)]
+    subject: Asked,
+    #[command(flatten)]
+    programs: Programs,
     #[command(flatten)]
     reading: Reading,
 }
 
 impl Eval {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
+        let answering = self.programs.start(&self.subject)?;
         let mut output = BufWriter::new(io::stdout().lock());
         for path in self.files {
             let options = self.reading.options();
             let source = Source::File { path, options };
             let entries = source.entries()?;
-            map_in_order(
+            map_chunks_in_order(
                 entries.map(|entry| entry.map_err(Failure::from)),
-                |entry| answer_line(self.subject, &source, &entry),
+                CHUNK,
+                |entries| answer_lines(answering.subject(), &source, &entries),
                 |lines: Vec<String>| write_lines(&mut output, &lines),
             )?;
         }
@@ -57,13 +63,26 @@ impl Eval {
     }
 }
 
-fn answer_line(subject: &dyn Subject, source: &Source, entry: &Entry) -> Result<String, Failure> {
-    let answer = subject.answer(&entry.query);
-    let answer = answer.map_err(|reason| RunError::Unsupported {
-        place: source.place(entry),
-        reason,
-    })?;
-    Ok(answer::line(&entry.id, &answer))
+/// How many queries a subject is asked for at once.
+const CHUNK: usize = 64;
+
+fn answer_lines(
+    subject: &dyn Subject,
+    source: &Source,
+    entries: &[Entry],
+) -> Vec<Result<String, Failure>> {
+    let queries: Vec<_> = entries.iter().map(|entry| entry.query).collect();
+    let answers = subject.answers(&queries).into_iter().zip(entries);
+    answers
+        .map(|(answer, entry)| match answer {
+            Ok(answer) => Ok(answer::line(&entry.id, &answer)),
+            Err(reason) => Err(RunError::NoAnswer {
+                place: source.place(entry),
+                reason,
+            }
+            .into()),
+        })
+        .collect()
 }
 
 fn write_lines(output: &mut impl Write, lines: &[String]) -> Result<(), Failure> {

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
+use tunnelproof::narrow::Unsupported;
 use tunnelproof_reference::certify::run::RunError;
 use tunnelproof_reference::corpus::locate::locate;
 use tunnelproof_reference::oracle::decide_query;
@@ -11,6 +12,7 @@ use tunnelproof_reference::registry;
 use tunnelproof_reference::report::{explanation, picture};
 
 use super::output::{OutputFile, print};
+use super::subjects::{Answering, AskedList, Programs, asked_list};
 use super::{Failure, Reading, certify};
 
 /// Explain the exact answer to one query, and what every subject says
@@ -29,6 +31,11 @@ pub(super) struct Explain {
     /// Write a picture to this file
     #[arg(long, value_name = "OUT")]
     svg: Option<PathBuf>,
+    /// More subjects to ask, such as cmd: and the command of a program
+    #[arg(long, value_parser = asked_list)]
+    subject: Vec<AskedList>,
+    #[command(flatten)]
+    programs: Programs,
     #[command(flatten)]
     reading: Reading,
 }
@@ -37,11 +44,15 @@ impl Explain {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
         let entry = locate(&self.query, self.reading.options())?;
         let svg = self.svg.as_deref().map(OutputFile::create).transpose()?;
-        let refused = |reason| {
+        let refused = |reason: Unsupported| {
             let place = self.query.clone();
-            Failure::from(RunError::Unsupported { place, reason })
+            let reason = reason.into();
+            Failure::from(RunError::NoAnswer { place, reason })
         };
-        let subjects = registry::subjects().map(certify::judged);
+        let more = self.programs.start_all(&self.subject)?;
+        let subjects = registry::subjects().into_iter();
+        let subjects = subjects.chain(more.iter().map(Answering::subject));
+        let subjects: Vec<_> = subjects.map(certify::judged).collect();
         let text = explanation::explain(&entry.id, &entry.query, &subjects);
         if let Some(file) = svg {
             let answer = decide_query(&entry.query).map_err(refused)?;

@@ -14,22 +14,25 @@ use clap::{Args, Parser, Subcommand};
 use tunnelproof::query::{QueryKind, Radius};
 use tunnelproof_reference::certify::run::RunError;
 use tunnelproof_reference::corpus::{CorpusError, ReadOptions};
-use tunnelproof_reference::registry;
-use tunnelproof_reference::subject::Subject;
+use tunnelproof_reference::report::merge::MergeError;
 use tunnelproof_reference::sweep::{AxisError, DomainError};
 
 mod axes;
+mod certificate;
 mod certify;
 mod eval;
 mod explain;
 mod gap;
 mod keeping;
+mod lib_host;
+mod merge;
 mod output;
 mod pages;
 mod progress;
 mod replay;
 mod shrink;
 mod sources;
+mod subjects;
 mod sweep;
 mod tune;
 mod vectors;
@@ -49,6 +52,9 @@ pub(crate) struct Cli {
 enum Command {
     Eval(eval::Eval),
     Certify(certify::Certify),
+    Merge(merge::Merge),
+    #[command(hide = true)]
+    LibHost(lib_host::LibHost),
     Explain(explain::Explain),
     Gap(gap::Gap),
     Shrink(shrink::Shrink),
@@ -81,6 +87,20 @@ enum Failure {
         name: String,
         /// Why it cannot be.
         error: io::Error,
+    },
+    /// A program that is to be judged cannot be started.
+    Program {
+        /// What asks for it.
+        name: String,
+        /// Why it cannot be started.
+        reason: String,
+    },
+    /// A result cannot be read or put together with others.
+    Merge {
+        /// The file of the result.
+        path: String,
+        /// What is wrong with it.
+        error: MergeError,
     },
     /// There is nothing to do.
     Nothing,
@@ -122,6 +142,8 @@ impl Cli {
         match self.command {
             Command::Eval(eval) => eval.run(),
             Command::Certify(certify) => certify.run(),
+            Command::Merge(merge) => merge.run(),
+            Command::LibHost(host) => host.run(),
             Command::Explain(explain) => explain.run(),
             Command::Gap(gap) => gap.run(),
             Command::Shrink(shrink) => shrink.run(),
@@ -130,6 +152,13 @@ impl Cli {
             Command::Sweep(sweep) => sweep.run(),
             Command::Tune(tune) => tune.run(),
         }
+    }
+}
+
+impl Failure {
+    fn merge(path: &str, error: MergeError) -> Self {
+        let path = path.to_owned();
+        Failure::Merge { path, error }
     }
 }
 
@@ -153,11 +182,6 @@ fn kind() -> impl TypedValueParser<Value = QueryKind> {
     let kinds = [QueryKind::EdgeEdge, QueryKind::VertexFace];
     PossibleValuesParser::new(kinds.map(QueryKind::name))
         .try_map(|name| QueryKind::from_name(&name).ok_or("unknown kind"))
-}
-
-fn subject() -> impl TypedValueParser<Value = &'static dyn Subject> {
-    PossibleValuesParser::new(registry::subjects().map(Subject::name))
-        .try_map(|name| registry::by_name(&name).ok_or("unknown subject"))
 }
 
 impl From<RunError> for Failure {
@@ -189,6 +213,8 @@ impl fmt::Display for Failure {
         match self {
             Failure::Input(error) => error.fmt(f),
             Failure::Output { name, error } => write!(f, "{name}: cannot be written: {error}"),
+            Failure::Program { name, reason } => write!(f, "{name}: {reason}"),
+            Failure::Merge { path, error } => write!(f, "{path}: {error}"),
             Failure::Nothing => f.write_str("--count 0: no query is left to judge"),
             Failure::Target(path) => {
                 write!(f, "{path}: is in no folder of a fuzz target; pass --target")

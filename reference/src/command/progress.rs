@@ -4,12 +4,13 @@ use std::io::IsTerminal;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
+use tunnelproof_reference::certify::shard::Shard;
 use tunnelproof_reference::certify::source::Source;
 
-/// A bar for the queries of these sources.
-pub(super) fn of_sources(sources: &[Source]) -> ProgressBar {
+/// A bar for the queries of a part of these sources.
+pub(super) fn of_sources(sources: &[Source], shard: Shard) -> ProgressBar {
     match sources.iter().map(Source::count).sum::<Option<u64>>() {
-        Some(count) => of(count),
+        Some(count) => of(count / shard.of()),
         None if is_shown() => ProgressBar::new_spinner(),
         None => ProgressBar::hidden(),
     }
@@ -17,7 +18,7 @@ pub(super) fn of_sources(sources: &[Source]) -> ProgressBar {
 
 /// Reads queries under a bar.
 pub(super) fn reading<T>(sources: &[Source], read: impl FnOnce(&dyn Fn(u64)) -> T) -> T {
-    let bar = of_sources(sources);
+    let bar = of_sources(sources, Shard::WHOLE);
     bar.set_message("reading");
     let read = read(&|queries| bar.inc(queries));
     bar.finish_and_clear();

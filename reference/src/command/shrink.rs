@@ -4,14 +4,15 @@ use std::process::ExitCode;
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use tunnelproof::narrow::Unsupported;
 use tunnelproof_reference::certify::run::RunError;
 use tunnelproof_reference::corpus::locate::locate;
 use tunnelproof_reference::corpus::{self, CorpusError, Entries};
 use tunnelproof_reference::registry;
 use tunnelproof_reference::shrink::{Disagreement, MOST_CALLS, Truth};
-use tunnelproof_reference::subject::Subject;
 
 use super::output::print;
+use super::subjects::{Asked, Programs, asked};
 use super::{Failure, Reading};
 
 /// Find the smallest query on which a subject is wrong in the same way
@@ -34,9 +35,12 @@ pub(super) struct Shrink {
     /// - for the standard input
     #[arg(default_value = "-")]
     query: String,
-    /// Who is wrong
-    #[arg(long, value_parser = super::subject())]
-    subject: &'static dyn Subject,
+    /// Who is wrong: a subject by its name, cmd: and the command of a program, or lib: and the path of
+    /// a shared library
+    #[arg(long, value_parser = asked)]
+    subject: Asked,
+    #[command(flatten)]
+    programs: Programs,
     /// Who is right
     #[arg(long, default_value = "oracle", value_parser = truth())]
     truth: Truth,
@@ -49,15 +53,16 @@ pub(super) struct Shrink {
 
 impl Shrink {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
+        let answering = self.programs.start(&self.subject)?;
         let disagreement = Disagreement {
-            subject: self.subject,
+            subject: answering.subject(),
             truth: self.truth,
         };
         for entry in self.entries()? {
             let entry = entry?;
-            let refused = |reason| RunError::Unsupported {
+            let refused = |reason: Unsupported| RunError::NoAnswer {
                 place: entry.id.clone(),
-                reason,
+                reason: reason.into(),
             };
             let Some(fault) = disagreement.fault(&entry.query).map_err(refused)? else {
                 continue;
@@ -70,7 +75,7 @@ impl Shrink {
         eprintln!(
             "{}: {} is right, there is nothing to shrink",
             self.query,
-            self.subject.name()
+            answering.subject().name()
         );
         Ok(ExitCode::FAILURE)
     }

@@ -1,7 +1,7 @@
 //! Corpora: files of queries, and the identifiers that name a query.
 //!
 //! Read are [`jsonl`], this project's own format, [`csv`], the public CCD query format, and files of test
-//! vectors. The first two stream, so memory does not grow with the file. Input is exact: a coordinate is the
+//! vectors, each also packed by gzip (`.gz`) or zstd (`.zst`). The first two stream, so memory does not grow with the file. Input is exact: a coordinate is the
 //! `f64` that the file states, or the file is refused.
 //!
 //! A query is known by an identifier that [`locate`](locate::locate) resolves:
@@ -32,9 +32,11 @@ pub mod hexfloat;
 pub mod jsonl;
 mod lines;
 pub mod locate;
+mod packed;
 mod vector_file;
 
 use lines::Lines;
+use packed::Packing;
 
 /// A query of a corpus.
 #[derive(Clone, Debug, PartialEq)]
@@ -93,8 +95,10 @@ pub enum Format {
 }
 
 impl Format {
-    /// The format of a file, by its extension: `.jsonl`, `.ndjson` and `.json`, or `.csv`.
+    /// The format of a file, by its extension: `.jsonl`, `.ndjson` and `.json`, or `.csv`; `.gz` or `.zst` may
+    /// follow.
     pub fn of_path(path: &str) -> Option<Self> {
+        let (_, path) = Packing::of_path(path);
         let extension = Path::new(path).extension()?.to_str()?;
         match extension.to_ascii_lowercase().as_str() {
             "jsonl" | "ndjson" | "json" => Some(Format::Jsonl),
@@ -131,7 +135,8 @@ pub fn open(path: &str, options: ReadOptions) -> Result<Entries, CorpusError> {
         return Err(refuse(Problem::Io(io::ErrorKind::IsADirectory.into())));
     }
     let format = Format::of_path(path).ok_or_else(|| refuse(Problem::Extension))?;
-    read(BufReader::new(file), path, Some(format), options)
+    let (packing, _) = Packing::of_path(path);
+    read(packing.unpack(file), path, Some(format), options)
 }
 
 /// Reads a corpus that is called `path` from anywhere. Without a format, the first line tells it.

@@ -11,7 +11,6 @@
 //! fractions before and after it, not by derivatives. The two know nothing of each other.
 
 use tunnelproof::contact::{Case, ContactKind, Flags};
-use tunnelproof::narrow::Unsupported;
 use tunnelproof::query::{Query, QueryKind};
 
 use crate::algebraic::Algebraic;
@@ -19,7 +18,7 @@ use crate::answer::{ExactAnswer, ExactHit};
 use crate::field::{self, Integer};
 use crate::poly::Poly;
 use crate::scaled::Scaled;
-use crate::subject::{Answer, Subject};
+use crate::subject::{Answer, NoAnswer, Subject};
 
 mod crossing;
 mod part;
@@ -37,7 +36,7 @@ impl Subject for Difference {
         "difference"
     }
 
-    fn answer(&self, query: &Query) -> Result<Answer, Unsupported> {
+    fn answer(&self, query: &Query) -> Result<Answer, NoAnswer> {
         Ok(Answer::Exact(decide::<field::Default>(query)))
     }
 }

@@ -27,7 +27,7 @@ use crate::algebraic::Algebraic;
 use crate::answer::{ExactAnswer, ExactHit};
 use crate::field::{self, Integer};
 use crate::scaled::Scaled;
-use crate::subject::{Answer, Subject};
+use crate::subject::{Answer, NoAnswer, Subject};
 
 mod confined;
 mod edges;
@@ -64,8 +64,8 @@ impl Subject for Oracle {
         "oracle"
     }
 
-    fn answer(&self, query: &Query) -> Result<Answer, Unsupported> {
-        decide_query(query).map(Answer::Exact)
+    fn answer(&self, query: &Query) -> Result<Answer, NoAnswer> {
+        Ok(Answer::Exact(decide_query(query)?))
     }
 }
 

@@ -22,11 +22,11 @@
 
 use serde::Serialize;
 use tunnelproof::certified;
-use tunnelproof::contact::{Contact, ContactPoint, Flags, Verdict};
+use tunnelproof::contact::{Case, Contact, ContactPoint, Flags, Verdict};
 use tunnelproof::narrow::Report;
 
 use crate::answer::{Enclosure, ExactAnswer, ExactHit, Parameters};
-use crate::subject::Answer;
+use crate::subject::{Answer, Said};
 
 /// The answer to the query called `id`, without the line end.
 ///
@@ -99,6 +99,7 @@ impl Fields {
             Answer::Exact(exact) => Self::exact(exact),
             Answer::Certified(verdict) => Self::certified(verdict),
             Answer::Engine(report) => Self::engine(report),
+            Answer::Said(said) => Self::said(said),
         }
     }
 
@@ -184,6 +185,15 @@ impl Fields {
             overlap: second.map(Place::from),
             points: points.map(|at| at.point.into()).collect(),
             normal: first.normal.map(Into::into),
+            ..Self::miss()
+        }
+    }
+
+    fn said(said: &Said) -> Self {
+        Fields {
+            hit: said.toi.is_some(),
+            toi: said.toi.map(Bounds::from),
+            case: said.case.map(Case::name),
             ..Self::miss()
         }
     }

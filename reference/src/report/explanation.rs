@@ -282,7 +282,10 @@ fn verdicts(text: &mut String, subjects: &[Judged], query: &Query, truth: &Exact
 fn claim(found: &Found) -> String {
     match &found.answer {
         None if !found.is_asked => "not asked".to_owned(),
-        None => "no answer".to_owned(),
+        None => match &found.lapse {
+            Some(lapse) => format!("no answer ({lapse})"),
+            None => "no answer".to_owned(),
+        },
         Some(Answer::Exact(exact)) => match exact.hit {
             None => format!("miss ({})", exact.case),
             Some(hit) => format!("hit at {} ({})", hit.toi, exact.case),
@@ -298,14 +301,19 @@ fn claim(found: &Found) -> String {
             }
         },
         Some(Answer::Engine(report)) => {
-            let case = report
-                .case
-                .map_or(String::new(), |case| format!(" ({case})"));
-            match report.verdict.contact() {
-                None => format!("miss{case}"),
-                Some(contact) => format!("hit at {}{case}", number::short(contact.toi)),
-            }
+            let toi = report.verdict.contact().map(|contact| contact.toi);
+            in_words(toi.map(number::short), report.case)
         }
+        Some(Answer::Said(said)) => in_words(said.toi.map(|toi| toi.to_string()), said.case),
+    }
+}
+
+/// A hit at this time, or a miss.
+fn in_words(toi: Option<String>, case: Option<Case>) -> String {
+    let case = case.map_or(String::new(), |case| format!(" ({case})"));
+    match toi {
+        None => format!("miss{case}"),
+        Some(toi) => format!("hit at {toi}{case}"),
     }
 }
 

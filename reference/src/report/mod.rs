@@ -3,7 +3,9 @@
 pub mod answer;
 mod caption;
 pub mod explanation;
+pub mod junit;
 mod labels;
+pub mod merge;
 mod number;
 pub mod page;
 pub mod picture;

@@ -1,131 +1,195 @@
-//! The result of certification as JSON.
+//! The result of certification as JSON. [`super::merge`] reads it again, and puts parts together.
 //!
 //! | field | meaning |
 //! | --- | --- |
 //! | `version`, `arithmetic` | of this crate; the backend of the exact numbers |
+//! | `command` | that judges all of it again |
 //! | `seed`, `count` | of the families |
+//! | `shard` | which part of the queries this is, `1/1` for all |
 //! | `second_judges` | the first of them that takes a query has to agree with the oracle |
 //! | `permitted` | the tolerances that `failures` goes by |
 //! | `sources` | what was found on each source, in the order of the table |
 //! | `total` | the same over all of them |
 //! | `failures` | what fails; empty if everything passes |
+//! | `programs` | of subjects that are programs: `subject`, `starts` (how often it was started), `surplus` (answers at the end that nobody asked for), the end of its `stderr` |
 //!
-//! A source has `name`, `queries`, `hits`, `crossings`, `joints` (pairs of consecutive segments of a
-//! wire that is passed), `labels`, the findings `wrong_labels` and
-//! `disagreements` (oracle against each second judge, by its name), and `subjects`. A subject has
-//! `subject`, `not_asked` (queries that it does not take), `hits` (that it reports), `faults`, a finding by name, and `errata`, by the erratum that explains
-//! an answer two findings, `alone` and `with_others`. A finding has `count` and `worst`, its worst witness: `severity`, `id`,
+//! `reference/schema/certificate.json` is its JSON schema.
+//!
+//! A source has `name`, `fingerprint` ([`crate::certify::fingerprint`]), `queries`, `hits`, `crossings`, `joints` (pairs of consecutive segments of a
+//! wire that is passed), `labels`, the findings `wrong_labels`, `agreements` (oracle against each second judge, by its name: how many `queries` it was asked, and the finding
+//! `disagreements`), and `subjects`. A subject has
+//! `subject`, `declared_distance`, `taken` and `refused` (sorts of queries: `kind`, `has_radius`, of those refused how many `queries`), `hits` (that it reports), `lapses` (in which ways it
+//! gives no answer, and how often), `faults`, a finding by name, and `errata`, by the erratum that explains
+//! an answer two findings, `alone` and `with_others`. A finding has `count` and `worst`, its worst witness: `severity`, `rank` (what it was chosen by), `place` (of the query in its source, from 0), `id`,
 //! the `command` that explains it, the `query` with decimal and with hexadecimal numbers
 //! ([`crate::corpus::jsonl`] reads both), `truth` and `answer` ([`super::answer`]; `null` for no
-//! answer). `severity` is the gap of a false hit in metres, the difference of a late or early time
+//! answer), and `lapse`, how the subject failed, if it did: `kind` and `detail`. `severity` is the gap of a false hit in metres, the difference of a late or early time
 //! of impact, and for missed contacts how far time and place are from their ends
 //! ([`crate::certify::tally`]).
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
-use serde_json::Value;
+use serde::{Deserialize, Deserializer, Serialize};
+use serde_json::{Value, json};
 
+use crate::certify::findings::Findings;
 use crate::certify::permitted::{PERMITTED, Permitted};
-use crate::certify::run::{Block, Panel};
+use crate::certify::run::{Block, Judged, Panel};
 use crate::certify::strict::failures;
 use crate::certify::table::command;
-use crate::certify::tally::{Explained, Fault, Finding, Tally, Witness};
+use crate::certify::tally::{Explained, Fault, Finding, Sort, Statement, Tally, Witness};
 use crate::corpus::jsonl::{self, Numbers};
 use crate::field::{self, Integer};
 
 use super::answer::Fields;
 
 /// The result of certification.
-#[derive(Serialize)]
-pub struct Results<'a> {
-    version: &'static str,
-    arithmetic: &'static str,
-    seed: u64,
-    count: u64,
-    second_judges: Vec<&'a str>,
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Results {
+    pub(super) version: String,
+    pub(super) arithmetic: String,
+    pub(super) command: String,
+    pub(super) seed: u64,
+    pub(super) count: u64,
+    pub(super) shard: String,
+    pub(super) second_judges: Vec<String>,
     permitted: Vec<PermittedRow>,
-    sources: Vec<Source<'a>>,
-    total: Source<'a>,
+    pub(super) sources: Vec<SourceRow>,
+    total: SourceRow,
     failures: Vec<String>,
+    pub(super) programs: Vec<ProgramRow>,
 }
 
-#[derive(Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct ProgramRow {
+    pub(super) subject: String,
+    pub(super) starts: u64,
+    pub(super) surplus: u64,
+    pub(super) stderr: String,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct PermittedRow {
-    subject: &'static str,
+    subject: String,
     distance: f64,
     late: f64,
-    source: &'static str,
+    source: String,
 }
 
-#[derive(Serialize)]
-struct Source<'a> {
-    name: &'a str,
-    queries: u64,
-    hits: u64,
-    crossings: u64,
-    joints: u64,
-    labels: u64,
-    wrong_labels: Found<'a>,
-    disagreements: BTreeMap<&'a str, Found<'a>>,
-    subjects: Vec<Subject<'a>>,
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct SourceRow {
+    pub(super) name: String,
+    pub(super) fingerprint: String,
+    pub(super) queries: u64,
+    pub(super) hits: u64,
+    pub(super) crossings: u64,
+    pub(super) joints: u64,
+    pub(super) labels: u64,
+    pub(super) wrong_labels: FindingRow,
+    pub(super) agreements: BTreeMap<String, AgreementRow>,
+    pub(super) subjects: Vec<SubjectRow>,
 }
 
-#[derive(Serialize)]
-struct Subject<'a> {
-    subject: &'a str,
-    not_asked: u64,
-    hits: u64,
-    faults: BTreeMap<&'static str, Found<'a>>,
-    errata: BTreeMap<&'a str, ExplainedFields<'a>>,
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct AgreementRow {
+    pub(super) queries: u64,
+    pub(super) disagreements: FindingRow,
 }
 
-#[derive(Serialize)]
-struct Found<'a> {
-    count: u64,
-    worst: Option<WitnessFields<'a>>,
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct SubjectRow {
+    pub(super) subject: String,
+    pub(super) declared_distance: f64,
+    pub(super) taken: Vec<SortRow>,
+    pub(super) refused: Vec<RefusedRow>,
+    pub(super) hits: u64,
+    pub(super) lapses: BTreeMap<String, u64>,
+    pub(super) faults: BTreeMap<String, FindingRow>,
+    pub(super) errata: BTreeMap<String, ExplainedRow>,
 }
 
-#[derive(Serialize)]
-struct ExplainedFields<'a> {
-    alone: Found<'a>,
-    with_others: Found<'a>,
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct SortRow {
+    pub(super) kind: String,
+    pub(super) has_radius: bool,
 }
 
-#[derive(Serialize)]
-struct WitnessFields<'a> {
-    severity: f64,
-    id: &'a str,
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct RefusedRow {
+    #[serde(flatten)]
+    pub(super) sort: SortRow,
+    pub(super) queries: u64,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct FindingRow {
+    pub(super) count: u64,
+    pub(super) worst: Option<WitnessRow>,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct ExplainedRow {
+    pub(super) alone: FindingRow,
+    pub(super) with_others: FindingRow,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct WitnessRow {
+    #[serde(deserialize_with = "infinite_if_null")]
+    pub(super) severity: f64,
+    #[serde(deserialize_with = "infinite_if_null")]
+    pub(super) rank: f64,
+    pub(super) place: u64,
+    pub(super) id: String,
     command: String,
     query: Value,
-    query_hexadecimal: Value,
-    truth: Fields,
-    answer: Option<Fields>,
+    pub(super) query_hexadecimal: Value,
+    truth: Value,
+    pub(super) answer: Option<Value>,
+    pub(super) lapse: Option<LapseRow>,
 }
 
-impl<'a> Results<'a> {
-    /// The result of judging families of `count` queries of `seed`, and other sources.
-    pub fn new(
-        panel: &Panel<'a>,
-        seed: u64,
-        count: u64,
-        blocks: &'a [Block],
-        total: &'a Block,
-    ) -> Self {
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct LapseRow {
+    pub(super) kind: String,
+    pub(super) detail: String,
+}
+
+/// JSON has no infinity: it is written as `null`.
+fn infinite_if_null<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Option::deserialize(deserializer).map(|number| number.unwrap_or(f64::INFINITY))
+}
+
+impl Results {
+    /// The result of a certification.
+    pub fn new(findings: &Findings) -> Self {
+        let Findings {
+            panel,
+            settings,
+            blocks,
+            total,
+            programs,
+        } = findings;
+        let judges = panel.second_judges.iter();
+        let programs = programs.iter().map(|(subject, conduct)| ProgramRow {
+            subject: subject.clone(),
+            starts: conduct.starts,
+            surplus: conduct.surplus,
+            stderr: conduct.stderr.clone(),
+        });
         Results {
-            version: env!("CARGO_PKG_VERSION"),
-            arithmetic: field::Default::BACKEND,
-            seed,
-            count,
-            second_judges: panel
-                .second_judges
-                .iter()
-                .map(|judge| judge.name())
-                .collect(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            arithmetic: field::Default::BACKEND.to_owned(),
+            command: settings.command.clone(),
+            seed: settings.seed,
+            count: settings.count,
+            shard: settings.shard.to_string(),
+            second_judges: judges.map(|judge| judge.name().to_owned()).collect(),
             permitted: PERMITTED.iter().map(PermittedRow::from).collect(),
             sources: blocks.iter().map(|block| source(panel, block)).collect(),
             total: source(panel, total),
             failures: failures(panel, total),
+            programs: programs.collect(),
         }
     }
 
@@ -136,102 +200,132 @@ impl<'a> Results<'a> {
     }
 }
 
-fn source<'a>(panel: &Panel<'a>, block: &'a Block) -> Source<'a> {
+fn source(panel: &Panel, block: &Block) -> SourceRow {
     let subjects = panel.subjects.iter().zip(&block.tallies);
-    let judges = panel.second_judges.iter();
-    Source {
-        name: &block.name,
+    let judges = panel.second_judges.iter().zip(&block.agreements);
+    let agreements = judges.map(|(judge, agreement)| {
+        let row = AgreementRow {
+            queries: agreement.queries,
+            disagreements: (&agreement.disagreements).into(),
+        };
+        (judge.name().to_owned(), row)
+    });
+    SourceRow {
+        name: block.name.clone(),
+        fingerprint: block.fingerprint.to_string(),
         queries: block.queries,
         hits: block.hits,
         crossings: block.crossings,
         joints: block.joints,
         labels: block.labels,
         wrong_labels: (&block.wrong_labels).into(),
-        disagreements: (judges.zip(&block.agreements))
-            .map(|(judge, agreement)| (judge.name(), (&agreement.disagreements).into()))
-            .collect(),
+        agreements: agreements.collect(),
         subjects: subjects
-            .map(|(judged, tally)| subject(judged.subject.name(), tally))
+            .map(|(judged, tally)| subject(judged, tally))
             .collect(),
     }
 }
 
-fn subject<'a>(name: &'a str, tally: &'a Tally) -> Subject<'a> {
+fn subject(judged: &Judged, tally: &Tally) -> SubjectRow {
     let found = |fault| {
-        let nothing = Found {
+        let nothing = FindingRow {
             count: 0,
             worst: None,
         };
-        tally.faults.get(&fault).map_or(nothing, Found::from)
+        tally.faults.get(&fault).map_or(nothing, FindingRow::from)
     };
-    Subject {
-        subject: name,
-        not_asked: tally.not_asked(),
+    let refused = tally.refused.iter().map(|(sort, queries)| RefusedRow {
+        sort: sort.into(),
+        queries: *queries,
+    });
+    let lapses = tally.lapses.iter();
+    let errata = tally.errata.iter();
+    SubjectRow {
+        subject: judged.subject.name().to_owned(),
+        declared_distance: judged.subject.declared_distance(),
+        taken: tally.taken.iter().map(SortRow::from).collect(),
+        refused: refused.collect(),
         hits: tally.hits,
+        lapses: lapses
+            .map(|(kind, count)| (kind.name().to_owned(), *count))
+            .collect(),
         faults: Fault::ALL
             .into_iter()
-            .map(|fault| (fault.name(), found(fault)))
+            .map(|fault| (fault.name().to_owned(), found(fault)))
             .collect(),
-        errata: tally
-            .errata
-            .iter()
-            .map(|(&erratum, explained)| (erratum, explained.into()))
+        errata: errata
+            .map(|(erratum, explained)| (erratum.clone(), explained.into()))
             .collect(),
+    }
+}
+
+/// What a subject says, as JSON.
+pub(super) fn written(answer: &Statement) -> Value {
+    match answer {
+        Statement::Answer(answer) => json!(Fields::new(answer)),
+        Statement::Written(answer) => answer.clone(),
+    }
+}
+
+impl From<&Sort> for SortRow {
+    fn from(sort: &Sort) -> Self {
+        SortRow {
+            kind: sort.kind.name().to_owned(),
+            has_radius: sort.has_radius,
+        }
     }
 }
 
 impl From<&Permitted> for PermittedRow {
-    fn from(
-        &Permitted {
-            subject,
-            distance,
-            late,
-            borders: _,
-            source,
-        }: &Permitted,
-    ) -> Self {
+    fn from(permitted: &Permitted) -> Self {
         PermittedRow {
-            subject,
-            distance,
-            late,
-            source,
+            subject: permitted.subject.to_owned(),
+            distance: permitted.distance,
+            late: permitted.late,
+            source: permitted.source.to_owned(),
         }
     }
 }
 
-impl<'a> From<&'a Finding> for Found<'a> {
-    fn from(finding: &'a Finding) -> Self {
-        Found {
+impl From<&Finding> for FindingRow {
+    fn from(finding: &Finding) -> Self {
+        FindingRow {
             count: finding.count,
-            worst: finding.worst.as_ref().map(WitnessFields::from),
+            worst: finding.worst.as_ref().map(WitnessRow::from),
         }
     }
 }
 
-impl<'a> From<&'a Explained> for ExplainedFields<'a> {
-    fn from(explained: &'a Explained) -> Self {
-        ExplainedFields {
+impl From<&Explained> for ExplainedRow {
+    fn from(explained: &Explained) -> Self {
+        ExplainedRow {
             alone: (&explained.alone).into(),
             with_others: (&explained.with_others).into(),
         }
     }
 }
 
-impl<'a> From<&'a Witness> for WitnessFields<'a> {
-    fn from(witness: &'a Witness) -> Self {
+impl From<&Witness> for WitnessRow {
+    fn from(witness: &Witness) -> Self {
         let entry = witness.entry();
         let query = |numbers| {
             let line = jsonl::write(&entry, numbers);
             serde_json::from_str(&line).expect("a query is written as JSON")
         };
-        WitnessFields {
+        WitnessRow {
             severity: witness.severity,
-            id: &witness.id,
+            rank: witness.rank,
+            place: witness.place,
+            id: witness.id.clone(),
             command: command(witness),
             query: query(Numbers::Decimal),
             query_hexadecimal: query(Numbers::Hexadecimal),
-            truth: Fields::exact(&witness.truth),
-            answer: witness.answer.as_ref().map(Fields::new),
+            truth: json!(Fields::exact(&witness.truth)),
+            answer: witness.answer.as_ref().map(written),
+            lapse: witness.lapse.as_ref().map(|lapse| LapseRow {
+                kind: lapse.kind.name().to_owned(),
+                detail: lapse.detail.clone(),
+            }),
         }
     }
 }

@@ -26,7 +26,7 @@ use crate::algebraic::Algebraic;
 use crate::answer::{ExactAnswer, ExactHit};
 use crate::field::{self, Integer};
 use crate::scaled::Scaled;
-use crate::subject::{Answer, Subject};
+use crate::subject::{Answer, NoAnswer, Subject};
 
 mod configuration;
 mod detect;
@@ -93,8 +93,8 @@ impl Subject for Shadow {
         }
     }
 
-    fn answer(&self, query: &Query) -> Result<Answer, Unsupported> {
-        self.decide(query).map(Answer::Exact)
+    fn answer(&self, query: &Query) -> Result<Answer, NoAnswer> {
+        Ok(Answer::Exact(self.decide(query)?))
     }
 }
 

@@ -12,9 +12,10 @@ use crate::certify::batch::map_in_order;
 use crate::certify::run::RunError;
 use crate::certify::source::Source;
 use crate::certify::tally::Fault;
-use crate::certify::verdict::{Outline, Said, judge_outline};
+use crate::certify::verdict::{Outline, judge_outline};
 use crate::corpus::{CorpusError, Entry, Problem};
 use crate::oracle;
+use crate::subject::Said;
 
 use super::container::Key;
 use super::domain::Domain;
@@ -282,9 +283,9 @@ fn lock<T>(value: Option<T>) -> OnceLock<T> {
 /// The query of an entry in the domain.
 fn in_domain(domain: &Domain, source: &Source, entry: &Entry) -> Result<EdgeEdge, RunError> {
     let place = source.place(entry);
-    let refuse = |reason| RunError::Unsupported {
+    let refuse = |reason: Unsupported| RunError::NoAnswer {
         place: source.place(entry),
-        reason,
+        reason: reason.into(),
     };
     match &entry.query {
         Query::VertexFace(_) => Err(refuse(Unsupported::Kind(entry.query.kind()))),

@@ -6,7 +6,7 @@ use tunnelproof::thesis::general::handle_general_case;
 use tunnelproof::thesis::{Motion, Options, Threshold, Thresholds};
 
 use crate::answer::Enclosure;
-use crate::certify::verdict::Said;
+use crate::subject::Said;
 
 /// A value for each threshold of table 3.1, in the order of [`Threshold::ALL`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

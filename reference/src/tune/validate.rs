@@ -5,7 +5,7 @@ use tunnelproof::certified;
 use tunnelproof::query::EdgeEdge;
 
 use crate::answer::Enclosure;
-use crate::certify::verdict::Said;
+use crate::subject::Said;
 use crate::sweep::{Interrupted, Sample, Setting, Watch};
 
 use super::advise::Advice;

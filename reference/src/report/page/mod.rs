@@ -13,11 +13,13 @@ use super::picture;
 use super::prices::Prices;
 use super::tuning::{Priced, Tuning};
 
+mod certificate;
 mod chart;
 mod figures;
 #[cfg(test)]
 mod tests;
 
+pub use certificate::certificate;
 pub use figures::{Figure, of_search, of_sweep};
 
 /// The page of a sweep, with its charts and pictures of the worst witnesses.

@@ -210,12 +210,12 @@ fn subject_refuses_what_it_does_not_take() {
     let shadow = Shadow::REPAIRED;
     assert_eq!(
         shadow.answer(&face),
-        Err(Unsupported::Kind(QueryKind::VertexFace))
+        Err(Unsupported::Kind(QueryKind::VertexFace).into())
     );
     let wide = EdgeEdge::new(start, end, 0.5).unwrap();
     assert_eq!(
         shadow.answer(&Query::EdgeEdge(wide)),
-        Err(Unsupported::Radius(0.5.into()))
+        Err(Unsupported::Radius(0.5.into()).into())
     );
     let answer = shadow.answer(&Query::EdgeEdge(edges));
     let expected = edge_edge::<BigInt>(&edges, Repairs::ALL);

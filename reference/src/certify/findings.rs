@@ -1,0 +1,63 @@
+//! All that was found, and of what.
+
+use crate::program::Conduct;
+
+use super::run::{Block, Panel};
+use super::shard::Shard;
+
+/// What was judged, by whom, and what came of it.
+pub struct Findings<'a> {
+    /// Who judged and who was judged.
+    pub panel: Panel<'a>,
+    /// What they were judged on.
+    pub settings: Settings,
+    /// What was found on each source.
+    pub blocks: Vec<Block>,
+    /// The same over all of them.
+    pub total: Block,
+    /// What the subjects that are programs did besides answering, by their names.
+    pub programs: Vec<(String, Conduct)>,
+}
+
+/// What is judged.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// The command that judges all of it again.
+    pub command: String,
+    /// The seed of the families.
+    pub seed: u64,
+    /// How many queries of each family.
+    pub count: u64,
+    /// Which part of the queries was judged.
+    pub shard: Shard,
+}
+
+impl<'a> Findings<'a> {
+    /// What was found on each source, and on all of them together.
+    pub fn new(
+        panel: Panel<'a>,
+        settings: Settings,
+        blocks: Vec<Block>,
+        programs: Vec<(String, Conduct)>,
+    ) -> Self {
+        let mut total = Block {
+            name: "all".to_owned(),
+            ..Block::default()
+        };
+        blocks.iter().for_each(|block| total.merge(block.clone()));
+        let subjects = panel.subjects.iter().zip(&mut total.tallies);
+        for (judged, tally) in subjects {
+            let own = programs
+                .iter()
+                .find(|(name, _)| name == judged.subject.name());
+            tally.surplus = own.map_or(0, |(_, conduct)| conduct.surplus);
+        }
+        Findings {
+            panel,
+            settings,
+            blocks,
+            total,
+            programs,
+        }
+    }
+}

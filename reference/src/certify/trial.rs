@@ -1,0 +1,179 @@
+//! Certification from a test of one's own.
+
+use std::sync::Arc;
+
+use tunnelproof::narrow::NarrowPhase;
+use tunnelproof::query::Query;
+
+use crate::generate::{FAMILIES, Family};
+use crate::subject::Engine;
+
+use super::findings::{Findings, Settings};
+use super::run::{Judged, Panel, RunError};
+use super::shard::Shard;
+use super::source::Source;
+use super::strict::failures;
+use super::table;
+
+/// Judges an engine against the exact answer: a thousand queries of seed 1 of every family of edges without
+/// radius, unless something else is asked for.
+///
+/// ```
+/// use tunnelproof::certified::Certified;
+///
+/// tunnelproof_reference::certify(Certified).count(100).assert_passes();
+/// ```
+///
+/// An engine of one's own implements [`NarrowPhase`], which has an example.
+pub fn certify<N: NarrowPhase>(engine: N) -> Trial<N> {
+    Trial {
+        engine,
+        sources: Vec::new(),
+        families: FAMILIES.iter().collect(),
+        count: 1000,
+        seed: 1,
+    }
+}
+
+/// An engine that is to be judged, and on what.
+pub struct Trial<N> {
+    engine: N,
+    sources: Vec<Source>,
+    families: Vec<&'static Family>,
+    count: u64,
+    seed: u64,
+}
+
+/// What came of a trial.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// What the engine fails by; empty if it passes. [`failures`] says what fails.
+    pub failures: Vec<String>,
+    /// What was found, as `certify` prints it, with the worst witness of each kind.
+    pub text: String,
+}
+
+impl<N: NarrowPhase> Trial<N> {
+    /// Judges so many queries of each family.
+    pub fn count(mut self, count: u64) -> Self {
+        self.count = count;
+        self
+    }
+
+    /// Judges the queries of this seed.
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
+    }
+
+    /// Judges these families alone; [`generate::by_name`](crate::generate::by_name) finds them.
+    pub fn families(mut self, families: impl IntoIterator<Item = &'static Family>) -> Self {
+        self.families = families.into_iter().collect();
+        self
+    }
+
+    /// Judges these queries as well, under this name.
+    pub fn queries(mut self, name: &str, queries: impl IntoIterator<Item = Query>) -> Self {
+        self.sources.push(Source::Queries {
+            name: name.to_owned(),
+            queries: queries.into_iter().collect::<Arc<[_]>>(),
+        });
+        self
+    }
+
+    /// Judges the engine.
+    ///
+    /// # Errors
+    ///
+    /// [`RunError`] for the first query that the oracle does not take.
+    pub fn run(self) -> Result<Outcome, RunError> {
+        let subject = Engine(self.engine);
+        let panel = Panel {
+            second_judges: Vec::new(),
+            subjects: vec![Judged {
+                subject: &subject,
+                explain: None,
+            }],
+        };
+        let (seed, count) = (self.seed, self.count);
+        let families = self.families.into_iter().map(|family| Source::Family {
+            family,
+            seed,
+            count,
+        });
+        let sources = families.chain(self.sources);
+        let blocks = sources.map(|source| panel.run(&source, |_| {}));
+        let blocks = blocks.collect::<Result<_, _>>()?;
+        let settings = Settings {
+            command: String::new(),
+            seed,
+            count,
+            shard: Shard::WHOLE,
+        };
+        let findings = Findings::new(panel, settings, blocks, Vec::new());
+        Ok(Outcome {
+            failures: failures(&findings.panel, &findings.total),
+            text: table::text(&findings),
+        })
+    }
+
+    /// Judges the engine, and panics with all that was found unless it passes.
+    ///
+    /// # Panics
+    ///
+    /// If it does not pass.
+    pub fn assert_passes(self) {
+        let outcome = self.run().expect("the oracle takes every query");
+        let failures = outcome.failures.join("\n");
+        assert!(failures.is_empty(), "{}\n{failures}", outcome.text);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tunnelproof::additive::Additive;
+    use tunnelproof::certified::Certified;
+
+    use super::*;
+    use crate::generate::by_name;
+
+    fn slow() -> &'static Family {
+        by_name("slow").unwrap()
+    }
+
+    #[test]
+    fn trial_of_an_engine_that_is_right_passes() {
+        let trial = certify(Certified).families([slow()]).count(50).seed(3);
+        let queries = (0..7).map(|index| slow().query(9, index));
+        let outcome = trial.queries("mine", queries).run().unwrap();
+        assert_eq!(outcome.failures, [""; 0]);
+        assert!(
+            outcome.text.contains("\nmine: 7 queries, "),
+            "{}",
+            outcome.text
+        );
+        assert!(
+            outcome.text.contains("\nall: 57 queries, "),
+            "{}",
+            outcome.text
+        );
+    }
+
+    #[test]
+    fn trial_of_an_engine_that_is_wrong_fails() {
+        let trial = || certify(Additive::default()).families([slow()]).count(50);
+        let outcome = trial().run().unwrap();
+        let [failure] = &outcome.failures[..] else {
+            panic!("{:?}", outcome.failures)
+        };
+        assert!(failure.starts_with("additive: ") && failure.contains(" tunnels"));
+        assert!(outcome.text.contains("explain slow:1:"), "{}", outcome.text);
+        let panic = std::panic::catch_unwind(|| trial().assert_passes()).unwrap_err();
+        assert!(
+            panic
+                .downcast_ref::<String>()
+                .unwrap()
+                .contains(failure.as_str())
+        );
+    }
+}

@@ -1,0 +1,169 @@
+//! Who answers: subjects of the registry, and programs of the user.
+
+use std::process;
+use std::time::Duration;
+
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use tunnelproof_reference::program::wire::Wire;
+use tunnelproof_reference::program::{self, Command, Program};
+use tunnelproof_reference::registry;
+use tunnelproof_reference::subject::Subject;
+
+use super::Failure;
+
+/// A subject that is asked for.
+#[derive(Clone)]
+pub(super) enum Asked {
+    Known(&'static dyn Subject),
+    /// A program, by the text that asks for it: `cmd:` and a command, or `lib:` and the path of a library.
+    Program(String),
+}
+
+/// Several of them, separated by commas. A command has commas of its own: it ends the list.
+#[derive(Clone)]
+pub(super) struct AskedList(Vec<Asked>);
+
+/// How programs are asked.
+#[derive(Args)]
+pub(super) struct Programs {
+    /// How a program reads queries and writes answers
+    #[arg(long, value_name = "FORM", default_value = "lines", value_parser = wire())]
+    wire: Wire,
+    /// How long a program may take for an answer, in seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = program::TIME_LIMIT.as_secs_f64(), value_parser = seconds)]
+    time_limit: f64,
+}
+
+/// A subject that answers.
+pub(super) enum Answering {
+    Known(&'static dyn Subject),
+    Program(Box<Program>),
+}
+
+/// What the name of a program starts with.
+const COMMAND: &str = "cmd:";
+
+/// What the name of a shared library starts with. It is one more program: this one, with the library in it.
+const LIBRARY: &str = "lib:";
+
+/// The command of a process that hosts a library, which is seen to have what it needs.
+fn hosted(path: &str, time_limit: Duration) -> Result<Command, String> {
+    let own = std::env::current_exe().map_err(|error| error.to_string())?;
+    let own = own.to_string_lossy().into_owned();
+    let check = process::Command::new(&own)
+        .args(["lib-host", "--check", path])
+        .output();
+    let check = check.map_err(|error| error.to_string())?;
+    if !check.status.success() {
+        let message = String::from_utf8_lossy(&check.stderr);
+        let message = message.trim().strip_prefix(path).unwrap_or(message.trim());
+        let message = message.trim_start_matches(": ");
+        return Err(match message.is_empty() {
+            true => format!("loading it ended with {}", check.status),
+            false => message.replace('\n', " "),
+        });
+    }
+    Ok(Command {
+        words: [own, "lib-host".to_owned(), path.to_owned()].to_vec(),
+        wire: Wire::Binary,
+        time_limit,
+    })
+}
+
+impl Programs {
+    /// Starts the subject, if it is a program.
+    pub(super) fn start(&self, asked: &Asked) -> Result<Answering, Failure> {
+        let name = match asked {
+            Asked::Known(subject) => return Ok(Answering::Known(*subject)),
+            Asked::Program(name) => name,
+        };
+        let failure = |reason: String| Failure::Program {
+            name: name.clone(),
+            reason,
+        };
+        let limit = Duration::from_secs_f64(self.time_limit);
+        let command = match name.strip_prefix(LIBRARY) {
+            Some(path) => hosted(path, limit),
+            None => {
+                let text = name.strip_prefix(COMMAND).unwrap_or(name);
+                Command::parse(text, self.wire, limit).map_err(|error| error.to_string())
+            }
+        };
+        let command = command.map_err(failure)?;
+        let program = Program::start(name, command);
+        let program = program.map_err(|error| failure(format!("cannot be started: {error}")))?;
+        Ok(Answering::Program(Box::new(program)))
+    }
+
+    /// The values of the options, to be written.
+    pub(super) fn values(&self) -> [String; 2] {
+        [self.wire.name().to_owned(), self.time_limit.to_string()]
+    }
+
+    /// Starts all of them.
+    pub(super) fn start_all(&self, lists: &[AskedList]) -> Result<Vec<Answering>, Failure> {
+        let asked = lists.iter().flat_map(|AskedList(list)| list);
+        asked.map(|asked| self.start(asked)).collect()
+    }
+}
+
+impl Answering {
+    pub(super) fn subject(&self) -> &dyn Subject {
+        match self {
+            Answering::Known(subject) => *subject,
+            Answering::Program(program) => program.as_ref(),
+        }
+    }
+
+    /// The program, if it is one.
+    pub(super) fn program(&self) -> Option<&Program> {
+        match self {
+            Answering::Known(_) => None,
+            Answering::Program(program) => Some(program),
+        }
+    }
+}
+
+fn is_program(text: &str) -> bool {
+    text.starts_with(COMMAND) || text.starts_with(LIBRARY)
+}
+
+/// Reads the name of a subject, or a command.
+pub(super) fn asked(text: &str) -> Result<Asked, String> {
+    if is_program(text) {
+        return Ok(Asked::Program(text.to_owned()));
+    }
+    registry::by_name(text).map(Asked::Known).ok_or_else(|| {
+        let names = registry::subjects().map(|subject| subject.name().to_owned());
+        let names = names.join(", ");
+        format!("no such subject; there are {names}, {COMMAND}COMMAND and {LIBRARY}PATH")
+    })
+}
+
+/// Reads a list of them.
+pub(super) fn asked_list(text: &str) -> Result<AskedList, String> {
+    let mut list = Vec::new();
+    let mut rest = Some(text);
+    while let Some(text) = rest {
+        let (first, more) = match text.split_once(',') {
+            Some((first, more)) if !is_program(text) => (first, Some(more)),
+            _ => (text, None),
+        };
+        list.push(asked(first)?);
+        rest = more;
+    }
+    Ok(AskedList(list))
+}
+
+fn wire() -> impl TypedValueParser<Value = Wire> {
+    PossibleValuesParser::new(Wire::ALL.map(Wire::name))
+        .try_map(|name| Wire::from_name(&name).ok_or("unknown form"))
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds > 0.0 && seconds <= 86_400.0 => Ok(seconds),
+        _ => Err("not a number above 0, of at most 86400".to_owned()),
+    }
+}

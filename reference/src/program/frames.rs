@@ -1,0 +1,90 @@
+//! Queries and answers as frames of bytes, little-endian, for speed.
+//!
+//! A frame is a `u32`, the length of what follows in bytes, then that.
+//!
+//! | query, 224 bytes | | answer, 24 bytes | |
+//! | --- | --- | --- | --- |
+//! | 0 | `u64` number of the query | 0 | `u64` the same number |
+//! | 8 | `u32` kind: 0 edge-edge, 1 vertex-face | 8 | `u32` 0 miss, 1 hit, 2 not supported |
+//! | 12 | `u32` 0 | 12 | `u32` 0 |
+//! | 16 | `f64` two radii, whose exact sum is meant | 16 | `f64` toi of a hit |
+//! | 32 | `f64` A B C D at `t = 0`, then at `t = 1`, each x y z | | |
+
+use std::io::{self, BufRead, Read};
+
+use tunnelproof::query::{Query, QueryKind};
+
+use crate::answer::Enclosure;
+use crate::subject::Said;
+
+use super::wire::{Message, Reply};
+
+/// The bytes of a query, without those of the length.
+pub const QUERY: usize = 224;
+/// The bytes of an answer, without those of the length.
+pub const ANSWER: usize = 24;
+
+pub(super) fn write(id: u64, query: &Query, bytes: &mut Vec<u8>) {
+    let kind: u32 = match query.kind() {
+        QueryKind::EdgeEdge => 0,
+        QueryKind::VertexFace => 1,
+    };
+    bytes.extend((QUERY as u32).to_le_bytes());
+    bytes.extend(id.to_le_bytes());
+    bytes.extend(kind.to_le_bytes());
+    bytes.extend(0u32.to_le_bytes());
+    let points = query.start().iter().chain(query.end());
+    let coordinates = points.flat_map(|point| <[f64; 3]>::from(*point));
+    let numbers = query.radius().parts().into_iter().chain(coordinates);
+    bytes.extend(numbers.flat_map(f64::to_le_bytes));
+}
+
+/// What follows the next length. The start of it, if it is cut off or has another length than an answer.
+pub(super) fn read(reader: &mut impl BufRead) -> io::Result<Option<Vec<u8>>> {
+    let mut length = Vec::new();
+    reader.by_ref().take(4).read_to_end(&mut length)?;
+    let Ok(bytes) = <[u8; 4]>::try_from(length.as_slice()) else {
+        return Ok((!length.is_empty()).then_some(length));
+    };
+    let length = u32::from_le_bytes(bytes) as usize;
+    if length != ANSWER {
+        return Ok(Some(bytes.to_vec()));
+    }
+    let mut frame = Vec::with_capacity(ANSWER);
+    reader
+        .by_ref()
+        .take(ANSWER as u64)
+        .read_to_end(&mut frame)?;
+    Ok(Some(frame))
+}
+
+/// What a frame says, or what is wrong with it.
+pub(super) fn parse(frame: &[u8]) -> Result<Message, String> {
+    let Ok(frame) = <[u8; ANSWER]>::try_from(frame) else {
+        return Err(format!(
+            "not a frame of {ANSWER} bytes: starts with {:02x?}",
+            &frame[..frame.len().min(8)]
+        ));
+    };
+    let [id, verdict, toi] = [0, 8, 16].map(|at| word(&frame, at));
+    let reply = match verdict {
+        0 => Reply::Said(Said::default()),
+        1 => Reply::Said(Said {
+            toi: Some(Enclosure::exactly(f64::from_bits(toi))),
+            case: None,
+        }),
+        2 => Reply::Unsupported,
+        other => return Err(format!("the verdict is {other}, not 0, 1 or 2")),
+    };
+    let id = Some(id);
+    Ok(Message { id, reply })
+}
+
+/// The eight bytes from here. Those of a verdict are its four and the four that are 0.
+fn word(frame: &[u8; ANSWER], at: usize) -> u64 {
+    let bytes = &frame[at..at + 8];
+    bytes
+        .iter()
+        .rev()
+        .fold(0, |word, byte| word << 8 | u64::from(*byte))
+}

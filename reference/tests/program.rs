@@ -1,0 +1,233 @@
+//! Programs as subjects, from outside: `certify --subject cmd:...`.
+
+#![cfg(unix)]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+const TUNNELPROOF: &str = env!("CARGO_BIN_EXE_tunnelproof");
+
+/// What a program does, each time that it is started, on its 40th query.
+const MISDEEDS: [&str; 6] = ["crash", "hang", "half a line", "nan", "garbage", "wrong id"];
+
+/// It answers 39 queries, always with a miss, and then misbehaves in the next way. Starts are counted in the
+/// file `$1`. After NaN it goes on for one more query, and then ends.
+const ADVERSARY: &str = r#"
+echo start >> "$1"
+way=$(( ($(wc -l < "$1") - 1) % 6 ))
+n=0
+while read -r line; do
+  n=$((n + 1))
+  if [ $n = 41 ]; then exit 3; fi
+  if [ $n != 40 ]; then echo '{"hit": false}'; continue; fi
+  case $way in
+    0) echo "about to crash" >&2; kill -ABRT $$;;
+    1) sleep 3600;;
+    2) printf '{"hit": fal'; exit 0;;
+    3) echo '{"hit": true, "toi": NaN}';;
+    4) echo 'Loading model...';;
+    5) echo '{"id": "1000000", "hit": false}';;
+  esac
+done
+"#;
+
+fn tunnelproof(arguments: &[&str]) -> Output {
+    Command::new(TUNNELPROOF).args(arguments).output().unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// How often each lapse is due: the misdeeds in their order, for as many queries as there are.
+fn expected_lapses(queries: u64) -> BTreeMap<String, u64> {
+    let names = [
+        "crashed",
+        "hung",
+        "unreadable",
+        "no time",
+        "unreadable",
+        "misplaced",
+    ];
+    let mut lapses = BTreeMap::new();
+    let mut asked = 0;
+    for way in (0..names.len()).cycle() {
+        for (due, name) in [(40, names[way]), (1, "crashed")] {
+            if due == 1 && MISDEEDS[way] != "nan" {
+                continue;
+            }
+            asked += due;
+            if asked > queries {
+                return lapses;
+            }
+            *lapses.entry(name.to_owned()).or_default() += 1;
+        }
+    }
+    lapses
+}
+
+#[test]
+fn certify_adversary_is_judged_to_the_end_with_every_query_accounted_for() {
+    const QUERIES: u64 = 500;
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    fs::write(path("adversary.sh"), ADVERSARY).unwrap();
+    let subject = format!("cmd:sh {} {}", path("adversary.sh"), path("starts"));
+    let json = path("result.json");
+    let output = tunnelproof(&[
+        "certify",
+        "--threads",
+        "1",
+        "--strict",
+        "--family",
+        "lattice",
+        "--count",
+        &QUERIES.to_string(),
+        "--time-limit",
+        "4",
+        "--subject",
+        &subject,
+        "--json",
+        &json,
+    ]);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    let result: Value = serde_json::from_str(&fs::read_to_string(json).unwrap()).unwrap();
+    let total = &result["total"];
+    let subject = &total["subjects"][0];
+    let lapses: BTreeMap<String, u64> = serde_json::from_value(subject["lapses"].clone()).unwrap();
+    assert_eq!(lapses, expected_lapses(QUERIES));
+    let count = |fault: &str| subject["faults"][fault]["count"].as_u64().unwrap();
+    let missing: u64 = lapses.values().sum();
+    assert_eq!(count("no answer"), missing);
+    assert_eq!(total["queries"], QUERIES);
+    // Every answer is a miss: hits that are neither missed nor without answer there are none.
+    let hits = total["hits"].as_u64().unwrap();
+    let missed = count("tunnel") + count("missed graze");
+    assert!(
+        missed <= hits && missed + missing >= hits,
+        "{missed} of {hits}"
+    );
+    assert_eq!((count("false hit"), subject["hits"].as_u64()), (0, Some(0)));
+    let program = &result["programs"][0];
+    let starts = fs::read_to_string(path("starts")).unwrap().lines().count();
+    assert_eq!(program["starts"], starts);
+    assert!(
+        program["stderr"]
+            .as_str()
+            .unwrap()
+            .contains("about to crash\n")
+    );
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("  | about to crash\n"), "{text}");
+    let said = format!("gives no answer to {missing} queries: ");
+    assert!(text.contains(&said), "{text}");
+}
+
+#[test]
+fn certify_answers_that_nobody_asked_for_are_counted_at_the_end() {
+    let script = r#"while read -r line; do echo '{"hit": false}'; done; echo '{"hit": false}'"#;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("talker.sh");
+    fs::write(&path, script).unwrap();
+    let subject = format!("cmd:sh {}", path.display());
+    let arguments = ["--threads", "1", "--strict", "--family", "uniform"];
+    let counted = ["--count", "70", "--subject", &subject];
+    let output = tunnelproof(&[&["certify"], &arguments[..], &counted[..]].concat());
+    assert_eq!(output.status.code(), Some(1));
+    let message = stderr(&output);
+    assert!(message.contains(", 1 answers too many"), "{message}");
+    assert!(!message.contains("without answer"), "{message}");
+}
+
+#[test]
+fn certify_of_eval_as_a_program_is_that_of_its_subject() {
+    let oracle = format!("cmd:{TUNNELPROOF} eval -");
+    let additive = format!("cmd:{TUNNELPROOF} eval --subject additive -");
+    let folder = tempfile::tempdir().unwrap();
+    let result = |subjects: [&str; 2]| -> Value {
+        let json = folder.path().join("result.json");
+        let json = json.to_str().unwrap();
+        let [first, second] = subjects;
+        let output = tunnelproof(&[
+            "certify",
+            "--family",
+            "lattice,slow,grazing",
+            "--count",
+            "700",
+            "--subject",
+            first,
+            "--subject",
+            second,
+            "--json",
+            json,
+        ]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        serde_json::from_str(&fs::read_to_string(json).unwrap()).unwrap()
+    };
+    let [ours, theirs] = [result(["oracle", "additive"]), result([&oracle, &additive])];
+    let faults = &ours["total"]["subjects"][1]["faults"];
+    assert!(faults["tunnel"]["count"] != 0 && faults["early"]["count"] != 0);
+    for subject in 0..2 {
+        let [ours, theirs] = [&ours, &theirs].map(|result| &result["total"]["subjects"][subject]);
+        assert_eq!(ours["hits"], theirs["hits"]);
+        for (fault, finding) in ours["faults"].as_object().unwrap() {
+            let other = &theirs["faults"][fault];
+            assert_eq!(finding["count"], other["count"], "{fault}");
+            assert_eq!(finding["worst"]["id"], other["worst"]["id"], "{fault}");
+        }
+    }
+}
+
+#[test]
+fn programs_answer_wherever_a_subject_is_asked_for() {
+    let thesis = format!("cmd:{TUNNELPROOF} eval --subject thesis -");
+    let shrunk = tunnelproof(&["shrink", "--subject", &thesis, "lattice:1:2552"]);
+    assert!(stderr(&shrunk).contains("tunnel: "), "{}", stderr(&shrunk));
+    let explained = tunnelproof(&["explain", "--subject", &thesis, "lattice:1:2552"]);
+    let text = String::from_utf8(explained.stdout).unwrap();
+    let line = text.lines().find(|line| line.contains("cmd:")).unwrap();
+    assert!(line.ends_with("tunnel"), "{text}");
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("a.jsonl");
+    fs::write(&file, shrunk.stdout).unwrap();
+    let file = file.to_str().unwrap();
+    let eval = |subject: &str| tunnelproof(&["eval", "--subject", subject, file]).stdout;
+    let answer: Value = serde_json::from_slice(&eval(&thesis)).unwrap();
+    let own: Value = serde_json::from_slice(&eval("thesis")).unwrap();
+    assert_eq!(
+        (&answer["hit"], &answer["case"]),
+        (&own["hit"], &own["case"])
+    );
+}
+
+#[test]
+fn programs_that_cannot_be_started_are_refused() {
+    for (subject, what) in [
+        ("cmd:./no-such-program --flag", "cannot be started: "),
+        ("cmd: ", "names no program"),
+        ("cmd:a 'b", "has a quote that is not closed"),
+    ] {
+        let output = tunnelproof(&["certify", "--count", "5", "--subject", subject]);
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(
+            message.starts_with(&format!("{subject}: {what}")),
+            "{message}"
+        );
+        assert_eq!(message.lines().count(), 1, "{message}");
+    }
+    let output = tunnelproof(&["certify", "--subject", "oracle,nobody"]);
+    assert!(
+        stderr(&output).contains("no such subject"),
+        "{}",
+        stderr(&output)
+    );
+}
