@@ -46,11 +46,15 @@ pub(super) struct Swept {
     pub(super) residual: f64,
 }
 
-/// Contact impulses for the system as factored, starting from those of the step before. `free` is the
-/// solution without contacts.
-pub(super) fn sweep(world: &World, system: &System, contacts: &[Contact], free: &[f64]) -> Swept {
-    let start = |contact: &Contact| world.warm.impulse(contact.key);
-    let mut blocks = Blocks::new(world, system, contacts, free, contacts.iter().map(start));
+/// Contact impulses for the system as factored, from a start on. `free` is the solution without contacts.
+pub(super) fn sweep(
+    world: &World,
+    system: &System,
+    contacts: &[Contact],
+    free: &[f64],
+    start: &[Vector],
+) -> Swept {
+    let mut blocks = Blocks::new(world, system, contacts, free, start);
     let mut swept = Swept::default();
     while swept.sweeps < world.settings.sweeps {
         swept.residual = blocks.relax();
@@ -80,7 +84,7 @@ pub(super) fn lack(
     free: &[f64],
     impulses: &[Vector],
 ) -> f64 {
-    Blocks::new(world, system, contacts, free, impulses.iter().copied()).relax()
+    Blocks::new(world, system, contacts, free, impulses).relax()
 }
 
 /// All contacts, and what their impulses sum up to.
@@ -96,11 +100,11 @@ impl Blocks {
         system: &System,
         contacts: &[Contact],
         free: &[f64],
-        impulses: impl Iterator<Item = Vector>,
+        impulses: &[Vector],
     ) -> Self {
         let mut z = vec![0.0; free.len()];
         let list = contacts.iter().zip(impulses).map(|(contact, impulse)| {
-            let block = Block::new(world, system, contact, free, &impulse);
+            let block = Block::new(world, system, contact, free, impulse);
             block.push(&block.impulse, &mut z);
             block
         });

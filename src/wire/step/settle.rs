@@ -6,6 +6,7 @@ use super::error::Reason;
 use super::friction::{Swept, lack, sweep};
 use super::slack::{contradict, pull};
 use super::system::System;
+use crate::wire::Vector;
 use crate::wire::model::World;
 use crate::wire::record::{Phases, SolverRecord};
 
@@ -35,7 +36,10 @@ impl World {
         let mut clock = Clock::start();
         system.factor()?;
         phases.factor += clock.lap();
-        let mut candidate = self.solve(system, contacts, phases)?;
+        let start = contacts
+            .iter()
+            .map(|contact| self.warm.impulse(contact.key));
+        let mut candidate = self.solve(system, contacts, &start.collect::<Vec<_>>(), phases)?;
         let mut tries = 1;
         for round in 1..=ROUNDS {
             if !contradict(&system.rows, &candidate.x) {
@@ -46,7 +50,8 @@ impl World {
             phases.factor += clock.lap();
             tries += pulled.tries;
             if round < ROUNDS && !contacts.is_empty() {
-                candidate = self.solve(system, contacts, phases)?;
+                let impulses = candidate.swept.impulses;
+                candidate = self.solve(system, contacts, &impulses, phases)?;
                 continue;
             }
             (candidate.x, candidate.solver.residual) = (pulled.x, pulled.residual);
@@ -62,11 +67,12 @@ impl World {
         Ok(candidate)
     }
 
-    /// The solution with the rows as they were factored.
+    /// The solution with the rows as they were factored, with contact impulses from a start on.
     fn solve(
         &self,
         system: &System,
         contacts: &[Contact],
+        start: &[Vector],
         phases: &mut Phases,
     ) -> Result<Candidate, Reason> {
         let mut clock = Clock::start();
@@ -74,7 +80,7 @@ impl World {
         phases.solve += clock.lap();
         let mut swept = Swept::default();
         if !contacts.is_empty() {
-            swept = sweep(self, system, contacts, &x);
+            swept = sweep(self, system, contacts, &x, start);
             (x, residual) = system.solve(&swept.columns)?;
             phases.contacts += clock.lap();
         }
