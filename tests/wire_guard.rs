@@ -249,6 +249,21 @@ fn guard_commits_no_motion_in_which_midlines_meet() {
     assert!(tally.prevented > 0 && tally.held > 0 && tally.remeshed > 0 && tally.refused > 0);
 }
 
+/// Scenes in which steps were once refused: chains whose segments pull in turns, and one that threw a coordinate to
+/// infinity.
+#[test]
+fn guard_does_every_step_of_scenes_that_were_hard() {
+    for seed in [72, 1066, 3243, 9114] {
+        let mut tally = Tally::default();
+        let method = [Method::SweepAndPrune, Method::HierarchicalGrid][seed as usize % 2];
+        let mut collisions = Collisions::new(Mode::Guard, method, &Certified);
+        tally.scene(scene(seed), &mut collisions);
+        println!("seed {seed}: {tally:?}");
+        assert_eq!(tally.steps, STEPS, "seed {seed}: {tally:?}");
+        assert_eq!((tally.met, tally.met_remeshing), (0, 0), "seed {seed}");
+    }
+}
+
 /// The certified path, but every so many hits it says miss.
 struct Careless {
     every: u64,

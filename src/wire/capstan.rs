@@ -8,6 +8,7 @@
 
 use super::Vector;
 use super::model::{NodeKind, Wire, WireId, World};
+use super::solve::bisect;
 
 /// A wire that slid over a contact node.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -142,22 +143,6 @@ fn slide_of_node(wire: &Wire, node: usize) -> f64 {
         })
     } else {
         0.0
-    }
-}
-
-/// Where, between 0 and `most`, a condition that holds at first stops to hold.
-fn bisect(most: f64, holds: impl Fn(f64) -> bool) -> f64 {
-    let (mut low, mut high) = (0.0, most);
-    loop {
-        let middle = (low + high) / 2.0;
-        if middle <= low || middle >= high {
-            return high;
-        }
-        if holds(middle) {
-            low = middle;
-        } else {
-            high = middle;
-        }
     }
 }
 

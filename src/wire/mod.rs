@@ -2,8 +2,8 @@
 //!
 //! A [`World`] holds bodies and wires; [`World::step`] moves them by one time step. A wire is a row of
 //! point masses with rows that resist stretch and bending; contacts with friction are given to each
-//! step as data. [`World::step_colliding`] finds those between wires itself, and lets no wire through another. SI units throughout. The equations, the defaults and where they come from are in
-//! `docs/wires.md`.
+//! step as data. [`World::step_colliding`] finds them itself, and lets no wire through another. SI units throughout.
+//! The equations, the defaults and where they come from are in `docs/wires.md`.
 //!
 //! The same input gives the same bits, whatever the build and the machine: one thread, no
 //! order that depends on addresses, no fused operations, and of transcendental functions only the sine

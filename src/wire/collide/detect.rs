@@ -1,9 +1,10 @@
 //! From the motion of all wires to the pairs that meet: broad phase, exclusion, narrow phase.
 
+use super::boxes::Boxes;
 use super::record::{CollisionRecord, Crossing, Outcome};
 use super::segment::{Closest, SegmentId, Site, between, direction, joined, reach};
 use super::{CollisionError, PairFilter};
-use crate::broad::{Aabb, BroadPhase, ItemId, Method, Pair, SlowPairs};
+use crate::broad::{Aabb, Method, SlowPairs};
 use crate::contact::{self, Verdict};
 use crate::narrow::{NarrowPhase, Report};
 use crate::query::{EdgeEdge, Point};
@@ -14,9 +15,8 @@ use crate::wire::step::motion::Motion;
 /// The boxes of all segments, and what is known of slow ones. Item `k` is segment `k`, counted through all
 /// wires.
 pub(super) struct Pipeline {
-    broad: BroadPhase,
+    boxes: Boxes,
     slow: SlowPairs,
-    items: Vec<ItemId>,
 }
 
 /// A segment on its way through a step.
@@ -46,9 +46,8 @@ pub(super) struct Hit {
 impl Pipeline {
     pub(super) fn new(method: Method) -> Self {
         Pipeline {
-            broad: BroadPhase::new(method),
+            boxes: Boxes::new(method),
             slow: SlowPairs::default(),
-            items: Vec::new(),
         }
     }
 
@@ -63,11 +62,11 @@ impl Pipeline {
     ) -> Result<Found, CollisionError> {
         let segments = moving(world, motion);
         self.place(world, &segments)?;
-        let keep = |pair: Pair| {
-            let two = [pair.first(), pair.second()].map(|item| segments[item.index()].id);
+        let keep = |pair: [usize; 2]| {
+            let two = pair.map(|k| segments[k].id);
             !joined(world, two) && filter.is_none_or(|keep| keep(two[0], two[1]))
         };
-        let pairs = self.broad.pairs(keep);
+        let pairs = self.boxes.pairs(keep);
         let remaining = self.slow.remaining(pairs);
         record.named += pairs.len();
         record.excluded += pairs.len() - remaining.len();
@@ -81,21 +80,14 @@ impl Pipeline {
 
     /// Tells broad phase and exclusion where every segment goes.
     fn place(&mut self, world: &World, segments: &[Moving]) -> Result<(), CollisionError> {
-        while self.items.len() > segments.len() {
-            if let Some(item) = self.items.pop() {
-                self.broad.remove(item)?;
-            }
-        }
-        for (k, Moving { id, start, end }) in segments.iter().enumerate() {
-            let radius = id.of(world).material.radius;
-            let swept = Aabb::swept(start, end, radius)?;
-            match self.items.get(k) {
-                Some(&item) => self.broad.set(item, swept)?,
-                None => self.items.push(self.broad.insert(swept)),
-            }
+        let radius = |segment: &Moving| segment.id.of(world).material.radius;
+        let swept = |s: &Moving| Aabb::swept(&s.start, &s.end, radius(s));
+        let items = self.boxes.place(segments.iter().map(swept))?;
+        for (segment, &item) in segments.iter().zip(items) {
+            let radius = radius(segment);
             // A motion tried before and taken back is a move to where it started.
-            self.slow.place(self.items[k], *start, radius)?;
-            self.slow.place(self.items[k], *end, radius)?;
+            self.slow.place(item, segment.start, radius)?;
+            self.slow.place(item, segment.end, radius)?;
         }
         Ok(())
     }

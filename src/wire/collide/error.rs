@@ -6,6 +6,7 @@ use super::Site;
 use crate::broad::BroadError;
 use crate::narrow::Unsupported;
 use crate::query::QueryError;
+use crate::wire::model::BodyId;
 
 /// Why a step with collisions was not done.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +15,11 @@ pub enum CollisionError {
     Touching {
         /// The two places.
         sites: [Site; 2],
+    },
+    /// The collision library does not take the mesh of a body.
+    Mesh {
+        /// The body.
+        body: BodyId,
     },
     /// A segment does not end the step at finite positions.
     Broad(BroadError),
@@ -28,6 +34,13 @@ impl fmt::Display for CollisionError {
         match self {
             CollisionError::Touching { sites: [a, b] } => {
                 write!(f, "the midlines of {a} and {b} touch before the step")
+            }
+            CollisionError::Mesh { body } => {
+                write!(
+                    f,
+                    "the mesh of body {} is no surface that can be tested",
+                    body.0
+                )
             }
             CollisionError::Broad(error) => write!(f, "broad phase: {error}"),
             CollisionError::Query(error) => write!(f, "query: {error}"),

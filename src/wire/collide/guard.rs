@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::detect::{Found, Hit};
 use super::hold::Hold;
+use super::obstacle::Obstacles;
 use super::record::{CollisionRecord, Outcome};
 use super::segment::{pair_at, reach};
 use super::touch::{Touch, Touches};
@@ -36,18 +37,24 @@ impl<'a, 'n> Guard<'a, 'n> {
         collisions: &'a mut Collisions<'n>,
         world: &World,
         given: &[Contact],
-    ) -> Self {
+    ) -> Result<Self, CollisionError> {
+        let mut record = CollisionRecord::default();
         collisions.touches.refresh(world);
         let mut contacts = given.to_vec();
         contacts.extend(collisions.touches.contacts(collisions.friction));
-        Guard {
+        if let Some(obstacles) = &mut collisions.obstacles {
+            let (found, tested) = obstacles.contacts(world, collisions.friction)?;
+            contacts.extend(found);
+            record.tested_bodies = tested;
+        }
+        Ok(Guard {
             collisions,
             contacts,
             added: Vec::new(),
             found: Found::default(),
             hold: None,
-            record: CollisionRecord::default(),
-        }
+            record,
+        })
     }
 
     /// A contact for each hit that has a normal; whether there is any.
@@ -79,6 +86,9 @@ impl<'a, 'n> Guard<'a, 'n> {
             }
         }
         touches.release(world, contacts);
+        if let Some(obstacles) = &mut self.collisions.obstacles {
+            obstacles.note(contacts);
+        }
         // So that what is near is known by a contact that slid there.
         touches.refresh(world);
         let near = self.found.near.into_iter();
@@ -168,10 +178,15 @@ impl RemeshGuard for Guard<'_, '_> {
             filter,
             mode,
             touches,
+            obstacles,
             ..
         } = &*self.collisions;
         let [from, _, to] = change.arcs;
-        let loaded = || touches.pushes_between(change.wire.0, from, to);
+        let by_body = |o: &Obstacles| o.pushes_between(change.wire, from, to);
+        let loaded = || {
+            touches.pushes_between(change.wire.0, from, to)
+                || obstacles.as_ref().is_some_and(by_body)
+        };
         let refused = *mode == Mode::Guard
             && (change.kind == RemeshKind::Merge && loaded()
                 // A triangle that cannot be tested is not swept.

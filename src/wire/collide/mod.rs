@@ -1,4 +1,4 @@
-//! Wires that touch wires, themselves included.
+//! Wires that touch wires, themselves included, and bodies; bodies that touch bodies.
 //!
 //! [`World::step_colliding`] does a step in which no wire passes through a wire. What it remembers from
 //! step to step is in [`Collisions`]: which broad and narrow phase, and the contacts there are.
@@ -7,7 +7,7 @@
 //! boxes, broad phase, exclusion of slow pairs, narrow phase. Pairs that do not meet on the way but end
 //! up closer than their radii get a contact for the next step (thesis 3.2.4). Contacts stay on their
 //! place of the material and slide with the closest points (`touch`). What a crossing leads to is the
-//! [`Mode`].
+//! [`Mode`]. Contacts with bodies are found where a step starts (`obstacle`), by a collision library (`form`).
 //!
 //! ```
 //! use tunnelproof::query::Point;
@@ -31,10 +31,14 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod boxes;
 mod detect;
 mod error;
+mod form;
 mod guard;
 mod hold;
+mod obstacle;
+mod patch;
 mod record;
 mod remesh;
 mod segment;
@@ -47,6 +51,8 @@ pub use error::CollisionError;
 pub use record::{CollisionRecord, Crossing, Held, Outcome};
 pub use segment::{SegmentId, Site};
 
+use std::time::Instant;
+
 use crate::broad::Method;
 use crate::certified::Certified;
 use crate::narrow::NarrowPhase;
@@ -56,6 +62,7 @@ use crate::wire::model::{ModelError, World};
 use crate::wire::step::{Contact, StepError};
 use detect::Pipeline;
 use guard::Guard;
+use obstacle::Obstacles;
 use touch::Touches;
 
 /// What becomes of a crossing.
@@ -73,7 +80,7 @@ pub enum Mode {
 /// Which pairs of segments are tested at all, over and above those that are joined.
 pub type PairFilter<'n> = &'n dyn Fn(SegmentId, SegmentId) -> bool;
 
-/// The collisions between the wires of one world: how they are found, and the contacts there are.
+/// The collisions in one world: how they are found, and the contacts there are.
 pub struct Collisions<'n> {
     narrow: &'n dyn NarrowPhase,
     filter: Option<PairFilter<'n>>,
@@ -81,6 +88,8 @@ pub struct Collisions<'n> {
     friction: f64,
     pipeline: Pipeline,
     touches: Touches,
+    /// None if bodies are the caller's.
+    obstacles: Option<Obstacles>,
 }
 
 impl Default for Collisions<'_> {
@@ -101,10 +110,11 @@ impl<'n> Collisions<'n> {
             friction: 0.5,
             pipeline: Pipeline::new(method),
             touches: Touches::default(),
+            obstacles: Some(Obstacles::new(method)),
         }
     }
 
-    /// The same with another coefficient of friction between wires.
+    /// The same with another coefficient of friction, of all contacts that are found.
     ///
     /// # Errors
     ///
@@ -122,6 +132,13 @@ impl<'n> Collisions<'n> {
         self
     }
 
+    /// The same without contacts with bodies: all of them are given to the step.
+    #[must_use]
+    pub fn without_bodies(mut self) -> Self {
+        self.obstacles = None;
+        self
+    }
+
     /// What becomes of a crossing.
     pub fn mode(&self) -> Mode {
         self.mode
@@ -129,8 +146,8 @@ impl<'n> Collisions<'n> {
 }
 
 impl World {
-    /// Does one step in which wires collide with wires. `given` are all other contacts; keys from 2^63 on
-    /// are not theirs to use.
+    /// Does one step in which wires collide with wires and bodies, and bodies with bodies. `given` are more
+    /// contacts; keys from 2^63 on are not theirs to use.
     ///
     /// In guard mode no wire passes through another or through itself, changes of resolution included.
     /// Segments that share a node, or are fixed to the same point, are not tested against each other.
@@ -145,8 +162,14 @@ impl World {
         collisions: &mut Collisions<'_>,
         given: &[Contact],
     ) -> Result<StepRecord, StepError> {
-        let mut guard = Guard::new(collisions, self, given);
+        let start = Instant::now();
+        let mut guard = Guard::new(collisions, self, given).map_err(|error| StepError {
+            step: self.steps,
+            reason: error.into(),
+        })?;
+        let found = start.elapsed().as_secs_f64();
         let mut record = self.advance(&mut guard)?;
+        record.phases.collision += found;
         record.collisions = guard.finish(self, &record.contacts);
         Ok(record)
     }

@@ -15,6 +15,8 @@ pub struct CollisionRecord {
     pub excluded: usize,
     /// Of these, tested by the narrow phase.
     pub tested: usize,
+    /// Pairs of a segment or a body with a body that were tested.
+    pub tested_bodies: usize,
     /// Tests by [`Case`], in the order of [`Case::ALL`], as far as the narrow phase knows it.
     pub cases: [usize; Case::ALL.len()],
     /// Contacts at which the segments are parallel for an instant.

@@ -171,6 +171,28 @@ pub(super) mod tests {
         (vertices, triangles)
     }
 
+    /// A box around a place, of two triangles for each face.
+    pub(crate) fn box_mesh(half: Vector, at: Vector) -> Mesh {
+        let corner = |i: usize| {
+            let sign = |bit: usize| if i >> bit & 1 == 1 { 1.0 } else { -1.0 };
+            let signs = Vector::new(sign(0), sign(1), sign(2));
+            Point::from(half.component_mul(&signs) + at)
+        };
+        let faces = [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ];
+        let triangles = faces
+            .iter()
+            .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
+            .collect();
+        Mesh::new((0..8).map(corner).collect(), triangles).unwrap()
+    }
+
     #[test]
     fn mesh_centre_of_mass_is_the_mean_of_a_tetrahedrons_corners() {
         let at = Vector::new(3.0, -2.0, 5.0);

@@ -14,6 +14,8 @@ pub use body::{Body, BodyId, BodyPlan, Drive, Phase};
 pub use error::ModelError;
 pub use material::Material;
 pub use mesh::Mesh;
+#[cfg(test)]
+pub(in crate::wire) use mesh::tests::box_mesh;
 pub use plan::{Stop, WirePlan};
 pub use shape::{MassProperties, Shape};
 pub use strand::{Node, NodeKind, Resolution, Segment, Wire, WireId};

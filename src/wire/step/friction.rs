@@ -46,27 +46,24 @@ pub(super) struct Swept {
     pub(super) residual: f64,
 }
 
-/// Contact impulses for the system as factored, starting from those of the step before. `free` is the
-/// solution without contacts.
-pub(super) fn sweep(world: &World, system: &System, contacts: &[Contact], free: &[f64]) -> Swept {
-    let mut blocks: Vec<Block> = contacts
-        .iter()
-        .map(|contact| Block::new(world, system, contact, free))
-        .collect();
-    let mut z = vec![0.0; free.len()];
-    for block in &blocks {
-        block.push(&block.impulse, &mut z);
-    }
+/// Contact impulses for the system as factored, from a start on. `free` is the solution without contacts.
+pub(super) fn sweep(
+    world: &World,
+    system: &System,
+    contacts: &[Contact],
+    free: &[f64],
+    start: &[Vector],
+) -> Swept {
+    let mut blocks = Blocks::new(world, system, contacts, free, start);
     let mut swept = Swept::default();
     while swept.sweeps < world.settings.sweeps {
-        let changes = blocks.iter_mut().map(|block| block.relax(&mut z));
-        swept.residual = changes.fold(0.0, f64::max);
+        swept.residual = blocks.relax();
         swept.sweeps += 1;
         if swept.residual <= world.settings.contact_tolerance {
             break;
         }
     }
-    for block in &blocks {
+    for block in &blocks.list {
         let impulse = block.frame.tr_mul(&block.impulse);
         for (carrier, share) in &block.terms {
             let mut columns = Columns::new();
@@ -78,8 +75,58 @@ pub(super) fn sweep(world: &World, system: &System, contacts: &[Contact], free: 
     swept
 }
 
+/// By how much one more sweep would change the velocity of a contact at most, in m/s, if these impulses are held for
+/// the system as factored.
+pub(super) fn lack(
+    world: &World,
+    system: &System,
+    contacts: &[Contact],
+    free: &[f64],
+    impulses: &[Vector],
+) -> f64 {
+    Blocks::new(world, system, contacts, free, impulses).relax()
+}
+
+/// All contacts, and what their impulses sum up to.
+struct Blocks {
+    list: Vec<Block>,
+    /// `D^-1 Y lambda`.
+    z: Vec<f64>,
+}
+
+impl Blocks {
+    fn new(
+        world: &World,
+        system: &System,
+        contacts: &[Contact],
+        free: &[f64],
+        impulses: &[Vector],
+    ) -> Self {
+        let mut z = vec![0.0; free.len()];
+        let list = contacts.iter().zip(impulses).map(|(contact, impulse)| {
+            let block = Block::new(world, system, contact, free, impulse);
+            block.push(&block.impulse, &mut z);
+            block
+        });
+        let list = list.collect();
+        Blocks { list, z }
+    }
+
+    /// One sweep; by how much the velocity of a contact changes at most, in m/s.
+    fn relax(&mut self) -> f64 {
+        let changes = self.list.iter_mut().map(|block| block.relax(&mut self.z));
+        changes.fold(0.0, f64::max)
+    }
+}
+
 impl Block {
-    fn new(world: &World, system: &System, contact: &Contact, free: &[f64]) -> Self {
+    fn new(
+        world: &World,
+        system: &System,
+        contact: &Contact,
+        free: &[f64],
+        impulse: &Vector,
+    ) -> Self {
         let frame = frame(&contact.normal);
         let place = |place: &Place, sign: f64| {
             let carriers = system.layout.place(world, place).into_iter();
@@ -103,7 +150,7 @@ impl Block {
             .sum();
         Block {
             bias: frame * velocity - Vector::new(target, 0.0, 0.0),
-            impulse: frame * world.warm.impulse(contact.key),
+            impulse: frame * impulse,
             friction: contact.friction,
             frame,
             terms,
@@ -196,7 +243,9 @@ fn velocity_of(world: &World, place: &Place) -> Vector {
 /// Impulse of one contact by Coulomb's law: `u = mobility impulse + others`; apart (`u_n >= 0`) without
 /// impulse, or `u_n = 0` and the tangential impulse within the cone, against the sliding on its border.
 fn solve_block(mobility: &Matrix3<f64>, others: &Vector, friction: f64, start: &Vector) -> Vector {
-    if others.x >= 0.0 || mobility[(0, 0)] <= 0.0 {
+    // The tangential rows are not regularised: without mobility there, nothing can move the places.
+    let immovable = mobility[(1, 1)] <= 0.0;
+    if others.x >= 0.0 || immovable {
         return Vector::zeros();
     }
     if let Some(factor) = mobility.cholesky() {
@@ -212,7 +261,7 @@ fn solve_block(mobility: &Matrix3<f64>, others: &Vector, friction: f64, start: &
 /// keeps the fixed point that in which the impulse is opposite to the sliding.
 fn slide(mobility: &Matrix3<f64>, others: &Vector, friction: f64, start: &Vector) -> Vector {
     const ITERATIONS: usize = 20;
-    let step = 1.0 / (mobility[(1, 1)] + mobility[(2, 2)]).max(f64::MIN_POSITIVE);
+    let step = 1.0 / (mobility[(1, 1)] + mobility[(2, 2)]);
     let mut impulse = *start;
     for _ in 0..ITERATIONS {
         let without = others.x + mobility[(0, 1)] * impulse.y + mobility[(0, 2)] * impulse.z;

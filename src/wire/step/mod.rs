@@ -7,6 +7,8 @@ mod error;
 mod friction;
 pub(super) mod motion;
 mod rows;
+mod settle;
+mod slack;
 mod spin;
 pub(super) mod system;
 pub(super) mod watch;

@@ -48,6 +48,24 @@ impl Row {
             sum + carrier.velocity(x).dot(direction)
         })
     }
+
+    /// `G v - target` for a solution.
+    pub(super) fn excess(&self, x: &[f64]) -> f64 {
+        self.velocity(x) - self.target
+    }
+
+    /// The largest magnitude that its velocity and target are summed up from.
+    pub(super) fn speed(&self, x: &[f64]) -> f64 {
+        let of = |carrier: &Carrier| carrier.velocity(x).amax();
+        let terms = self.terms.iter().map(|(carrier, _)| of(carrier));
+        terms.fold(self.target.abs(), f64::max)
+    }
+
+    /// Whether it can count at all: a segment without length has no direction.
+    pub(super) fn has_direction(&self) -> bool {
+        let mut terms = self.terms.iter();
+        terms.any(|(_, along)| along.norm_squared() > 0.0)
+    }
 }
 
 /// The numbers of SPOOK for one kind of row.

@@ -191,6 +191,17 @@ impl System {
         }
     }
 
+    /// `v . (M~ v + G^T l)` of velocities and multipliers, with the rows as they were factored.
+    pub(super) fn curvature(&self, y: &[f64]) -> f64 {
+        let Some(structure) = &self.structure else {
+            return 0.0;
+        };
+        let (negative, _) = structure.matrix.residual(&vec![0.0; y.len()], y);
+        let entries = y.iter().zip(&negative).zip(&self.is_velocity);
+        let velocities = entries.filter(|(_, velocity)| **velocity);
+        velocities.map(|((y, negative), _)| -y * negative).sum()
+    }
+
     /// `L Y = C` for the rows of one contact, and the pivots of the rows of `Y`.
     pub(super) fn forward(&self, columns: &[(usize, [f64; 3])]) -> (SparseColumns, Vec<f64>) {
         let Some(structure) = &self.structure else {

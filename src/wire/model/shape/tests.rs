@@ -1,5 +1,5 @@
 use super::*;
-use crate::query::Point;
+use crate::wire::model::box_mesh;
 
 /// Mass and inertia again: midpoints of small cubes that are inside.
 fn by_cubes(inside: impl Fn(&Vector) -> bool, reach: f64, density: f64) -> MassProperties {
@@ -60,24 +60,7 @@ fn mass_properties_are_those_of_a_sum_of_small_cubes() {
 #[test]
 fn mass_properties_of_a_mesh_are_those_of_the_box_it_bounds() {
     let half = Vector::new(0.5, 1.0, 1.5);
-    let corner = |i: usize| {
-        let sign = |bit: usize| if i >> bit & 1 == 1 { 1.0 } else { -1.0 };
-        Point::from(half.component_mul(&Vector::new(sign(0), sign(1), sign(2))))
-            + Vector::new(9.0, 8.0, 7.0)
-    };
-    let faces = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
-    let triangles = faces
-        .iter()
-        .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
-        .collect();
-    let mesh = Mesh::new((0..8).map(corner).collect(), triangles).unwrap();
+    let mesh = box_mesh(half, Vector::new(9.0, 8.0, 7.0));
     let of_mesh = Shape::Mesh(mesh).mass_properties(3.0).unwrap();
     let of_box = Shape::Box { half }.mass_properties(3.0).unwrap();
     assert!((of_mesh.mass - of_box.mass).abs() < 1e-12 * of_box.mass);

@@ -362,3 +362,27 @@ fn structure_of_the_system_is_used_again_while_it_stands() {
     }
     assert!(last.solver.residual < 1e-12 && last.solver.tries == 1);
 }
+
+#[test]
+fn contact_between_things_that_nothing_moves_pushes_nothing() {
+    let mut world = World::new(Settings::default()).unwrap();
+    let shape = Shape::Sphere { radius: 0.1 };
+    let body = BodyPlan::fixed(shape, Point::origin());
+    let body = world.add_body(body).unwrap();
+    let route = [0.0, 1.0].map(|x| Stop::Free(Point::new(x, 0.0, 0.0)));
+    let plan = WirePlan::new(Material::steel(0.02), 0.25, route.to_vec());
+    world.add_wire(&plan).unwrap();
+    let contact = Contact {
+        key: 1,
+        a: Place::Body {
+            body,
+            local: Vector::zeros(),
+        },
+        b: Place::World,
+        normal: Vector::z(),
+        gap: -0.01,
+        friction: 0.5,
+    };
+    let record = world.step(&[contact]).unwrap();
+    assert_eq!(record.contacts[0].force, Vector::zeros());
+}

@@ -1,0 +1,212 @@
+//! Wires against bodies, and bodies against each other: discretely, where a step starts (thesis, 3.2.4).
+//!
+//! A place is a contact if the surfaces may meet within the step: nearer than both move and fall in it. A contact
+//! that is apart lets its places come as far as they touch, so what comes fast is stopped at the surface.
+
+use std::collections::BTreeMap;
+
+use nalgebra::UnitQuaternion;
+
+use super::boxes::Boxes;
+use super::error::CollisionError;
+use super::form::{Form, Placed};
+use super::patch::{along, contacts_of, join, leave_out_ends, things};
+use super::segment::SegmentId;
+use crate::broad::Method;
+use crate::wire::model::{BodyId, WireId, World};
+use crate::wire::record::ContactRecord;
+use crate::wire::step::{Contact, Place};
+
+/// Where the keys of contacts with bodies start.
+const KEYS: u64 = 3 << 62;
+
+/// The contacts with bodies of one world, from step to step.
+pub(super) struct Obstacles {
+    boxes: Boxes,
+    /// Of each body.
+    forms: Vec<Form>,
+    /// The contacts of the last step.
+    last: Vec<Contact>,
+    /// Keys given so far.
+    given: u64,
+    /// Places of wires at which a body pushed in the last step.
+    pushed: Vec<(WireId, f64)>,
+}
+
+/// What has a box.
+#[derive(Clone, Copy)]
+pub(super) enum Thing {
+    Body(BodyId),
+    Segment(SegmentId),
+}
+
+/// A thing where the step starts, and how far it may come in it.
+struct Moving<'f> {
+    thing: Thing,
+    placed: Placed<'f>,
+    travel: f64,
+}
+
+impl Obstacles {
+    pub(super) fn new(method: Method) -> Self {
+        Obstacles {
+            boxes: Boxes::new(method),
+            forms: Vec::new(),
+            last: Vec::new(),
+            given: 0,
+            pushed: Vec::new(),
+        }
+    }
+
+    /// The contacts of the step that starts now, and how many pairs were tested for them.
+    pub(super) fn contacts(
+        &mut self,
+        world: &World,
+        friction: f64,
+    ) -> Result<(Vec<Contact>, usize), CollisionError> {
+        self.learn(world)?;
+        if world.bodies.is_empty() {
+            return Ok((Vec::new(), 0));
+        }
+        let segments = segments(world);
+        let moving = moving(world, &self.forms, &segments);
+        let boxes = moving.iter().map(|m| m.placed.aabb(m.travel));
+        self.boxes.place(boxes)?;
+        let keep = |[a, b]: [usize; 2]| is_pair(world, [moving[a].thing, moving[b].thing]);
+        let mut found = Vec::new();
+        let pairs = self.boxes.pairs(keep);
+        for pair in pairs {
+            // Bodies come first: A is a segment or the later body.
+            let [b, a] = [pair.first(), pair.second()].map(|item| &moving[item.index()]);
+            let spots = a.placed.touches(&b.placed, a.travel + b.travel);
+            contacts_of(world, [a.thing, b.thing], spots, friction, &mut found);
+        }
+        let tested = pairs.len();
+        leave_out_ends(world, &mut found);
+        let mut contacts = join(found);
+        self.name(&mut contacts);
+        Ok((contacts, tested))
+    }
+
+    /// Bodies that were added since the last step.
+    fn learn(&mut self, world: &World) -> Result<(), CollisionError> {
+        for body in self.forms.len()..world.bodies.len() {
+            let form = Form::of_body(&world.bodies[body].shape);
+            let body = BodyId(body);
+            self.forms
+                .push(form.map_err(|_| CollisionError::Mesh { body })?);
+        }
+        Ok(())
+    }
+
+    /// Gives each contact the key of the nearest one of the last step between the same things.
+    fn name(&mut self, contacts: &mut [Contact]) {
+        let mut old: BTreeMap<[usize; 3], Vec<Contact>> = BTreeMap::new();
+        for contact in self.last.drain(..) {
+            old.entry(things(&contact)).or_default().push(contact);
+        }
+        for contact in contacts.iter_mut() {
+            let known = old.entry(things(contact)).or_default();
+            let distance = |at: &usize| along(&known[*at].a, &contact.a);
+            let nearest = (0..known.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            contact.key = match nearest {
+                Some(at) => known.swap_remove(at).key,
+                None => {
+                    self.given += 1;
+                    KEYS + self.given
+                }
+            };
+        }
+        self.last = contacts.to_vec();
+    }
+
+    /// Notes where bodies push on wires.
+    pub(super) fn note(&mut self, records: &[ContactRecord]) {
+        self.pushed.clear();
+        for record in records {
+            let Contact { key, a, .. } = record.contact;
+            if let (Place::Wire { wire, arc }, true) =
+                (a, key > KEYS && record.normal_force() > 0.0)
+            {
+                self.pushed.push((wire, arc));
+            }
+        }
+    }
+
+    /// Whether a body pushes on a wire strictly between two arc lengths.
+    pub(super) fn pushes_between(&self, wire: WireId, from: f64, to: f64) -> bool {
+        let inside = |&(other, arc): &(WireId, f64)| other == wire && arc > from && arc < to;
+        self.pushed.iter().any(inside)
+    }
+}
+
+/// All segments, each as a shape around its middle.
+fn segments(world: &World) -> Vec<(SegmentId, Form)> {
+    let all = world.wires.iter().enumerate().flat_map(|(w, wire)| {
+        let wire_id = WireId(w);
+        (0..wire.segments.len()).map(move |segment| {
+            let wire = wire_id;
+            SegmentId { wire, segment }
+        })
+    });
+    let form = |id: SegmentId| Form::of_segment(&id.ends(world), id.of(world).material.radius);
+    all.map(|id| (id, form(id))).collect()
+}
+
+/// Bodies, then segments, with the way that each may come in the step: at its speed and falling.
+fn moving<'f>(
+    world: &World,
+    forms: &'f [Form],
+    segments: &'f [(SegmentId, Form)],
+) -> Vec<Moving<'f>> {
+    let step = world.settings.step;
+    let fall = world.settings.gravity.norm() * step;
+    let bodies = world.bodies.iter().zip(forms).enumerate();
+    let bodies = bodies.map(|(b, (body, form))| {
+        let (velocity, spin) = if body.dynamic {
+            (body.velocity, body.angular_velocity)
+        } else {
+            body.prescribed(world.time(), step)
+        };
+        let extent = if form.extent.is_finite() {
+            form.extent
+        } else {
+            0.0
+        };
+        let falling = if body.dynamic { fall } else { 0.0 };
+        Moving {
+            thing: Thing::Body(BodyId(b)),
+            placed: form.at(&body.position, &body.orientation),
+            travel: step * (velocity.norm() + spin.norm() * extent + falling),
+        }
+    });
+    let segments = segments.iter().map(|(id, form)| {
+        let [start, end] = id.ends(world);
+        let speed = id.nodes(world).map(|node| node.velocity.norm());
+        Moving {
+            thing: Thing::Segment(*id),
+            placed: form.at(&nalgebra::center(&start, &end), &UnitQuaternion::identity()),
+            travel: step * (speed[0].max(speed[1]) + fall),
+        }
+    });
+    bodies.chain(segments).collect()
+}
+
+/// Whether two things are a pair to test: a segment and a body that does not carry one of its nodes, or two bodies of
+/// which forces move one.
+fn is_pair(world: &World, pair: [Thing; 2]) -> bool {
+    match pair {
+        [Thing::Body(a), Thing::Body(b)] => [a, b].iter().any(|body| world.bodies[body.0].dynamic),
+        [Thing::Body(body), Thing::Segment(id)] | [Thing::Segment(id), Thing::Body(body)] => {
+            let carriers = id.nodes(world).map(|node| node.kind.carrier());
+            carriers
+                .iter()
+                .flatten()
+                .all(|(carrier, _)| *carrier != body)
+        }
+        [Thing::Segment(_), Thing::Segment(_)] => false,
+    }
+}
+
+#[cfg(test)]
+mod tests;

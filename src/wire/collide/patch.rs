@@ -1,0 +1,157 @@
+//! From where surfaces touch to contacts: which places count, and what they are between.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::form::Spot;
+use super::obstacle::Thing;
+use super::segment::SegmentId;
+use crate::query::Point;
+use crate::wire::Vector;
+use crate::wire::model::{BodyId, WireId, World};
+use crate::wire::step::{Contact, Place};
+
+/// A contact and the segment that it is on, if it is on one.
+pub(super) type Found = (Option<SegmentId>, Contact);
+
+/// Adds the contacts of one pair. On a segment, a place between two others counts only if it is deeper.
+pub(super) fn contacts_of(
+    world: &World,
+    [a, b]: [Thing; 2],
+    spots: Vec<Spot>,
+    friction: f64,
+    found: &mut Vec<Found>,
+) {
+    const DEEPER: f64 = 1e-9;
+    let Thing::Body(other) = b else { return };
+    let contacts = spots.iter().map(|spot| Contact {
+        key: 0,
+        a: place(world, a, spot.points[0]),
+        b: on_body(world, other, spot.points[1]),
+        normal: spot.normal,
+        gap: spot.gap,
+        friction,
+    });
+    let mut contacts: Vec<Contact> = contacts.collect();
+    let Thing::Segment(id) = a else {
+        found.extend(contacts.into_iter().map(|contact| (None, contact)));
+        return;
+    };
+    contacts.sort_by(|a, b| arc(a).total_cmp(&arc(b)));
+    let outer = [contacts.first(), contacts.last()];
+    let outer = outer.map(|contact| contact.map_or(0.0, |contact| contact.gap));
+    let last = contacts.len().saturating_sub(1);
+    for (k, contact) in contacts.into_iter().enumerate() {
+        let deeper = contact.gap < outer[0].min(outer[1]) - DEEPER;
+        if k == 0 || k == last || deeper {
+            found.push((Some(id), contact));
+        }
+    }
+}
+
+/// The place of a point that is on the surface of a thing.
+fn place(world: &World, thing: Thing, point: Point) -> Place {
+    match thing {
+        Thing::Body(body) => on_body(world, body, point),
+        Thing::Segment(id) => {
+            let [start, end] = id.ends(world);
+            let way = end - start;
+            let share = (point - start).dot(&way) / way.norm_squared();
+            let share = if share.is_finite() { share } else { 0.0 };
+            id.site(world, share).into()
+        }
+    }
+}
+
+fn on_body(world: &World, id: BodyId, point: Point) -> Place {
+    let body = &world.bodies[id.0];
+    let local = body
+        .orientation
+        .inverse_transform_vector(&(point - body.position));
+    Place::Body { body: id, local }
+}
+
+fn arc(contact: &Contact) -> f64 {
+    match contact.a {
+        Place::Wire { arc, .. } => arc,
+        _ => 0.0,
+    }
+}
+
+/// Leaves out the ends of wires: from a node that a body carries, whatever of the wire penetrates this body without
+/// a gap is one with it. So a wire may come from a point inside of a body.
+pub(super) fn leave_out_ends(world: &World, found: &mut Vec<Found>) {
+    let mut deep: BTreeSet<(BodyId, SegmentId)> = BTreeSet::new();
+    for (segment, contact) in found.iter() {
+        if let (Some(segment), Place::Body { body, .. }, true) =
+            (segment, contact.b, contact.gap < 0.0)
+        {
+            deep.insert((body, *segment));
+        }
+    }
+    let mut ends = BTreeSet::new();
+    for (w, wire) in world.wires.iter().enumerate() {
+        for (n, node) in wire.nodes.iter().enumerate() {
+            let Some((body, _)) = node.kind.carrier() else {
+                continue;
+            };
+            let at = |segment: usize| {
+                let wire = WireId(w);
+                (body, SegmentId { wire, segment })
+            };
+            let is_deep = |segment: &usize| deep.contains(&at(*segment));
+            ends.extend((n + 1..).take_while(is_deep).map(at));
+            ends.extend((0..n.saturating_sub(1)).rev().take_while(is_deep).map(at));
+        }
+    }
+    found.retain(|(segment, contact)| match (segment, contact.b) {
+        (Some(segment), Place::Body { body, .. }) => !ends.contains(&(body, *segment)),
+        _ => true,
+    });
+}
+
+/// At a node both segments name one place: the deeper one stays.
+pub(super) fn join(found: Vec<Found>) -> Vec<Contact> {
+    const SAME_DIRECTION: f64 = 0.99;
+    let mut joined: Vec<Contact> = Vec::with_capacity(found.len());
+    let mut at: BTreeMap<([usize; 3], u64), usize> = BTreeMap::new();
+    for (_, contact) in found {
+        let Place::Wire { arc, .. } = contact.a else {
+            joined.push(contact);
+            continue;
+        };
+        match at.get(&(things(&contact), arc.to_bits())) {
+            Some(&k) if joined[k].normal.dot(&contact.normal) > SAME_DIRECTION => {
+                if contact.gap < joined[k].gap {
+                    joined[k] = contact;
+                }
+            }
+            _ => {
+                at.insert((things(&contact), arc.to_bits()), joined.len());
+                joined.push(contact);
+            }
+        }
+    }
+    joined
+}
+
+/// What a contact is between: whether A is a wire, its number, the number of the body B.
+pub(super) fn things(contact: &Contact) -> [usize; 3] {
+    let number = |place: &Place| match *place {
+        Place::World => [0, 0],
+        Place::Body { body, .. } => [0, body.0],
+        Place::Wire { wire, .. } => [1, wire.0],
+    };
+    let ([kind, a], [_, b]) = (number(&contact.a), number(&contact.b));
+    [kind, a, b]
+}
+
+/// How far two places of one thing are apart, in m.
+pub(super) fn along(a: &Place, b: &Place) -> f64 {
+    match (a, b) {
+        (Place::Wire { arc: a, .. }, Place::Wire { arc: b, .. }) => (a - b).abs(),
+        (Place::Body { local: a, .. }, Place::Body { local: b, .. }) => {
+            Vector::metric_distance(a, b)
+        }
+        _ => f64::INFINITY,
+    }
+}

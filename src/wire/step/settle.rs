@@ -1,0 +1,95 @@
+//! The solution of a step: velocities, multipliers, contact impulses, and which segments of chains pull.
+
+use super::Contact;
+use super::advance::Clock;
+use super::error::Reason;
+use super::friction::{Swept, lack, sweep};
+use super::slack::{contradict, pull};
+use super::system::System;
+use crate::wire::Vector;
+use crate::wire::model::World;
+use crate::wire::record::{Phases, SolverRecord};
+
+/// How often contacts are swept again because other segments of chains pull.
+const ROUNDS: usize = 20;
+
+/// A solution of a step that is not committed yet.
+pub(super) struct Candidate {
+    pub(super) x: Vec<f64>,
+    pub(super) swept: Swept,
+    pub(super) solver: SolverRecord,
+}
+
+impl World {
+    /// Solves for velocities, multipliers and contact impulses; finds out which segments of chains
+    /// pull, starting from those that did in the last step.
+    ///
+    /// Contacts are swept while the same segments pull; then it is found which pull under these impulses, until
+    /// that changes nothing. Friction may let it change for ever: after [`ROUNDS`] the impulses are held, and what
+    /// contacts lack then is in the record.
+    pub(super) fn settle(
+        &self,
+        system: &mut System,
+        contacts: &[Contact],
+        phases: &mut Phases,
+    ) -> Result<Candidate, Reason> {
+        let mut clock = Clock::start();
+        system.factor()?;
+        phases.factor += clock.lap();
+        let start = contacts
+            .iter()
+            .map(|contact| self.warm.impulse(contact.key));
+        let mut candidate = self.solve(system, contacts, &start.collect::<Vec<_>>(), phases)?;
+        let mut tries = 1;
+        for round in 1..=ROUNDS {
+            if !contradict(&system.rows, &candidate.x) {
+                break;
+            }
+            clock.lap();
+            let pulled = pull(system, &candidate.swept.columns, candidate.x)?;
+            phases.factor += clock.lap();
+            tries += pulled.tries;
+            if round < ROUNDS && !contacts.is_empty() {
+                let impulses = candidate.swept.impulses;
+                candidate = self.solve(system, contacts, &impulses, phases)?;
+                continue;
+            }
+            (candidate.x, candidate.solver.residual) = (pulled.x, pulled.residual);
+            if !contacts.is_empty() {
+                let (free, _) = system.solve(&[])?;
+                let impulses = &candidate.swept.impulses;
+                let residual = lack(self, system, contacts, &free, impulses);
+                candidate.solver.contact_residual = residual;
+            }
+            break;
+        }
+        candidate.solver.tries = tries;
+        Ok(candidate)
+    }
+
+    /// The solution with the rows as they were factored, with contact impulses from a start on.
+    fn solve(
+        &self,
+        system: &System,
+        contacts: &[Contact],
+        start: &[Vector],
+        phases: &mut Phases,
+    ) -> Result<Candidate, Reason> {
+        let mut clock = Clock::start();
+        let (mut x, mut residual) = system.solve(&[])?;
+        phases.solve += clock.lap();
+        let mut swept = Swept::default();
+        if !contacts.is_empty() {
+            swept = sweep(self, system, contacts, &x, start);
+            (x, residual) = system.solve(&swept.columns)?;
+            phases.contacts += clock.lap();
+        }
+        let solver = SolverRecord {
+            residual,
+            tries: 1,
+            sweeps: swept.sweeps,
+            contact_residual: swept.residual,
+        };
+        Ok(Candidate { x, swept, solver })
+    }
+}
