@@ -12,11 +12,13 @@ use std::process::ExitCode;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use tunnelproof::query::{QueryKind, Radius};
+use tunnelproof::scenario::scenes::SceneError;
 use tunnelproof_reference::certify::run::RunError;
 use tunnelproof_reference::corpus::{CorpusError, ReadOptions};
 use tunnelproof_reference::report::merge::MergeError;
 use tunnelproof_reference::sweep::{AxisError, DomainError};
 
+mod audit;
 mod axes;
 mod certificate;
 mod certify;
@@ -31,6 +33,7 @@ mod pages;
 mod progress;
 mod replay;
 mod shrink;
+mod simulate;
 mod sources;
 mod subjects;
 mod sweep;
@@ -62,6 +65,8 @@ enum Command {
     Vectors(vectors::Vectors),
     Sweep(sweep::Sweep),
     Tune(tune::Tune),
+    Simulate(simulate::Simulate),
+    Audit(audit::Audit),
 }
 
 /// How files are read.
@@ -101,6 +106,13 @@ enum Failure {
         path: String,
         /// What is wrong with it.
         error: MergeError,
+    },
+    /// A file that is not what it should be.
+    File {
+        /// Its path, or the name of a scene.
+        path: String,
+        /// What is wrong with it.
+        problem: String,
     },
     /// There is nothing to do.
     Nothing,
@@ -151,6 +163,8 @@ impl Cli {
             Command::Vectors(vectors) => vectors.run(),
             Command::Sweep(sweep) => sweep.run(),
             Command::Tune(tune) => tune.run(),
+            Command::Simulate(simulate) => simulate.run(),
+            Command::Audit(audit) => audit.run(),
         }
     }
 }
@@ -196,6 +210,15 @@ impl From<CorpusError> for Failure {
     }
 }
 
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        Failure::File {
+            path: "scene".to_owned(),
+            problem: error.to_string(),
+        }
+    }
+}
+
 impl From<AxisError> for Failure {
     fn from(error: AxisError) -> Self {
         Failure::Axis(error)
@@ -215,6 +238,7 @@ impl fmt::Display for Failure {
             Failure::Output { name, error } => write!(f, "{name}: cannot be written: {error}"),
             Failure::Program { name, reason } => write!(f, "{name}: {reason}"),
             Failure::Merge { path, error } => write!(f, "{path}: {error}"),
+            Failure::File { path, problem } => write!(f, "{path}: {problem}"),
             Failure::Nothing => f.write_str("--count 0: no query is left to judge"),
             Failure::Target(path) => {
                 write!(f, "{path}: is in no folder of a fuzz target; pass --target")
