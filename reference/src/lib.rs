@@ -23,7 +23,9 @@ pub mod shrink;
 pub mod simulate;
 pub mod subject;
 pub mod sweep;
+pub mod tables;
 pub mod tune;
 pub mod vectors;
+pub mod vtk;
 
 pub use certify::trial::certify;

@@ -80,6 +80,25 @@ fn simulate_in_guard_mode_is_clean() {
 }
 
 #[test]
+fn simulate_writes_a_clock_and_a_file_for_each_step_for_paraview() {
+    let folder = tempfile::tempdir().unwrap();
+    let to = folder.path().join("new");
+    let path = to.to_str().unwrap();
+    let output = tunnelproof(&[
+        "simulate",
+        "basic-collision",
+        "--duration",
+        "0.05",
+        "--vtk",
+        path,
+    ]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let clock = std::fs::read_to_string(to.join("steps.pvd")).unwrap();
+    assert_eq!(clock.matches("<DataSet").count(), 3);
+    assert!(to.join("step-000002.vtp").exists());
+}
+
+#[test]
 fn simulate_refuses_what_is_no_scene() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("scene.toml");

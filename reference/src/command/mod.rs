@@ -37,6 +37,7 @@ mod simulate;
 mod sources;
 mod subjects;
 mod sweep;
+mod table;
 mod tune;
 mod vectors;
 
@@ -67,6 +68,7 @@ enum Command {
     Tune(tune::Tune),
     Simulate(simulate::Simulate),
     Audit(audit::Audit),
+    Table(table::Table),
 }
 
 /// How files are read.
@@ -165,6 +167,7 @@ impl Cli {
             Command::Tune(tune) => tune.run(),
             Command::Simulate(simulate) => simulate.run(),
             Command::Audit(audit) => audit.run(),
+            Command::Table(table) => table.run(),
         }
     }
 }

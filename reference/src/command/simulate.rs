@@ -1,6 +1,6 @@
 //! `simulate`: a scene from start to end, recorded and audited.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -13,6 +13,7 @@ use tunnelproof::wire::{self, StepRecord, World};
 use tunnelproof_reference::audit::{self, Audit};
 use tunnelproof_reference::replay::Replay;
 use tunnelproof_reference::simulate::{Narrow, Run, Summary};
+use tunnelproof_reference::vtk;
 
 use super::output::{OutputFile, print, unwritable};
 use super::{Failure, progress};
@@ -57,6 +58,9 @@ pub(super) struct Simulate {
     /// Write a page to watch the run to this file
     #[arg(long, value_name = "OUT")]
     replay: Option<PathBuf>,
+    /// Write every step to this folder for ParaView: steps.pvd and a .vtp for each step
+    #[arg(long, value_name = "FOLDER")]
+    vtk: Option<PathBuf>,
     /// Write the summary, and the audit, to this file as JSON
     #[arg(long, value_name = "OUT")]
     json: Option<PathBuf>,
@@ -104,6 +108,9 @@ impl Simulate {
                 watch.step(record)
             })
         })?;
+        if let Some(polygons) = &watch.vtk {
+            polygons.finish()?;
+        }
         let audit = watch.audit.map(Audit::finish);
         if let Some((page, replay)) = page.zip(watch.replay) {
             page.write(&replay.page(audit.as_ref()).map_err(super::audit::no_json)?)?;
@@ -162,6 +169,31 @@ struct Watch<'a> {
     recorder: Option<(Recorder<File>, &'a Path)>,
     audit: Option<Audit>,
     replay: Option<Replay>,
+    vtk: Option<Polygons<'a>>,
+}
+
+/// A folder of files for ParaView under way.
+struct Polygons<'a> {
+    folder: &'a Path,
+    radii: Vec<f64>,
+    times: Vec<(u64, f64)>,
+}
+
+impl Polygons<'_> {
+    fn step(&mut self, record: &StepRecord) -> Result<(), Failure> {
+        self.times.push((record.step, record.time));
+        let text = vtk::polygons(record, &self.radii);
+        self.write(&vtk::file(record.step), &text)
+    }
+
+    fn finish(&self) -> Result<(), Failure> {
+        self.write("steps.pvd", &vtk::collection(&self.times))
+    }
+
+    fn write(&self, name: &str, text: &str) -> Result<(), Failure> {
+        let path = self.folder.join(name);
+        fs::write(&path, text).map_err(|error| unwritable(&path, error))
+    }
 }
 
 impl<'a> Watch<'a> {
@@ -171,10 +203,19 @@ impl<'a> Watch<'a> {
             let recorder = Recorder::new(file, world).map_err(|error| refused(path, error))?;
             Ok((recorder, path))
         };
-        let radii = world.wires().iter().map(|wire| wire.material().radius);
+        let polygons = |folder: &'a Path| -> Result<_, Failure> {
+            fs::create_dir_all(folder).map_err(|error| unwritable(folder, error))?;
+            let (radii, times) = (radii(world), Vec::new());
+            Ok(Polygons {
+                folder,
+                radii,
+                times,
+            })
+        };
         Ok(Watch {
+            vtk: options.vtk.as_deref().map(polygons).transpose()?,
             recorder: options.record.as_deref().map(record).transpose()?,
-            audit: options.audit.then(|| Audit::new(radii.collect())),
+            audit: options.audit.then(|| Audit::new(radii(world))),
             replay: options
                 .replay
                 .as_ref()
@@ -194,8 +235,16 @@ impl<'a> Watch<'a> {
         if let Some(replay) = &mut self.replay {
             replay.step(record);
         }
+        if let Some(polygons) = &mut self.vtk {
+            polygons.step(record)?;
+        }
         Ok(())
     }
+}
+
+fn radii(world: &World) -> Vec<f64> {
+    let radii = world.wires().iter().map(|wire| wire.material().radius);
+    radii.collect()
 }
 
 fn refused(path: &Path, error: impl ToString) -> Failure {

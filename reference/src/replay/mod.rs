@@ -258,7 +258,7 @@ fn drawn(record: &StepRecord, ContactRecord { contact, force }: &ContactRecord) 
 }
 
 /// Where a place is after the motion of a step.
-fn place(record: &StepRecord, place: &Place) -> Option<Point> {
+pub(crate) fn place(record: &StepRecord, place: &Place) -> Option<Point> {
     match place {
         Place::World => None,
         Place::Body { body, local } => {
