@@ -3,6 +3,7 @@
 
 pub mod algebraic;
 pub mod answer;
+pub mod audit;
 pub mod certify;
 pub mod corpus;
 pub mod difference;
@@ -13,14 +14,18 @@ pub mod oracle;
 pub mod poly;
 pub mod program;
 pub mod registry;
+pub mod replay;
 pub mod report;
 pub mod scaled;
 pub mod shadow;
 mod shape;
 pub mod shrink;
+pub mod simulate;
 pub mod subject;
 pub mod sweep;
+pub mod tables;
 pub mod tune;
 pub mod vectors;
+pub mod vtk;
 
 pub use certify::trial::certify;

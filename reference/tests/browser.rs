@@ -1,5 +1,5 @@
-//! The pages of `sweep`, `tune` and `certify` in a real browser: they are drawn, on a telephone and on a desk, light
-//! and dark, without an error on the console.
+//! The pages of `sweep`, `tune`, `certify` and `simulate` in a real browser: they are drawn, on a telephone and on a
+//! desk, light and dark, without an error on the console; the last one plays.
 //!
 //! The browser is Chromium, without a window. Where there is none the test is skipped and says so; with
 //! `TUNNELPROOF_BROWSER=required` in the environment it fails.
@@ -37,6 +37,31 @@ addEventListener("load", () => {
 });
 </script></body>"#;
 
+/// What the page of a run says of itself after it has played for a while.
+const PLAY: &str = r##"<script>
+addEventListener("load", () => {
+  const picture = k => { seek(frames[k].time); return document.querySelector("#view canvas").toDataURL(); };
+  const pictures = [picture(0), picture(last)];
+  seek(frames[0].time);
+  document.getElementById("play").click();
+  setTimeout(() => {
+    const all = (selector) => [...document.querySelectorAll(selector)];
+    const view = document.querySelector("#view canvas").getBoundingClientRect();
+    parent.postMessage(JSON.stringify({
+      width: innerWidth,
+      overflow: document.documentElement.scrollWidth - document.documentElement.clientWidth,
+      paper: getComputedStyle(document.body).backgroundColor,
+      view: [view.width, view.height],
+      drawn: pictures.map(picture => picture.length),
+      moved: pictures[0] !== pictures[1],
+      played: Number(document.getElementById("time").value),
+      charts: all(".chart canvas").map(e => [e.width, e.toDataURL().length]),
+      marks: all("#marks rect").map(e => e.dataset.event),
+    }), "*");
+  }, 600);
+});
+</script></body>"##;
+
 /// The program, if there is one.
 fn browser() -> Option<&'static str> {
     let names = ["chromium", "chromium-browser", "google-chrome"];
@@ -54,13 +79,13 @@ fn browser() -> Option<&'static str> {
 }
 
 /// What a page says of itself in a frame of this width, and what stands on the console.
-fn drawn(browser: &str, page: &Path, width: u32, is_dark: bool) -> (Value, String) {
+fn drawn(browser: &str, page: &Path, measure: &str, width: u32, is_dark: bool) -> (Value, String) {
     let folder = tempfile::tempdir().unwrap();
     let html = fs::read_to_string(page).unwrap();
     assert_eq!(html.matches("</body>").count(), 1);
     fs::write(
         folder.path().join("page.html"),
-        html.replace("</body>", MEASURE),
+        html.replace("</body>", measure),
     )
     .unwrap();
     let frame = format!(
@@ -74,7 +99,8 @@ fn drawn(browser: &str, page: &Path, width: u32, is_dark: bool) -> (Value, Strin
         .args([
             "--headless",
             "--no-sandbox",
-            "--disable-gpu",
+            "--use-angle=swiftshader",
+            "--enable-unsafe-swiftshader",
             "--disable-dev-shm-usage",
         ])
         .args([
@@ -123,7 +149,7 @@ fn brightness(colour: &Value) -> f64 {
 
 fn assert_is_drawn(browser: &str, page: &Path, charts: &[&str], pictures: usize) {
     for (width, is_dark) in [(390, false), (390, true), (1280, false), (1280, true)] {
-        let (said, console) = drawn(browser, page, width, is_dark);
+        let (said, console) = drawn(browser, page, MEASURE, width, is_dark);
         let at = format!("{} at {width}, dark: {is_dark}: {said:#}", page.display());
         assert_eq!(console, "", "{at}");
         assert_eq!(said["width"], width, "{at}");
@@ -267,6 +293,54 @@ fn browser_sees_an_error_on_the_console() {
     let page = folder.path().join("broken.html");
     let broken = "<!DOCTYPE html><body><script>nothing.is_there()</script></body>";
     fs::write(&page, broken).unwrap();
-    let (_, console) = drawn(browser, &page, 390, false);
+    let (_, console) = drawn(browser, &page, MEASURE, 390, false);
     assert!(console.contains("nothing is not defined"), "{console}");
+}
+
+#[test]
+fn browser_plays_the_page_of_a_run() {
+    let Some(browser) = browser() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("run.html");
+    let output = Command::new(env!("CARGO_BIN_EXE_tunnelproof"))
+        .args([
+            "simulate",
+            "basic-collision",
+            "--duration",
+            "1.5",
+            "--mode",
+            "thesis",
+        ])
+        .arg("--replay")
+        .arg(&page)
+        .output()
+        .unwrap();
+    assert!(output.status.success());
+    for (width, is_dark) in [(390, false), (1280, true)] {
+        let (said, console) = drawn(browser, &page, PLAY, width, is_dark);
+        let at = format!("at {width}: {said:#}");
+        assert_eq!(console, "", "{at}");
+        assert_eq!(said["width"], width, "{at}");
+        assert_eq!(said["overflow"], 0, "{at}");
+        assert_eq!(brightness(&said["paper"]) < 128.0, is_dark, "{at}");
+        let number = |value: &Value| value.as_f64().unwrap();
+        assert!(
+            number(&said["view"][0]) > 300.0 && number(&said["view"][1]) > 200.0,
+            "{at}"
+        );
+        // An empty picture of this size is some hundreds of bytes.
+        assert!(
+            number(&said["drawn"][0]) > 5000.0 && said["moved"] == true,
+            "{at}"
+        );
+        assert!(number(&said["played"]) >= 1.0, "{at}");
+        let charts = said["charts"].as_array().unwrap();
+        assert_eq!(charts.len(), 3, "{at}");
+        assert!(
+            charts.iter().all(|chart| number(&chart[1]) > 2000.0),
+            "{at}"
+        );
+        let marks: Vec<_> = said["marks"].as_array().unwrap().iter().collect();
+        assert!(marks.len() >= 2 && marks[0] == "tunnelled", "{at}");
+    }
 }

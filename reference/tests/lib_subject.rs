@@ -25,6 +25,7 @@ const MUTE: &str = r#"
 
 int tunnelproof_edge_edge(const double points[24], const double radius[2], double *toi) {
     printf("talks\n");
+    fflush(stdout);
     if (radius[0] + radius[1] > 0) return TUNNELPROOF_UNSUPPORTED;
     if (points[0] == 1.0) abort();
     if (points[0] == 2.0) { *toi = NAN; return TUNNELPROOF_HIT; }

@@ -39,8 +39,8 @@ pub(crate) use model::check;
 
 pub use capstan::Slide;
 pub use collide::{
-    CollisionError, CollisionRecord, Collisions, Crossing, Held, Mode, Outcome, PairFilter,
-    SegmentId, Site,
+    CollisionError, CollisionRecord, Collisions, Crossing, Held, Mode, Outcome, PairAnswer,
+    PairFilter, PairRecord, SegmentId, Site,
 };
 pub use energy::Energy;
 pub use model::{

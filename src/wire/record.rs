@@ -3,7 +3,7 @@
 use nalgebra::UnitQuaternion;
 
 use super::capstan::Slide;
-use super::model::World;
+use super::model::{NodeKind, World};
 use super::resolution::Remesh;
 use super::{CollisionRecord, Contact, Energy, Vector};
 use crate::query::Point;
@@ -42,6 +42,8 @@ pub struct StepRecord {
 pub struct WireRecord {
     /// Arc length of each node in m.
     pub arcs: Vec<f64>,
+    /// What carries each node.
+    pub kinds: Vec<NodeKind>,
     /// Position of each node before the motion, in m.
     pub before: Vec<Point>,
     /// Position of each node after it, in m.
@@ -127,6 +129,7 @@ impl StepRecord {
     pub(super) fn before(world: &World) -> Self {
         let wires = world.wires.iter().map(|wire| WireRecord {
             arcs: wire.nodes.iter().map(|node| node.arc).collect(),
+            kinds: wire.nodes.iter().map(|node| node.kind).collect(),
             before: wire.nodes.iter().map(|node| node.position).collect(),
             ..WireRecord::default()
         });

@@ -195,7 +195,7 @@ fn lapses(name: &str, tally: &Tally) -> Option<String> {
     let first = tally.faults.get(&Fault::NoAnswer)?.worst.as_ref()?;
     let detail = first.lapse.as_ref().map_or("", |lapse| &lapse.detail);
     Some(format!(
-        "{name} gives no answer to {} queries: {}; first on {}: {detail}",
+        "{name} gives no answer to {} queries: {}\n  first on {}: {detail}",
         count(tally, Fault::NoAnswer),
         lapse_counts(tally),
         first.id,

@@ -12,11 +12,13 @@ use std::process::ExitCode;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use tunnelproof::query::{QueryKind, Radius};
+use tunnelproof::scenario::scenes::SceneError;
 use tunnelproof_reference::certify::run::RunError;
 use tunnelproof_reference::corpus::{CorpusError, ReadOptions};
 use tunnelproof_reference::report::merge::MergeError;
 use tunnelproof_reference::sweep::{AxisError, DomainError};
 
+mod audit;
 mod axes;
 mod certificate;
 mod certify;
@@ -31,9 +33,11 @@ mod pages;
 mod progress;
 mod replay;
 mod shrink;
+mod simulate;
 mod sources;
 mod subjects;
 mod sweep;
+mod table;
 mod tune;
 mod vectors;
 
@@ -62,6 +66,9 @@ enum Command {
     Vectors(vectors::Vectors),
     Sweep(sweep::Sweep),
     Tune(tune::Tune),
+    Simulate(simulate::Simulate),
+    Audit(audit::Audit),
+    Table(table::Table),
 }
 
 /// How files are read.
@@ -101,6 +108,13 @@ enum Failure {
         path: String,
         /// What is wrong with it.
         error: MergeError,
+    },
+    /// A file that is not what it should be.
+    File {
+        /// Its path, or the name of a scene.
+        path: String,
+        /// What is wrong with it.
+        problem: String,
     },
     /// There is nothing to do.
     Nothing,
@@ -151,6 +165,9 @@ impl Cli {
             Command::Vectors(vectors) => vectors.run(),
             Command::Sweep(sweep) => sweep.run(),
             Command::Tune(tune) => tune.run(),
+            Command::Simulate(simulate) => simulate.run(),
+            Command::Audit(audit) => audit.run(),
+            Command::Table(table) => table.run(),
         }
     }
 }
@@ -196,6 +213,15 @@ impl From<CorpusError> for Failure {
     }
 }
 
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        Failure::File {
+            path: "scene".to_owned(),
+            problem: error.to_string(),
+        }
+    }
+}
+
 impl From<AxisError> for Failure {
     fn from(error: AxisError) -> Self {
         Failure::Axis(error)
@@ -215,6 +241,7 @@ impl fmt::Display for Failure {
             Failure::Output { name, error } => write!(f, "{name}: cannot be written: {error}"),
             Failure::Program { name, reason } => write!(f, "{name}: {reason}"),
             Failure::Merge { path, error } => write!(f, "{path}: {error}"),
+            Failure::File { path, problem } => write!(f, "{path}: {problem}"),
             Failure::Nothing => f.write_str("--count 0: no query is left to judge"),
             Failure::Target(path) => {
                 write!(f, "{path}: is in no folder of a fuzz target; pass --target")

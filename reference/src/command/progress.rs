@@ -38,6 +38,20 @@ pub(super) fn working<T>(
     result
 }
 
+/// Works under a count; how many there will be is not known.
+pub(super) fn counting<T>(message: &'static str, work: impl FnOnce(&dyn Fn(u64)) -> T) -> T {
+    let bar = match is_shown() {
+        true => ProgressBar::new_spinner(),
+        false => ProgressBar::hidden(),
+    };
+    let result = work(&|more| {
+        bar.inc(more);
+        bar.set_message(format!("{} {message}", bar.position()));
+    });
+    bar.finish_and_clear();
+    result
+}
+
 /// Works under a count of settings, each judged on so many queries; how many there will be is not known.
 pub(super) fn searching<T>(queries: usize, work: impl FnOnce(&(dyn Fn(u64) + Sync)) -> T) -> T {
     let bar = match is_shown() {

@@ -38,6 +38,18 @@ fn crosses<Z: Integer>(motion: &dyn Motion<Z>, time: &Algebraic<Z>, locus: &Locu
     before != after && is_inside(time)
 }
 
+/// The passages of a motion with `f` not identically 0: +1 for each crossing at which `f` rises, -1 for each at which
+/// it falls.
+pub(super) fn passages<Z: Integer>(motion: &dyn Motion<Z>) -> i64 {
+    let times = isolate_roots(motion.f()).into_iter();
+    let signs = times.filter_map(|time| {
+        let locus = motion.locus(&time)?;
+        let rises = signs_around(motion.f(), &time).0.is_lt();
+        crosses(motion, &time, &locus).then_some(if rises { 1 } else { -1 })
+    });
+    signs.sum()
+}
+
 /// The signs of `f`, which is not identically 0, just before and just after a root of it.
 ///
 /// Near a root of multiplicity `m`, `f` is `f^(m) (t - root)^m / m!` to leading order.

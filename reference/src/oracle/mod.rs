@@ -21,7 +21,7 @@ use std::cmp::Ordering;
 
 use tunnelproof::contact::{Case, ContactKind};
 use tunnelproof::narrow::Unsupported;
-use tunnelproof::query::Query;
+use tunnelproof::query::{EdgeEdge, Query};
 
 use crate::algebraic::Algebraic;
 use crate::answer::{ExactAnswer, ExactHit};
@@ -51,7 +51,7 @@ pub use steps::{Event, Step};
 use confined::decide_confined;
 use edges::Edges;
 use face::Face;
-use general::{decide_general, signs_around};
+use general::{decide_general, passages, signs_around};
 use locus::Locus;
 use motion::Motion;
 use proximity::Proximity;
@@ -76,6 +76,17 @@ impl Subject for Oracle {
 /// None: the oracle takes every query. Others that are asked for the truth do not.
 pub fn decide_query(query: &Query) -> Result<ExactAnswer, Unsupported> {
     Ok(decide::<field::Default>(query).written())
+}
+
+/// How often two edges pass through each other, in the sense of [`crate::answer`]: +1 for each crossing at which
+/// `f = (K x L) . M` rises, -1 for each at which it falls. 0 if `f` is identically 0.
+pub fn net_passages(query: &EdgeEdge) -> i64 {
+    let query = Query::EdgeEdge(*query);
+    let motion = motion_of(&query, &Scaled::<field::Default>::new(&query));
+    match motion.f().is_zero() {
+        true => 0,
+        false => passages(&*motion),
+    }
 }
 
 /// The exact answer to a query, its numbers still algebraic.

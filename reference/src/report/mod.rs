@@ -1,6 +1,7 @@
 //! What is written down about queries and answers: lines of JSON, text and pictures.
 
 pub mod answer;
+pub mod audit;
 mod caption;
 pub mod explanation;
 pub mod junit;

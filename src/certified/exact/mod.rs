@@ -95,8 +95,8 @@ pub struct Decision {
 /// The exact answer to an edge-edge query, by integer arithmetic alone.
 ///
 /// Every finite query is decided. It takes about a microsecond where the coordinates are of similar
-/// magnitude, and up to milliseconds where their exponents span the range of `f64`; with a radius above 0, some
-/// hundred times that.
+/// magnitude, and up to milliseconds where their exponents span the range of `f64`; with a radius above 0,
+/// hundreds of times that.
 pub fn decide_exactly(query: &EdgeEdge) -> Decision {
     let positions = Positions::new(query);
     if !query.radius().is_zero() {

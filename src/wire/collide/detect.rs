@@ -1,7 +1,7 @@
 //! From the motion of all wires to the pairs that meet: broad phase, exclusion, narrow phase.
 
 use super::boxes::Boxes;
-use super::record::{CollisionRecord, Crossing, Outcome};
+use super::record::{CollisionRecord, Crossing, Outcome, PairAnswer, PairRecord};
 use super::segment::{Closest, SegmentId, Site, between, direction, joined, reach};
 use super::{CollisionError, PairFilter};
 use crate::broad::{Aabb, Method, SlowPairs};
@@ -33,6 +33,8 @@ pub(super) struct Found {
     pub(super) hits: Vec<Hit>,
     /// Places of pairs that do not, and end closer than their radii, with the direction between them.
     pub(super) near: Vec<([Site; 2], Vector)>,
+    /// All pairs that the broad phase named.
+    pub(super) pairs: Vec<PairRecord>,
 }
 
 /// A pair whose midlines meet.
@@ -71,9 +73,15 @@ impl Pipeline {
         record.named += pairs.len();
         record.excluded += pairs.len() - remaining.len();
         let mut found = Found::default();
-        for pair in remaining {
+        let mut remaining = remaining.iter().peekable();
+        for &pair in pairs {
             let two = [pair.first(), pair.second()].map(|item| &segments[item.index()]);
-            found.look(world, two, narrow, record)?;
+            let answer = match remaining.next_if(|other| **other == pair) {
+                Some(_) => found.look(world, two, narrow, record)?,
+                None => PairAnswer::Excluded,
+            };
+            let pair = two.map(|segment| segment.id);
+            found.pairs.push(PairRecord { pair, answer });
         }
         Ok(found)
     }
@@ -117,7 +125,7 @@ impl Found {
         [a, b]: [&Moving; 2],
         narrow: &dyn NarrowPhase,
         record: &mut CollisionRecord,
-    ) -> Result<(), CollisionError> {
+    ) -> Result<PairAnswer, CollisionError> {
         let start = [a.start[0], a.start[1], b.start[0], b.start[1]];
         let end = [a.end[0], a.end[1], b.end[0], b.end[1]];
         let query = EdgeEdge::new(start, end, 0.0)?;
@@ -133,6 +141,8 @@ impl Found {
                     contact,
                     report,
                 });
+                let toi = contact.toi;
+                Ok(PairAnswer::Met { toi })
             }
             Verdict::Miss => {
                 let closest = Closest::new(&end);
@@ -144,9 +154,9 @@ impl Found {
                 {
                     self.near.push((sites, normal));
                 }
+                Ok(PairAnswer::Apart)
             }
         }
-        Ok(())
     }
 }
 
@@ -210,6 +220,8 @@ impl Hit {
             case: self.report.case,
             flags: self.report.flags,
             outcome,
+            start: *self.query.start(),
+            end: *self.query.end(),
         }
     }
 }

@@ -85,6 +85,7 @@ impl<'a, 'n> Guard<'a, 'n> {
                 self.record.crossings.push(hit.crossing(outcome));
             }
         }
+        self.record.pairs = self.found.pairs;
         touches.release(world, contacts);
         if let Some(obstacles) = &mut self.collisions.obstacles {
             obstacles.note(contacts);

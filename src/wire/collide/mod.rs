@@ -48,7 +48,7 @@ mod touch;
 mod tests;
 
 pub use error::CollisionError;
-pub use record::{CollisionRecord, Crossing, Held, Outcome};
+pub use record::{CollisionRecord, Crossing, Held, Outcome, PairAnswer, PairRecord};
 pub use segment::{SegmentId, Site};
 
 use std::time::Instant;

@@ -1,8 +1,9 @@
 //! What is observed of the collisions in a step.
 
-use super::Site;
+use super::{SegmentId, Site};
 use crate::contact::{Case, Flags};
 use crate::narrow::Report;
+use crate::query::Point;
 use crate::wire::model::{BodyId, WireId};
 
 /// The collisions in one step. Counts are sums over all the times that the step was tested.
@@ -27,6 +28,8 @@ pub struct CollisionRecord {
     pub rounds: usize,
     /// Midlines that met on their way: in guard mode every pair of segments in every motion that was tried.
     pub crossings: Vec<Crossing>,
+    /// Every pair that the broad phase named in the motion that was made, with segments numbered as before it.
+    pub pairs: Vec<PairRecord>,
     /// What was not moved all the way.
     pub held: Vec<Held>,
     /// Changes of resolution that were refused.
@@ -47,6 +50,35 @@ pub struct Crossing {
     pub flags: Flags,
     /// What became of it.
     pub outcome: Outcome,
+    /// Where the motion that was tried starts: both ends of the first segment, then of the second.
+    pub start: [Point; 4],
+    /// Where it ends.
+    pub end: [Point; 4],
+}
+
+/// A pair of segments that the broad phase named.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct PairRecord {
+    /// The segments.
+    pub pair: [SegmentId; 2],
+    /// What was said of them.
+    pub answer: PairAnswer,
+}
+
+/// What was said of a pair of segments.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum PairAnswer {
+    /// They move too little to meet.
+    Excluded,
+    /// The narrow phase says that they do not meet.
+    Apart,
+    /// The narrow phase says that they meet.
+    Met {
+        /// When, from 0 to 1 in the step.
+        toi: f64,
+    },
 }
 
 /// What became of midlines that met.

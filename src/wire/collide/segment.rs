@@ -10,6 +10,7 @@ use crate::wire::step::Place;
 
 /// A segment of a wire at present; changes of resolution renumber them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SegmentId {
     /// The wire.
     pub wire: WireId,

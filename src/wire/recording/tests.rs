@@ -272,8 +272,8 @@ fn recording_names_what_is_wrong_and_where() {
     assert_eq!(text, format!("byte {end}: no step starts here"));
 
     let mut other = file.clone();
-    other[16] = 2;
-    assert_eq!(read_all(&other).1.unwrap().fault, Fault::Version(2));
+    other[16] = 1;
+    assert_eq!(read_all(&other).1.unwrap().fault, Fault::Version(1));
     assert_eq!(read_all(b"something else").1.unwrap().fault, Fault::Opening);
 }
 

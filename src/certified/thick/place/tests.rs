@@ -56,7 +56,8 @@ fn errors_are_bounded<S: Shape>(seed: u64) {
     };
     let worst = search.worst(start, claims);
     println!("thick: places {worst:?}");
-    assert!(worst.iter().all(|&ratio| ratio > 1e-3));
+    // The bound is generous: it sums up magnitudes where the errors are of either sign, and takes a quarter of N^2.
+    assert!(worst.iter().all(|&ratio| ratio > 1e-4));
 }
 
 #[test]

@@ -1,0 +1,139 @@
+//! The wires between two steps, while changes of resolution are made.
+
+use tunnelproof::query::{EdgeEdge, Point};
+use tunnelproof::wire::{NodeKind, Remesh, RemeshKind, SegmentId, StepRecord, WireId};
+
+use super::first_contact;
+use super::segments::is_one_point;
+
+/// All wires where a step has left them.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Wires(Vec<Vec<Node>>);
+
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    arc: f64,
+    kind: NodeKind,
+    at: Point,
+}
+
+impl Wires {
+    /// After the motion of a step.
+    pub(super) fn after(record: &StepRecord) -> Self {
+        let wires = record.wires.iter().map(|wire| {
+            let places = wire.arcs.iter().zip(&wire.kinds).zip(&wire.after);
+            places
+                .map(|((&arc, &kind), &at)| Node { arc, kind, at })
+                .collect()
+        });
+        Wires(wires.collect())
+    }
+
+    /// The wires that do not start there in the next step.
+    pub(super) fn jumped(&self, next: &StepRecord) -> Vec<usize> {
+        let count = self.0.len().max(next.wires.len());
+        let starts = |w: usize| {
+            let before = next.wires.get(w).map(|wire| wire.before.iter());
+            let here = self.0.get(w).map(|wire| wire.iter().map(|node| &node.at));
+            match (before, here) {
+                (Some(before), Some(here)) => here.eq(before),
+                _ => false,
+            }
+        };
+        (0..count).filter(|&w| !starts(w)).collect()
+    }
+
+    /// Where the triangle of a change is: the number of the node before its middle. None if it is not there.
+    fn place(&self, change: &Remesh) -> Option<usize> {
+        let wire = self.0.get(change.wire.0)?;
+        let [a, b, c] = change.triangle;
+        let corners = match change.kind {
+            RemeshKind::Merge => vec![a, b, c],
+            RemeshKind::Split => vec![a, c],
+        };
+        let mut windows = wire.windows(corners.len());
+        windows.position(|nodes| nodes.iter().map(|node| node.at).eq(corners.iter().copied()))
+    }
+
+    /// The segments that are no neighbours of a change: wire, arc lengths and positions of their ends.
+    pub(super) fn others<'a>(
+        &'a self,
+        change: &'a Remesh,
+    ) -> impl Iterator<Item = (usize, [f64; 2], [Point; 2])> + 'a {
+        self.apart(change)
+            .map(|(id, two)| (id.wire.0, two.map(|node| node.arc), two.map(|node| node.at)))
+    }
+
+    fn apart<'a>(
+        &'a self,
+        change: &'a Remesh,
+    ) -> impl Iterator<Item = (SegmentId, [Node; 2])> + 'a {
+        let own = change.wire.0;
+        let first = self.place(change).unwrap_or(0);
+        let last = first
+            + if change.kind == RemeshKind::Merge {
+                2
+            } else {
+                1
+            };
+        let corner = |k: usize| self.0.get(own)?.get(k).map(|node| (node.kind, node.at));
+        let corners: Vec<_> = [first, last].into_iter().filter_map(corner).collect();
+        let segments = self.0.iter().enumerate().flat_map(|(w, wire)| {
+            let wire_id = WireId(w);
+            let pairs = wire.windows(2).enumerate();
+            pairs.map(move |(segment, two)| {
+                (
+                    SegmentId {
+                        wire: wire_id,
+                        segment,
+                    },
+                    [two[0], two[1]],
+                )
+            })
+        });
+        segments.filter(move |(id, two)| {
+            let at_corner = id.wire.0 == own && id.segment + 1 >= first && id.segment <= last;
+            let fixed = two.iter().any(|node| {
+                corners
+                    .iter()
+                    .any(|corner| is_one_point(corner, &(node.kind, node.at)))
+            });
+            !at_corner && !fixed
+        })
+    }
+
+    /// The segments that a change passes through, with a witness each. It is swept around the middle of the
+    /// triangle, which is not how the engine sweeps it. None if it is not a change of these wires.
+    pub(super) fn meetings(&self, change: &Remesh) -> Option<Vec<(SegmentId, EdgeEdge)>> {
+        self.place(change)?;
+        let [a, b, c] = change.triangle;
+        let mut met = Vec::new();
+        for (id, two) in self.apart(change) {
+            let [p, q] = two.map(|node| node.at);
+            let query = EdgeEdge::new([a, b, p, q], [c, b, p, q], 0.0).ok()?;
+            if first_contact(query).is_some() {
+                met.push((id, query));
+            }
+        }
+        Some(met)
+    }
+
+    /// Makes a change.
+    pub(super) fn make(&mut self, change: &Remesh) {
+        let Some(first) = self.place(change) else {
+            return;
+        };
+        let wire = &mut self.0[change.wire.0];
+        match change.kind {
+            RemeshKind::Merge => drop(wire.remove(first + 1)),
+            RemeshKind::Split => {
+                let node = Node {
+                    arc: change.arcs[1],
+                    kind: NodeKind::Free,
+                    at: change.triangle[1],
+                };
+                wire.insert(first + 1, node);
+            }
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! The segments of all wires on their way, and which pairs of them can meet.
+
+use tunnelproof::query::{EdgeEdge, Point, QueryError};
+use tunnelproof::wire::{NodeKind, SegmentId, StepRecord, WireId};
+
+/// A segment on its way: straight, from start to end.
+pub(super) struct Segment {
+    pub(super) id: SegmentId,
+    pub(super) start: [Point; 2],
+    pub(super) end: [Point; 2],
+    kinds: [NodeKind; 2],
+}
+
+impl Segment {
+    /// The smallest and the largest coordinates on the way. They are compared, not computed, so they are exact.
+    fn reach(&self) -> [[f64; 2]; 3] {
+        let points = [self.start, self.end];
+        [0, 1, 2].map(|axis| {
+            let of = points.as_flattened().iter().map(|point| point[axis]);
+            [
+                of.clone().fold(f64::INFINITY, f64::min),
+                of.fold(f64::NEG_INFINITY, f64::max),
+            ]
+        })
+    }
+
+    /// Whether two segments are one and the same, have a node in common, or are fixed to one point.
+    fn is_joined(&self, other: &Segment) -> bool {
+        let (a, b) = (self.id, other.id);
+        let neighbours = a.wire == b.wire && a.segment.abs_diff(b.segment) <= 1;
+        let ends = |segment: &Segment| [0, 1].map(|k| (segment.kinds[k], segment.start[k]));
+        let one_point = |x: &(NodeKind, Point)| ends(other).iter().any(|y| is_one_point(x, y));
+        neighbours || ends(self).iter().any(one_point)
+    }
+}
+
+/// Whether two nodes are fixed to the same point of a body or of the world.
+pub(super) fn is_one_point(x: &(NodeKind, Point), y: &(NodeKind, Point)) -> bool {
+    match (x.0.carrier(), y.0.carrier()) {
+        (Some(x), Some(y)) => x == y,
+        (None, None) => x == y && x.0 == NodeKind::Pinned,
+        _ => false,
+    }
+}
+
+/// All segments in the motion of a step, every node where `place` puts it.
+pub(super) fn moving(
+    record: &StepRecord,
+    place: impl Fn(usize, f64, Point) -> Point,
+) -> Vec<Segment> {
+    let mut all = Vec::new();
+    for (w, wire) in record.wires.iter().enumerate() {
+        let nodes = wire
+            .before
+            .len()
+            .min(wire.after.len())
+            .min(wire.kinds.len());
+        for segment in 0..nodes.min(wire.arcs.len()).saturating_sub(1) {
+            let at = |points: &[Point]| {
+                [segment, segment + 1].map(|node| place(w, wire.arcs[node], points[node]))
+            };
+            let wire_id = WireId(w);
+            all.push(Segment {
+                id: SegmentId {
+                    wire: wire_id,
+                    segment,
+                },
+                start: at(&wire.before),
+                end: at(&wire.after),
+                kinds: [wire.kinds[segment], wire.kinds[segment + 1]],
+            });
+        }
+    }
+    all
+}
+
+/// The question whether two segments meet.
+pub(super) fn query(a: &Segment, b: &Segment) -> Result<EdgeEdge, QueryError> {
+    let four = |a: [Point; 2], b: [Point; 2]| [a[0], a[1], b[0], b[1]];
+    EdgeEdge::new(four(a.start, b.start), four(a.end, b.end), 0.0)
+}
+
+/// All pairs whose boxes meet and that are not joined, by number, the smaller first.
+pub(super) fn candidates(segments: &[Segment]) -> Vec<[usize; 2]> {
+    let reaches: Vec<_> = segments.iter().map(Segment::reach).collect();
+    let axis = widest(&reaches);
+    let mut order: Vec<usize> = (0..segments.len()).collect();
+    order.sort_by(|&a, &b| reaches[a][axis][0].total_cmp(&reaches[b][axis][0]));
+    let mut pairs = Vec::new();
+    for (k, &a) in order.iter().enumerate() {
+        let near = |b: &&usize| reaches[**b][axis][0] <= reaches[a][axis][1];
+        for &b in order[k + 1..].iter().take_while(near) {
+            let meet = (0..3).all(|axis| {
+                let [[low, high], [other_low, other_high]] = [a, b].map(|k| reaches[k][axis]);
+                low <= other_high && other_low <= high
+            });
+            if meet && !segments[a].is_joined(&segments[b]) {
+                pairs.push([a.min(b), a.max(b)]);
+            }
+        }
+    }
+    pairs.sort_unstable();
+    pairs
+}
+
+/// The axis along which the segments are spread the most.
+fn widest(reaches: &[[[f64; 2]; 3]]) -> usize {
+    let spread = |axis: usize| {
+        let low = reaches
+            .iter()
+            .map(|reach| reach[axis][0])
+            .fold(f64::INFINITY, f64::min);
+        let high = reaches
+            .iter()
+            .map(|reach| reach[axis][1])
+            .fold(f64::NEG_INFINITY, f64::max);
+        high - low
+    };
+    (0..3)
+        .max_by(|&a, &b| spread(a).total_cmp(&spread(b)))
+        .unwrap_or(0)
+}

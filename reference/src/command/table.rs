@@ -1,0 +1,51 @@
+//! `table`: the tables of the thesis' chapter 4 beside ours.
+
+use std::process::ExitCode;
+
+use clap::{Args, ValueEnum};
+use tunnelproof_reference::tables::{cases, missed, scenes, speeds, times};
+
+use super::Failure;
+use super::output::print;
+
+/// Print a table of the thesis beside ours
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  tunnelproof table 4.1
+  tunnelproof table missed --duration 1
+  tunnelproof table speeds --duration 0.5")]
+pub(super) struct Table {
+    #[arg(value_enum)]
+    table: Which,
+    /// Run no scene for longer than this, in s
+    #[arg(long, value_name = "S", default_value_t = f64::INFINITY, hide_default_value = true)]
+    duration: f64,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Which {
+    /// Which cases occur in each scene
+    #[value(name = "4.1")]
+    Cases,
+    /// Run time of continuous detection against discrete at the largest step that does not tunnel
+    #[value(name = "4.2")]
+    Times,
+    /// Tunnels missed by each narrow phase, by the audit
+    Missed,
+    /// The first scene at 1 to 200 m/s
+    Speeds,
+}
+
+impl Table {
+    pub(super) fn run(self) -> Result<ExitCode, Failure> {
+        let text = match self.table {
+            Which::Cases => cases(&scenes(self.duration)?)?,
+            Which::Times => times(&scenes(self.duration)?)?,
+            Which::Missed => missed(&scenes(self.duration)?)?,
+            Which::Speeds => speeds(self.duration)?,
+        };
+        print(&text)?;
+        Ok(ExitCode::SUCCESS)
+    }
+}

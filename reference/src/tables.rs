@@ -1,0 +1,259 @@
+//! The thesis' tables 4.1 and 4.2 beside what this stepper makes of the same scenes, and tables that it could not have.
+
+use tunnelproof::contact::Case;
+use tunnelproof::scenario::scenes::{EMBEDDED, Scene, SceneError};
+use tunnelproof::wire::Mode;
+
+use crate::audit::{Audit, Report};
+use crate::certify::table::grouped;
+use crate::simulate::{Narrow, Run, Summary};
+
+#[cfg(test)]
+mod tests;
+
+/// The width of the names of rows.
+const NAME: usize = 34;
+
+/// The width of a column.
+const CELL: usize = 26;
+
+/// A run and what the audit found in it.
+pub struct Audited {
+    /// What was counted.
+    pub summary: Summary,
+    /// What was found.
+    pub report: Report,
+}
+
+/// Runs a scene and audits it.
+///
+/// # Errors
+///
+/// The scene cannot be built.
+pub fn audited(scene: &Scene, narrow: Narrow, mode: Mode) -> Result<Audited, SceneError> {
+    let radii = scene.wires.iter().map(|wire| wire.material.radius);
+    let mut audit = Audit::new(radii.collect());
+    let narrow = &*narrow.phase();
+    let run = Run {
+        scene,
+        narrow,
+        mode,
+    };
+    let summary = run.go(|_, record| {
+        audit.step(record);
+        Ok::<(), SceneError>(())
+    })?;
+    let report = audit.finish();
+    Ok(Audited { summary, report })
+}
+
+/// The scenes of the thesis, none longer than so many seconds.
+///
+/// # Errors
+///
+/// None: they build.
+pub fn scenes(longest: f64) -> Result<Vec<Scene>, SceneError> {
+    let shortened = |(name, _): &(&str, &str)| {
+        let mut scene = Scene::embedded(name)?;
+        scene.duration = scene.duration.min(longest);
+        Ok(scene)
+    };
+    EMBEDDED.iter().map(shortened).collect()
+}
+
+/// A row: a name and a cell for each scene.
+fn row(name: &str, cells: impl IntoIterator<Item = String>) -> String {
+    let cells = cells.into_iter().map(|cell| format!("{cell:>CELL$}"));
+    format!("{name:<NAME$}{}\n", cells.collect::<String>())
+}
+
+fn heading(scenes: &[Scene]) -> String {
+    row("", scenes.iter().map(|scene| scene.title.clone()))
+}
+
+/// `thesis / ours`.
+fn beside(thesis: impl ToString, ours: impl ToString) -> String {
+    format!("{} / {}", thesis.to_string(), ours.to_string())
+}
+
+/// Table 4.1: which cases occur. Thesis mode and thesis path at the scenes' steps.
+///
+/// # Errors
+///
+/// A scene cannot be built.
+pub fn cases(scenes: &[Scene]) -> Result<String, SceneError> {
+    type Ours = fn(&Summary) -> usize;
+    let rows: [(&str, [u64; 4], Ours); 7] = [
+        ("Number of time steps", [300, 1920, 300, 540], |s| {
+            s.steps as usize
+        }),
+        ("Total tests", [5366, 9919, 154_416, 26_958], |s| s.tested),
+        ("Tunneled", [2, 7, 12, 22], |s| s.tunnelled),
+        ("Non-degenerate case", [5366, 9919, 154_416, 24_877], |s| {
+            s.of_case(&[Case::General])
+        }),
+        ("Case 3", [0, 0, 0, 0], |s| {
+            s.of_case(&[Case::Parallel, Case::Collinear])
+        }),
+        ("Case 4", [0, 0, 0, 2081], |s| s.of_case(&[Case::Coplanar])),
+        ("Temporarily parallel", [0, 0, 0, 7], |s| {
+            s.temporarily_parallel
+        }),
+    ];
+    let runs = scenes
+        .iter()
+        .map(|scene| audited(scene, Narrow::Thesis, Mode::Thesis));
+    let runs = runs.collect::<Result<Vec<_>, _>>()?;
+    let mut text = String::from("Table 4.1: thesis / ours\n") + &heading(scenes);
+    for (name, thesis, ours) in rows {
+        let cells = thesis.iter().zip(&runs);
+        text += &row(
+            name,
+            cells.map(|(thesis, run)| beside(grouped(*thesis), grouped(ours(&run.summary) as u64))),
+        );
+    }
+    Ok(text + &stopped(&runs))
+}
+
+/// The runs that ended before their time.
+fn stopped<'a>(runs: impl IntoIterator<Item = &'a Audited>) -> String {
+    let stopped = runs.into_iter().filter_map(|run| {
+        let reason = run.summary.stopped.as_ref()?;
+        Some(format!("stopped: {}: {reason}\n", run.summary.title))
+    });
+    stopped.collect()
+}
+
+/// Tunnels missed: discrete at the scenes' step, the thesis path, additive CCD, the certified path, each in thesis mode,
+/// by the audit.
+///
+/// # Errors
+///
+/// A scene cannot be built.
+pub fn missed(scenes: &[Scene]) -> Result<String, SceneError> {
+    let mut text = String::from(
+        "Contacts missed, of them crossings / contacts made; standing at the end (thesis mode, by the audit)\n",
+    ) + &heading(scenes);
+    let order = [
+        Narrow::Discrete,
+        Narrow::Thesis,
+        Narrow::Additive,
+        Narrow::Certified,
+    ];
+    let mut ended = String::new();
+    for narrow in order {
+        let runs = scenes
+            .iter()
+            .map(|scene| audited(scene, narrow, Mode::Thesis));
+        let runs = runs.collect::<Result<Vec<_>, _>>()?;
+        let cell = |Audited { report, .. }: &Audited| {
+            let missed = report.missed.iter().sum::<u64>();
+            let (crossings, standing) = (report.missed_crossings, report.standing.len());
+            format!("{missed}, {crossings} / {}; {standing}", report.contacts)
+        };
+        text += &row(narrow.name(), runs.iter().map(cell));
+        ended += &stopped(&runs);
+    }
+    Ok(text + &ended)
+}
+
+/// Scene 1 at speeds from 1 to 200 m/s: what discrete detection lets through, and guard mode.
+///
+/// # Errors
+///
+/// None: the scene builds.
+pub fn speeds(duration: f64) -> Result<String, SceneError> {
+    let mut text = String::from("Basic collision at other speeds\n");
+    let names = [
+        "discrete: standing",
+        "guard: prevented",
+        "guard: missed",
+        "guard: standing",
+    ];
+    text += &row("speed, m/s", names.map(str::to_owned));
+    for speed in [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0] {
+        let mut scene = Scene::embedded("basic-collision")?;
+        scene.duration = scene.duration.min(duration);
+        for wire in &mut scene.wires {
+            wire.velocity[2] *= speed / 10.0;
+        }
+        let discrete = audited(&scene, Narrow::Discrete, Mode::Thesis)?.report;
+        let guard = audited(&scene, Narrow::Certified, Mode::Guard)?.report;
+        let missed = guard.missed.iter().sum::<u64>();
+        let (lost, standing) = (discrete.standing.len() as u64, guard.standing.len() as u64);
+        let cells = [lost, guard.prevented, missed, standing].map(grouped);
+        text += &row(&speed.to_string(), cells);
+    }
+    Ok(text)
+}
+
+/// The largest step in whole milliseconds, at most 16, up to which no wires pass through each other with discrete
+/// detection. A larger one may do by luck: where a step ends with the wires overlapping.
+///
+/// # Errors
+///
+/// The scene cannot be built.
+pub fn largest_discrete_step(scene: &Scene) -> Result<Option<(f64, Audited)>, SceneError> {
+    let mut largest = None;
+    for milliseconds in 1..=16 {
+        let mut scene = scene.clone();
+        scene.settings.step = f64::from(milliseconds) / 1000.0;
+        let run = audited(&scene, Narrow::Discrete, Mode::Thesis)?;
+        if !run.report.is_clean() || run.summary.stopped.is_some() {
+            break;
+        }
+        largest = Some((scene.settings.step, run));
+    }
+    Ok(largest)
+}
+
+/// Table 4.2: what continuous detection costs at 1/60 s, in guard mode by the certified path, against discrete detection
+/// at the largest step that does not tunnel. Run times are those of this machine, without the audit.
+///
+/// # Errors
+///
+/// A scene cannot be built.
+pub fn times(scenes: &[Scene]) -> Result<String, SceneError> {
+    let thesis = [
+        (0.004, [0.118, 0.489], -75.87),
+        (0.010, [2.236, 3.649], -38.72),
+        (0.010, [4.269, 4.574], -6.67),
+        (0.006, [2.850, 6.822], -58.22),
+    ];
+    let mut rows = vec![Vec::new(); 5];
+    for (scene, (step, [continuous, discrete], change)) in scenes.iter().zip(thesis) {
+        let ours = audited(scene, Narrow::Certified, Mode::Guard)?.summary;
+        let found = largest_discrete_step(scene)?;
+        let of = |read: fn(f64, &Summary) -> String| match &found {
+            Some((step, run)) => read(*step, &run.summary),
+            None => "none".to_owned(),
+        };
+        let wall = ours.wall;
+        let ratio = found
+            .as_ref()
+            .map(|(_, run)| 100.0 * (wall / run.summary.wall - 1.0));
+        rows[0].push(beside(step, of(|step, _| step.to_string())));
+        rows[1].push(beside(continuous, format!("{wall:.3}")));
+        rows[2].push(beside(
+            discrete,
+            of(|_, summary| format!("{:.3}", summary.wall)),
+        ));
+        rows[3].push(beside(
+            format!("{change} %"),
+            ratio.map_or_else(|| "none".to_owned(), |ratio| format!("{ratio:.2} %")),
+        ));
+        rows[4].push(format!("{:.2} %", 100.0 * ours.wall_collision / wall));
+    }
+    let names = [
+        "Time step (discrete), s",
+        "Run time (CCD at 1/60 s), s",
+        "Run time (discrete), s",
+        "Total run time change",
+        "Collisions of run time (ours)",
+    ];
+    let mut text = String::from("Table 4.2: thesis / ours\n") + &heading(scenes);
+    for (name, cells) in names.into_iter().zip(rows) {
+        text += &row(name, cells);
+    }
+    Ok(text)
+}

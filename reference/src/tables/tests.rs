@@ -1,0 +1,48 @@
+use super::*;
+
+fn basic_collision(duration: f64) -> Vec<Scene> {
+    let mut scenes = scenes(duration).unwrap();
+    scenes.truncate(1);
+    scenes
+}
+
+#[test]
+fn table_4_1_counts_two_tunnels_in_scene_1() {
+    let text = cases(&basic_collision(0.5)).unwrap();
+    let row = text
+        .lines()
+        .find(|line| line.starts_with("Tunneled"))
+        .unwrap();
+    assert!(row.ends_with("2 / 2"), "{row}");
+    let row = text
+        .lines()
+        .find(|line| line.starts_with("Case 4"))
+        .unwrap();
+    assert!(row.ends_with("0 / 0"), "{row}");
+}
+
+#[test]
+fn table_of_missed_tunnels_has_discrete_detection_miss_and_the_certified_path_not() {
+    let text = missed(&basic_collision(0.1)).unwrap();
+    let last = |name: &str| {
+        let row = text.lines().find(|line| line.starts_with(name)).unwrap();
+        row[NAME..].trim().to_owned()
+    };
+    // Midlines meet in eight pairs, at two nodes. Nothing pushes the wires back.
+    assert_eq!(last("discrete"), "8, 0 / 8; 2");
+    assert!(last("certified").starts_with("0, 0 / "), "{text}");
+    assert!(last("certified").ends_with("; 0"), "{text}");
+}
+
+#[test]
+fn largest_discrete_step_of_scene_1_does_not_tunnel_and_the_next_does() {
+    let scene = &basic_collision(0.1)[0];
+    let (step, run) = largest_discrete_step(scene).unwrap().unwrap();
+    assert!(run.report.is_clean());
+    // That of the thesis.
+    assert_eq!(step, 0.004);
+    let mut longer = scene.clone();
+    longer.settings.step = 0.005;
+    let longer = audited(&longer, Narrow::Discrete, Mode::Thesis).unwrap();
+    assert_eq!(longer.report.standing.len(), 2);
+}

@@ -1,0 +1,140 @@
+//! `simulate` and `audit` as a user runs them.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+use tunnelproof::scenario::scenes::{EMBEDDED, Scene};
+
+fn tunnelproof(arguments: &[&str]) -> Output {
+    let program = env!("CARGO_BIN_EXE_tunnelproof");
+    Command::new(program).args(arguments).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+fn json(path: &Path) -> Value {
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+#[test]
+fn simulate_records_what_audit_reads_and_both_find_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let [recording, live, read] =
+        ["run.tps", "live.json", "read.json"].map(|name| folder.path().join(name));
+    let path = |path: &'_ Path| path.to_str().unwrap().to_owned();
+    let output = tunnelproof(&[
+        "simulate",
+        "basic-collision",
+        "--mode",
+        "thesis",
+        "--narrow",
+        "discrete",
+        "--duration",
+        "0.2",
+        "--audit",
+        "--record",
+        &path(&recording),
+        "--json",
+        &path(&live),
+    ]);
+    // Nobody looks at the way of the falling wire.
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    let said = text(&output.stdout);
+    assert!(
+        said.contains("steps                 12 (0.200 s)"),
+        "{said}"
+    );
+    assert!(said.contains("have passed through each other"), "{said}");
+    assert!(said.contains("missed by the narrow phase: wire"), "{said}");
+    let output = tunnelproof(&["audit", &path(&recording), "--json", &path(&read)]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(said.ends_with(&text(&output.stdout)), "{said}");
+    let (live, read) = (json(&live), json(&read));
+    assert_eq!(live["audit"], read);
+    assert_eq!(live["summary"]["steps"], 12);
+    // The witness is a query that the commands read.
+    let witness = read["findings"][0]["query"].as_str().unwrap();
+    let file = folder.path().join("witness.jsonl");
+    std::fs::write(&file, witness).unwrap();
+    let output = tunnelproof(&["explain", &format!("{}#witness", path(&file))]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+}
+
+#[test]
+fn simulate_in_guard_mode_is_clean() {
+    let output = tunnelproof(&[
+        "simulate",
+        "basic-collision",
+        "--duration",
+        "0.5",
+        "--audit",
+    ]);
+    let said = text(&output.stdout);
+    assert!(output.status.success(), "{said}{}", text(&output.stderr));
+    assert!(said.contains("standing tunnels        0"), "{said}");
+}
+
+#[test]
+fn simulate_writes_a_clock_and_a_file_for_each_step_for_paraview() {
+    let folder = tempfile::tempdir().unwrap();
+    let to = folder.path().join("new");
+    let path = to.to_str().unwrap();
+    let output = tunnelproof(&[
+        "simulate",
+        "basic-collision",
+        "--duration",
+        "0.05",
+        "--vtk",
+        path,
+    ]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let clock = std::fs::read_to_string(to.join("steps.pvd")).unwrap();
+    assert_eq!(clock.matches("<DataSet").count(), 3);
+    assert!(to.join("step-000002.vtp").exists());
+}
+
+#[test]
+fn simulate_refuses_what_is_no_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("scene.toml");
+    let wrong = EMBEDDED[0].1.replacen("radius = 0.02", "radius = -1", 1);
+    std::fs::write(&file, &wrong).unwrap();
+    let output = tunnelproof(&["simulate", file.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    let line = 1 + wrong[..wrong.find("radius = -1").unwrap()]
+        .matches('\n')
+        .count();
+    let said = text(&output.stderr);
+    assert!(
+        said.contains(&format!("line {line}: wires[0].radius: radius is -1")),
+        "{said}"
+    );
+    let output = tunnelproof(&["simulate", "no-such-scene"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("twisting-under-load"));
+    let output = tunnelproof(&["audit", file.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("scene.toml: "));
+}
+
+#[test]
+fn schema_accepts_the_scenes_and_refuses_unknown_fields() {
+    let output = tunnelproof(&["simulate", "--schema"]);
+    let schema: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let schema = jsonschema::validator_for(&schema).unwrap();
+    for (name, text) in EMBEDDED {
+        let scene = serde_json::to_value(Scene::from_toml(text).unwrap()).unwrap();
+        assert!(schema.is_valid(&scene), "{name}");
+        let mut unknown = scene.clone();
+        unknown["wires"][0]["colour"] = "blue".into();
+        assert!(!schema.is_valid(&unknown));
+        let mut missing = scene;
+        missing["wires"][0].as_object_mut().unwrap().remove("route");
+        assert!(!schema.is_valid(&missing));
+    }
+}
