@@ -12,6 +12,9 @@ import sys
 
 import ipctk
 
+# What it logs goes to the standard output, where answers are due.
+ipctk.set_logger_level(ipctk.LoggerLevel.off)
+
 METHODS = {
     "tight-inclusion": ipctk.TightInclusionCCD,
     "additive": ipctk.AdditiveCCD,
