@@ -10,7 +10,7 @@ use tunnelproof::wire::StepRecord;
 
 use crate::replay::place;
 
-/// The steps of a run on their clock: the text of the `.pvd`, of files named by [`file`].
+/// The steps of a run on their clock: the text of the `.pvd`, of files named by [`file`](fn@file).
 pub fn collection(times: &[(u64, f64)]) -> String {
     let mut text = String::from(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n",

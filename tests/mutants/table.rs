@@ -73,8 +73,8 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     Mutant {
         culprit: Culprit::Oracle,
         file: "reference/src/oracle/general.rs",
-        text: "let times = isolate_roots(motion.f()).into_iter();",
-        replacement: "let times = isolate_roots(motion.f()).into_iter().take(2);",
+        text: "let mut contacts = times.filter_map(",
+        replacement: "let mut contacts = times.take(2).filter_map(",
         fault: "the third root of the cubic is dropped",
     },
     Mutant {

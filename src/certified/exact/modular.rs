@@ -1,10 +1,15 @@
 //! Polynomials modulo a prime: a quick proof that two of them have no common root.
 
+use smallvec::SmallVec;
+
 use super::integer::Integer;
 use super::poly::Poly;
 
 /// `2^61 - 1`.
 const PRIME: u64 = (1 << 61) - 1;
+
+/// Coefficients modulo the prime, the constant one first; of degree up to 7 without allocation.
+type Residues = SmallVec<[u64; 8]>;
 
 /// Whether two polynomials that are not 0 have no common factor; `false` where the prime does not tell.
 ///
@@ -32,8 +37,7 @@ pub(super) fn are_coprime<const N: usize>(p: &Poly<N>, q: &Poly<N>) -> bool {
     q.len() == 1
 }
 
-/// The coefficients modulo the prime.
-fn residues<const N: usize>(p: &Poly<N>) -> Vec<u64> {
+fn residues<const N: usize>(p: &Poly<N>) -> Residues {
     let coefficients = p.coefficients().iter();
     coefficients.map(residue).collect()
 }
@@ -47,7 +51,7 @@ fn residue(integer: &Integer) -> u64 {
     }
 }
 
-fn trim(p: &mut Vec<u64>) {
+fn trim(p: &mut Residues) {
     let length = p.iter().rposition(|&c| c != 0).map_or(0, |at| at + 1);
     p.truncate(length);
 }
