@@ -1,0 +1,51 @@
+//! Answers as NumPy arrays with a row for each query.
+
+use numpy::{PyArray1, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// Columns by name. The first is `hit`; where it is false the others have NaN, false or 0.
+pub(crate) struct Columns<'a, 'py, H> {
+    hits: &'a [Option<H>],
+    pub(crate) dict: Bound<'py, PyDict>,
+    py: Python<'py>,
+}
+
+impl<'a, 'py, H> Columns<'a, 'py, H> {
+    pub(crate) fn new(py: Python<'py>, hits: &'a [Option<H>]) -> Self {
+        let dict = PyDict::new(py);
+        Columns { hits, dict, py }
+    }
+
+    /// `N` numbers of each hit: an array of shape `(n,)` if `N` is 1, else `(n, N)`.
+    pub(crate) fn numbers<const N: usize>(
+        &mut self,
+        name: &str,
+        of: impl Fn(&H) -> [f64; N],
+    ) -> PyResult<()> {
+        let rows = self.hits.iter();
+        let rows = rows.map(|hit| hit.as_ref().map_or([f64::NAN; N], &of));
+        let array = PyArray1::from_vec(self.py, rows.collect::<Vec<_>>().into_flattened());
+        match N {
+            1 => self.dict.set_item(name, array),
+            _ => self
+                .dict
+                .set_item(name, array.reshape([self.hits.len(), N])?),
+        }
+    }
+
+    /// Whether something is so of each hit.
+    pub(crate) fn flags(&mut self, name: &str, of: impl Fn(&H) -> bool) -> PyResult<()> {
+        let flags = self.hits.iter().map(|hit| hit.as_ref().is_some_and(&of));
+        self.dict
+            .set_item(name, PyArray1::from_iter(self.py, flags))
+    }
+
+    /// `hit` and `side`, with which every answer ends.
+    pub(crate) fn sides(&mut self, of: impl Fn(&H) -> i8) -> PyResult<()> {
+        self.flags("hit", |_| true)?;
+        let sides = self.hits.iter().map(|hit| hit.as_ref().map_or(0, &of));
+        self.dict
+            .set_item("side", PyArray1::from_iter(self.py, sides))
+    }
+}

@@ -1,0 +1,92 @@
+//! A method in Python as a subject.
+
+use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
+use pyo3::prelude::*;
+use tunnelproof::narrow::Unsupported;
+use tunnelproof::query::{Query, QueryKind};
+use tunnelproof_reference::answer::Enclosure;
+use tunnelproof_reference::subject::{Answer, Lapse, LapseKind, NoAnswer, Said, Subject};
+
+use crate::queries::row;
+
+/// A callable that is asked `(kind, points, radii)` and answers `(hit, toi)`, or `None` for what it does not take.
+pub(crate) struct Method {
+    pub(crate) name: String,
+    pub(crate) call: Py<PyAny>,
+    pub(crate) declared_distance: f64,
+}
+
+type Answers = Vec<Result<Answer, NoAnswer>>;
+
+impl Subject for Method {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn answer(&self, query: &Query) -> Result<Answer, NoAnswer> {
+        match self.ask(query.kind(), &[*query]) {
+            Ok(mut answers) if answers.len() == 1 => answers.remove(0),
+            Ok(_) => Err(lapse("as many answers as queries are due")),
+            Err(error) => Err(lapse(&error.to_string())),
+        }
+    }
+
+    /// All queries of a kind in one call. If that fails, one by one, to see which of them it fails on.
+    fn answers(&self, queries: &[Query]) -> Answers {
+        let mut answers = Vec::with_capacity(queries.len());
+        for queries in queries.chunk_by(|a, b| a.kind() == b.kind()) {
+            match self.ask(queries[0].kind(), queries) {
+                Ok(together) => answers.extend(together),
+                Err(_) => answers.extend(queries.iter().map(|query| self.answer(query))),
+            }
+        }
+        answers
+    }
+
+    fn declared_distance(&self) -> f64 {
+        self.declared_distance
+    }
+}
+
+fn lapse(detail: &str) -> NoAnswer {
+    Lapse::new(LapseKind::Panicked, detail.lines().next().unwrap_or("")).into()
+}
+
+impl Method {
+    fn ask(&self, kind: QueryKind, queries: &[Query]) -> PyResult<Answers> {
+        Python::attach(|py| {
+            let (points, radii): (Vec<_>, Vec<_>) = queries.iter().map(row).unzip();
+            let points = PyArray1::from_vec(py, points.into_flattened().into_flattened());
+            let points = points.reshape([queries.len(), 8, 3])?;
+            let radii = PyArray1::from_vec(py, radii.into_flattened());
+            let radii = radii.reshape([queries.len(), 2])?;
+            let answer = self.call.bind(py).call1((kind.name(), points, radii))?;
+            if answer.is_none() {
+                let refused = queries.iter().map(|query| Err(not_taken(query).into()));
+                return Ok(refused.collect());
+            }
+            let (hit, toi): (PyReadonlyArray1<'_, bool>, PyReadonlyArray1<'_, f64>) =
+                answer.extract()?;
+            let answers = hit.as_array().into_iter().zip(toi.as_array());
+            Ok(answers.map(|(&hit, &toi)| Ok(said(hit, toi))).collect())
+        })
+    }
+}
+
+fn not_taken(query: &Query) -> Unsupported {
+    match query.radius().is_zero() {
+        true => Unsupported::Kind(query.kind()),
+        false => Unsupported::Radius(query.radius()),
+    }
+}
+
+fn said(hit: bool, toi: f64) -> Answer {
+    let at = Enclosure {
+        below: toi,
+        above: toi,
+    };
+    Answer::Said(Said {
+        toi: hit.then_some(at),
+        case: None,
+    })
+}

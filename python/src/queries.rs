@@ -1,0 +1,78 @@
+//! Queries from arrays.
+
+use numpy::PyReadonlyArray3;
+use numpy::ndarray::ArrayView1;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use tunnelproof::query::{Point, Query, QueryKind, Radius};
+
+/// Points of shape `(n, 8, 3)` and radii of shape `(n, 2)`, copied out of NumPy, so that Python can run while
+/// they are worked on.
+pub(crate) struct Rows(Vec<([[f64; 3]; 8], [f64; 2])>);
+
+impl Rows {
+    /// The rows of two arrays, whose shapes the Python side has made sure of.
+    pub(crate) fn new(
+        points: &PyReadonlyArray3<'_, f64>,
+        radii: &numpy::PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<Self> {
+        let (points, radii) = (points.as_array(), radii.as_array());
+        if points.shape()[1..] != [8, 3] || radii.shape() != [points.shape()[0], 2] {
+            return Err(PyValueError::new_err(format!(
+                "points are {:?} and radii {:?}, not (n, 8, 3) and (n, 2)",
+                points.shape(),
+                radii.shape()
+            )));
+        }
+        let rows = points.outer_iter().zip(radii.outer_iter());
+        let rows = rows.map(|(points, radii)| {
+            let corners = std::array::from_fn(|i| std::array::from_fn(|h| points[[i, h]]));
+            (corners, pair(&radii))
+        });
+        Ok(Rows(rows.collect()))
+    }
+
+    /// The queries, or the first that is none.
+    pub(crate) fn queries(self, kind: QueryKind) -> Result<Vec<Query>, Refused> {
+        let query = |(index, (corners, radii)): (usize, ([[f64; 3]; 8], [f64; 2]))| {
+            let [a, b, c, d, e, f, g, h] = corners.map(Point::from);
+            Query::new(kind, [a, b, c, d], [e, f, g, h], Radius::from(radii))
+                .map_err(|error| Refused(format!("query {index}: {error}")))
+        };
+        self.0.into_iter().enumerate().map(query).collect()
+    }
+}
+
+fn pair(row: &ArrayView1<'_, f64>) -> [f64; 2] {
+    [row[0], row[1]]
+}
+
+/// The points and the radii of a query, as they stand in arrays.
+pub(crate) fn row(query: &Query) -> ([[f64; 3]; 8], [f64; 2]) {
+    let point = |i: usize| {
+        let half = if i < 4 { query.start() } else { query.end() };
+        half[i % 4].into()
+    };
+    (std::array::from_fn(point), query.radius().parts())
+}
+
+/// What is wrong with a query.
+pub(crate) struct Refused(String);
+
+impl From<Refused> for PyErr {
+    fn from(Refused(text): Refused) -> Self {
+        PyValueError::new_err(text)
+    }
+}
+
+/// `edge-edge` or `vertex-face`.
+pub(crate) fn kind(name: &str) -> PyResult<QueryKind> {
+    [QueryKind::EdgeEdge, QueryKind::VertexFace]
+        .into_iter()
+        .find(|kind| kind.name() == name)
+        .ok_or_else(|| {
+            PyValueError::new_err(format!(
+                "kind is {name:?}, neither \"edge-edge\" nor \"vertex-face\""
+            ))
+        })
+}

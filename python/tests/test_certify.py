@@ -1,0 +1,101 @@
+"""Methods judged from Python."""
+
+import json
+
+import numpy as np
+import pytest
+
+import tunnelproof
+
+
+def certified(kind, points, radii):
+    if kind == "edge-edge":
+        contacts = tunnelproof.edge_edge(points, radii)
+    else:
+        contacts = tunnelproof.vertex_face(points, radii)
+    return contacts.hit, contacts.toi
+
+
+def test_certified_path_passes_on_every_family():
+    certificate = tunnelproof.certify(certified, name="certified", count=50)
+    assert certificate.failures == []
+    results = certificate.results
+    assert len(results["sources"]) == len(tunnelproof.families())
+    assert results["total"]["queries"] >= 50 * len(results["sources"])
+    assert "certified" in certificate.text and "<svg" in certificate.html or "<html" in certificate.html
+
+
+def test_faults_are_found_and_named():
+    def drops(kind, points, radii):
+        hit, toi = certified(kind, points, radii)
+        return hit & (toi < 0.9), toi
+
+    certificate = tunnelproof.certify(drops, families=["uniform"], count=1000)
+    assert any("tunnels" in failure for failure in certificate.failures)
+
+    def invents(kind, points, radii):
+        return np.ones(len(points), bool), np.zeros(len(points))
+
+    certificate = tunnelproof.certify(invents, families=["uniform"], count=200)
+    assert any("false hits" in failure for failure in certificate.failures)
+
+
+def test_an_exception_is_counted_against_the_query_that_raises_it():
+    def fragile(kind, points, radii):
+        if (points[:, 0, 0] > 0.99).any():
+            raise RuntimeError("out of range")
+        return certified(kind, points, radii)
+
+    certificate = tunnelproof.certify(fragile, families=["uniform"], count=2000)
+    (subject,) = certificate.results["total"]["subjects"]
+    points, _ = tunnelproof.queries("uniform", 2000)
+    expected = int((points[:, 0, 0] > 0.99).sum())
+    assert expected > 0
+    assert subject["lapses"] == {"panicked": expected}
+    assert "out of range" in certificate.json
+
+
+def test_answers_of_other_shapes_are_no_answers():
+    certificate = tunnelproof.certify(
+        lambda kind, points, radii: (np.zeros(3, bool), np.zeros(3)), families=["uniform"], count=10
+    )
+    (subject,) = certificate.results["total"]["subjects"]
+    assert sum(subject["lapses"].values()) == 10
+
+
+def test_what_a_method_does_not_take_is_not_judged():
+    def edges_only(kind, points, radii):
+        return certified(kind, points, radii) if kind == "edge-edge" else None
+
+    certificate = tunnelproof.certify(
+        edges_only, families=["uniform", "face_uniform"], count=100
+    )
+    (subject,) = certificate.results["total"]["subjects"]
+    assert [sort["kind"] for sort in subject["refused"]] == ["vertex-face"]
+
+
+def test_own_queries_are_judged():
+    points, radii = tunnelproof.queries("thick_uniform", 100, seed=9)
+    own = {"mine": ("edge-edge", points, radii)}
+    certificate = tunnelproof.certify(certified, families=[], own=own)
+    assert certificate.failures == []
+    assert certificate.results["total"]["queries"] == 100
+
+
+def test_parts_make_the_whole_to_the_last_byte():
+    settings = {"name": "certified", "families": ["uniform", "joint"], "count": 300, "seed": 4}
+    whole = tunnelproof.certify(certified, **settings)
+    parts = [tunnelproof.certify(certified, shard=(i, 3), **settings).json for i in (3, 1, 2)]
+    merged = tunnelproof.merge(parts)
+    assert merged.json == whole.json and merged.text == whole.text
+    with pytest.raises(ValueError, match="missing"):
+        tunnelproof.merge(parts[:2])
+    with pytest.raises(ValueError, match="part 1"):
+        tunnelproof.merge([json.dumps({})])
+
+
+def test_what_is_no_certification_is_refused():
+    with pytest.raises(ValueError, match='there is no family "none"'):
+        tunnelproof.certify(certified, families=["none"])
+    with pytest.raises(ValueError, match="shard"):
+        tunnelproof.certify(certified, families=["uniform"], shard=(3, 2))
