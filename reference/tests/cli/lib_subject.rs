@@ -1,17 +1,12 @@
 //! Shared libraries as subjects: the C header, compiled, and a library in C, judged.
 
-#![cfg(unix)]
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a test fails by panicking"
-)]
-
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Command;
 
 use serde_json::Value;
+
+use crate::run::{stderr, tunnelproof};
 
 const INCLUDE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../include");
 
@@ -82,15 +77,6 @@ fn library(folder: &Path, name: &str, source: &str) -> String {
         .unwrap();
     assert!(compiled.status.success(), "{}", stderr(&compiled));
     library.to_str().unwrap().to_owned()
-}
-
-fn tunnelproof(arguments: &[&str]) -> Output {
-    let program = env!("CARGO_BIN_EXE_tunnelproof");
-    Command::new(program).args(arguments).output().unwrap()
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
 }
 
 /// The result of judging a library on 400 queries of a family.

@@ -1,19 +1,11 @@
 //! Programs as subjects, from outside: `certify --subject cmd:...`.
 
-#![cfg(unix)]
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a test fails by panicking"
-)]
-
 use std::collections::BTreeMap;
 use std::fs;
-use std::process::{Command, Output};
 
 use serde_json::Value;
 
-const TUNNELPROOF: &str = env!("CARGO_BIN_EXE_tunnelproof");
+use crate::run::{PROGRAM, stderr, tunnelproof};
 
 /// What a program does, each time that it is started, on its 40th query.
 const MISDEEDS: [&str; 6] = ["crash", "hang", "half a line", "nan", "garbage", "wrong id"];
@@ -38,14 +30,6 @@ while read -r line; do
   esac
 done
 "#;
-
-fn tunnelproof(arguments: &[&str]) -> Output {
-    Command::new(TUNNELPROOF).args(arguments).output().unwrap()
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
-}
 
 /// How often each lapse is due: the misdeeds in their order, for as many queries as there are.
 fn expected_lapses(queries: u64) -> BTreeMap<String, u64> {
@@ -149,8 +133,8 @@ fn certify_answers_that_nobody_asked_for_are_counted_at_the_end() {
 
 #[test]
 fn certify_of_eval_as_a_program_is_that_of_its_subject() {
-    let oracle = format!("cmd:{TUNNELPROOF} eval -");
-    let additive = format!("cmd:{TUNNELPROOF} eval --subject additive -");
+    let oracle = format!("cmd:{PROGRAM} eval -");
+    let additive = format!("cmd:{PROGRAM} eval --subject additive -");
     let folder = tempfile::tempdir().unwrap();
     let result = |subjects: [&str; 2]| -> Value {
         let json = folder.path().join("result.json");
@@ -188,7 +172,7 @@ fn certify_of_eval_as_a_program_is_that_of_its_subject() {
 
 #[test]
 fn programs_answer_wherever_a_subject_is_asked_for() {
-    let thesis = format!("cmd:{TUNNELPROOF} eval --subject thesis -");
+    let thesis = format!("cmd:{PROGRAM} eval --subject thesis -");
     let shrunk = tunnelproof(&["shrink", "--subject", &thesis, "lattice:1:2552"]);
     assert!(stderr(&shrunk).contains("tunnel: "), "{}", stderr(&shrunk));
     let explained = tunnelproof(&["explain", "--subject", &thesis, "lattice:1:2552"]);

@@ -1,11 +1,5 @@
 //! `sweep` from outside: what it refuses, what it writes, and that it can be interrupted.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a test fails by panicking"
-)]
-
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
@@ -13,22 +7,16 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-fn command(cache: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_tunnelproof"));
-    command
-        .arg("sweep")
-        .args(arguments)
-        .arg("--cache")
-        .arg(cache);
+use crate::run::{command, stderr, stdout};
+
+fn cached(cache: &Path, arguments: &[&str]) -> Command {
+    let mut command = command(&["sweep"]);
+    command.args(arguments).arg("--cache").arg(cache);
     command
 }
 
 fn sweep(cache: &Path, arguments: &[&str]) -> Output {
-    command(cache, arguments).output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
+    cached(cache, arguments).output().unwrap()
 }
 
 const SMALL: [&str; 4] = ["--family", "near_coplanar", "--count", "60"];
@@ -57,13 +45,13 @@ fn sweep_refuses_what_it_cannot_span_and_names_it() {
         (vec!["--precision", "f16"], "f32"),
         (vec!["--resume", "--no-cache"], "--no-cache"),
     ] {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_tunnelproof"));
-        command.arg("sweep").args(&arguments);
+        let mut command = command(&["sweep"]);
+        command.args(&arguments);
         if !arguments.contains(&"--no-cache") {
             command.arg("--cache").arg(folder.path());
         }
         let output = command.output().unwrap();
-        let message = text(&output.stderr);
+        let message = stderr(&output);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {message}");
         assert!(message.contains(what), "{arguments:?}: {message}");
         assert!(output.stdout.is_empty());
@@ -77,7 +65,7 @@ fn sweep_default_has_thirty_values_of_each_threshold() {
     let mut arguments = SMALL.to_vec();
     arguments.extend(["--json", json.to_str().unwrap()]);
     let output = sweep(folder.path(), &arguments);
-    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(output.status.success(), "{}", stderr(&output));
     let json: Value = serde_json::from_str(&fs::read_to_string(json).unwrap()).unwrap();
     assert_eq!(json["axes"].as_array().unwrap().len(), 5);
     assert_eq!(json["settings"].as_array().unwrap().len(), 151);
@@ -85,7 +73,7 @@ fn sweep_default_has_thirty_values_of_each_threshold() {
     assert_eq!(json["sources"][0]["queries"], 60);
     // What the table says of table 3.1 is what the file says.
     let price = &json["settings"][0]["price"];
-    let table = text(&output.stdout);
+    let table = stdout(&output);
     let line: Vec<_> = table.lines().nth(4).unwrap().split_whitespace().collect();
     let tunnels = price["tunnels"].as_u64().unwrap() + price["joint_tunnels"].as_u64().unwrap();
     assert_eq!(line[0], tunnels.to_string());
@@ -111,8 +99,8 @@ fn sweep_of_several_thresholds_has_every_combination() {
     ]);
     arguments.extend(["--threshold", "t", "--steps", "2"]);
     let output = sweep(folder.path(), &arguments);
-    let table = text(&output.stdout);
-    assert!(output.status.success(), "{}", text(&output.stderr));
+    let table = stdout(&output);
+    assert!(output.status.success(), "{}", stderr(&output));
     let values = ["1.0e-9, 1.0e-15", "1.0e-6, 1.0e-15", "1.0e-3, 3.2e-1"];
     assert!(values.iter().all(|value| table.contains(value)), "{table}");
     assert_eq!(table.lines().count(), 5 + 3 + 6, "{table}");
@@ -127,19 +115,19 @@ fn sweep_takes_a_corpus_and_refuses_bad_queries_with_their_place() {
     fs::write(&path, &line).unwrap();
     let corpus = path.to_str().unwrap();
     let output = sweep(folder.path(), &["--corpus", corpus]);
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    assert!(text(&output.stdout).contains("1 queries, 1 crossings"));
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(stdout(&output).contains("1 queries, 1 crossings"));
     fs::write(&path, line.replace("edge-edge", "vertex-face")).unwrap();
     let output = sweep(folder.path(), &["--corpus", corpus]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(text(&output.stderr).starts_with(&format!("{corpus}:1: ")));
+    assert!(stderr(&output).starts_with(&format!("{corpus}:1: ")));
 }
 
 #[test]
 fn sweep_notices_a_damaged_cache_and_makes_it_anew() {
     let folder = tempfile::tempdir().unwrap();
     let output = sweep(folder.path(), &SMALL);
-    let expected = text(&output.stdout);
+    let expected = stdout(&output);
     let kept = |extension: &str| {
         let mut files = fs::read_dir(folder.path())
             .unwrap()
@@ -165,12 +153,12 @@ fn sweep_notices_a_damaged_cache_and_makes_it_anew() {
             fs::write(&path, bad).unwrap();
             let output = sweep(folder.path(), &arguments);
             assert!(output.status.success());
-            let message = text(&output.stderr);
+            let message = stderr(&output);
             assert!(
                 message.contains("made anew") && message.lines().count() == 1,
                 "{message}"
             );
-            assert_eq!(text(&output.stdout), expected);
+            assert_eq!(stdout(&output), expected);
             assert_eq!(fs::read(&path).unwrap(), good, "the cache is as before");
         }
     }
@@ -195,7 +183,7 @@ fn sweep_ctrl_c_leaves_what_was_finished_and_resume_goes_on() {
         "--threads",
         "1",
     ];
-    let child = command(&cache, &arguments)
+    let child = cached(&cache, &arguments)
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
@@ -214,13 +202,13 @@ fn sweep_ctrl_c_leaves_what_was_finished_and_resume_goes_on() {
     let signal = Command::new("sh").args(["-c", &signal]).status();
     assert!(signal.unwrap().success());
     let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(130), "{}", text(&output.stderr));
-    assert!(text(&output.stderr).contains("--resume goes on"));
+    assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+    assert!(stderr(&output).contains("--resume goes on"));
     let finished: Value = serde_json::from_str(&fs::read_to_string(&json).unwrap()).unwrap();
     let finished = finished["settings"].as_array().unwrap().len();
     assert!(finished < 1501, "it was not interrupted");
     let resumed = sweep(&cache, &[&arguments[..], &["--resume"]].concat());
-    assert!(resumed.status.success(), "{}", text(&resumed.stderr));
+    assert!(resumed.status.success(), "{}", stderr(&resumed));
     let whole = fs::read(&json).unwrap();
     let anew = sweep(&folder.path().join("other"), &arguments);
     assert!(anew.status.success());

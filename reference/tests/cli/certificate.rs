@@ -1,17 +1,13 @@
 //! What `certify` and `merge` write: JSON with its schema, JUnit, shards put together.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a test fails by panicking"
-)]
-
 use std::fs;
 use std::io::Write;
-use std::process::{Command, Output};
+use std::process::Output;
 
 use serde_json::Value;
 use tempfile::TempDir;
+
+use crate::run::{stderr, stdout, tunnelproof};
 
 /// Small, with wires of two queries each, faults of each kind, and a number of queries that shards do not divide.
 const FAMILIES: [&str; 6] = [
@@ -49,8 +45,8 @@ impl Folder {
             None => (*argument).to_owned(),
         };
         let arguments: Vec<_> = arguments.iter().map(path).collect();
-        let program = env!("CARGO_BIN_EXE_tunnelproof");
-        Command::new(program).args(arguments).output().unwrap()
+        let arguments: Vec<_> = arguments.iter().map(String::as_str).collect();
+        tunnelproof(&arguments)
     }
 
     fn certify(&self, arguments: &[&str]) -> Output {
@@ -71,16 +67,8 @@ impl Folder {
     }
 }
 
-fn stdout(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).unwrap()
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
-}
-
 fn assert_is_valid(result: &Value) {
-    let schema = serde_json::from_str(include_str!("../schema/certificate.json")).unwrap();
+    let schema = serde_json::from_str(include_str!("../../schema/certificate.json")).unwrap();
     let schema = jsonschema::validator_for(&schema).unwrap();
     let errors: Vec<_> = schema.iter_errors(result).map(|e| e.to_string()).collect();
     assert!(errors.is_empty(), "{errors:?}");

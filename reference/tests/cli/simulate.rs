@@ -1,25 +1,11 @@
 //! `simulate` and `audit` as a user runs them.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use std::path::Path;
-use std::process::{Command, Output};
 
 use serde_json::Value;
 use tunnelproof::scenario::scenes::{EMBEDDED, Scene};
 
-fn tunnelproof(arguments: &[&str]) -> Output {
-    let program = env!("CARGO_BIN_EXE_tunnelproof");
-    Command::new(program).args(arguments).output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
-
-fn json(path: &Path) -> Value {
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
+use crate::run::{json, stderr, stdout, tunnelproof};
 
 #[test]
 fn simulate_records_what_audit_reads_and_both_find_the_same() {
@@ -43,8 +29,8 @@ fn simulate_records_what_audit_reads_and_both_find_the_same() {
         &path(&live),
     ]);
     // Nobody looks at the way of the falling wire.
-    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
-    let said = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    let said = stdout(&output);
     assert!(
         said.contains("steps                 12 (0.200 s)"),
         "{said}"
@@ -53,7 +39,7 @@ fn simulate_records_what_audit_reads_and_both_find_the_same() {
     assert!(said.contains("missed by the narrow phase: wire"), "{said}");
     let output = tunnelproof(&["audit", &path(&recording), "--json", &path(&read)]);
     assert_eq!(output.status.code(), Some(1));
-    assert!(said.ends_with(&text(&output.stdout)), "{said}");
+    assert!(said.ends_with(&stdout(&output)), "{said}");
     let (live, read) = (json(&live), json(&read));
     assert_eq!(live["audit"], read);
     assert_eq!(live["summary"]["steps"], 12);
@@ -62,7 +48,7 @@ fn simulate_records_what_audit_reads_and_both_find_the_same() {
     let file = folder.path().join("witness.jsonl");
     std::fs::write(&file, witness).unwrap();
     let output = tunnelproof(&["explain", &format!("{}#witness", path(&file))]);
-    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(output.status.success(), "{}", stderr(&output));
 }
 
 #[test]
@@ -74,8 +60,8 @@ fn simulate_in_guard_mode_is_clean() {
         "0.5",
         "--audit",
     ]);
-    let said = text(&output.stdout);
-    assert!(output.status.success(), "{said}{}", text(&output.stderr));
+    let said = stdout(&output);
+    assert!(output.status.success(), "{said}{}", stderr(&output));
     assert!(said.contains("standing tunnels        0"), "{said}");
 }
 
@@ -92,7 +78,7 @@ fn simulate_writes_a_clock_and_a_file_for_each_step_for_paraview() {
         "--vtk",
         path,
     ]);
-    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(output.status.success(), "{}", stderr(&output));
     let clock = std::fs::read_to_string(to.join("steps.pvd")).unwrap();
     assert_eq!(clock.matches("<DataSet").count(), 3);
     assert!(to.join("step-000002.vtp").exists());
@@ -109,17 +95,17 @@ fn simulate_refuses_what_is_no_scene() {
     let line = 1 + wrong[..wrong.find("radius = -1").unwrap()]
         .matches('\n')
         .count();
-    let said = text(&output.stderr);
+    let said = stderr(&output);
     assert!(
         said.contains(&format!("line {line}: wires[0].radius: radius is -1")),
         "{said}"
     );
     let output = tunnelproof(&["simulate", "no-such-scene"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(text(&output.stderr).contains("twisting-under-load"));
+    assert!(stderr(&output).contains("twisting-under-load"));
     let output = tunnelproof(&["audit", file.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(text(&output.stderr).contains("scene.toml: "));
+    assert!(stderr(&output).contains("scene.toml: "));
 }
 
 #[test]

@@ -1,0 +1,81 @@
+//! What holds of every command: outputs that cannot be written, names that are unknown, `--help`.
+
+use std::fs;
+use std::io::Write;
+use std::process::Stdio;
+
+use crate::run::{CROSSING, MISS, code, command, file, stderr, stdout, tunnelproof};
+
+#[test]
+fn output_that_cannot_be_written_is_reported() {
+    for arguments in [
+        &["eval", "-"][..],
+        &["certify", "--count", "10"],
+        &["explain", "figure:4.1"],
+    ] {
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        let mut child = command(arguments)
+            .stdin(Stdio::piped())
+            .stdout(full)
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let _ = child.stdin.take().unwrap().write_all(CROSSING.as_bytes());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(code(&output), 2);
+        assert!(stderr(&output).starts_with("standard output: cannot be written: "));
+        assert_eq!(stderr(&output).lines().count(), 1);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn output_that_nobody_reads_ends_quietly() {
+    let all = format!("{MISS}\n").repeat(20_000);
+    let (_folder, path) = file("many.jsonl", all);
+    let mut child = command(&["eval", &path])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((code(&output), stderr(&output).as_str()), (0, ""));
+}
+
+#[test]
+fn names_that_are_unknown_are_answered_with_the_known_ones() {
+    let output = tunnelproof(&["certify", "--subject", "nobody"]);
+    assert_eq!(code(&output), 2);
+    for name in ["oracle", "shadow", "shadow-published", "thesis"] {
+        assert!(stderr(&output).contains(name));
+    }
+    let output = tunnelproof(&["certify", "--family", "none"]);
+    assert_eq!(code(&output), 2);
+    for name in ["uniform", "lattice"] {
+        assert!(stderr(&output).contains(name));
+    }
+}
+
+#[test]
+fn help_and_version_are_there() {
+    for command in [
+        &["--help"][..],
+        &["help", "eval"],
+        &["certify", "--help"],
+        &["explain", "-h"],
+        &["shrink", "--help"],
+        &["replay", "--help"],
+        &["vectors", "--help"],
+    ] {
+        let output = tunnelproof(command);
+        assert_eq!(code(&output), 0);
+        assert!(stdout(&output).contains("Usage: tunnelproof"));
+    }
+    let output = tunnelproof(&["--version"]);
+    assert_eq!(
+        stdout(&output),
+        format!("tunnelproof {}\n", env!("CARGO_PKG_VERSION"))
+    );
+    assert!(stderr(&tunnelproof(&[])).contains("Commands:"));
+}

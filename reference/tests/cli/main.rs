@@ -1,0 +1,22 @@
+//! The command line from outside: what it writes, and how it ends.
+
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
+mod certificate;
+mod certify;
+mod eval;
+mod explain;
+mod general;
+#[cfg(unix)]
+mod lib_subject;
+#[cfg(unix)]
+mod program;
+mod run;
+mod shrink;
+mod simulate;
+mod sweep;
+mod vectors;
