@@ -91,7 +91,7 @@ fn answers(query: &Query) -> ([Option<Said>; 2], Stage) {
 
 /// What is wrong with the answers, and the stage that decided.
 fn judge(query: &Query) -> Result<Stage, String> {
-    let exact = oracle::decide_query(query).expect("it takes every query");
+    let exact = oracle::decide_query(query);
     let (answers, stage) = answers(query);
     match answers
         .iter()

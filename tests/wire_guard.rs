@@ -117,7 +117,7 @@ fn meet(start: [Point; 4], end: [Point; 4]) -> bool {
         high < other_low || other_high < low
     });
     let query = Query::EdgeEdge(EdgeEdge::new(start, end, 0.0).unwrap());
-    !apart && decide_query(&query).unwrap().hit.is_some()
+    !apart && decide_query(&query).hit.is_some()
 }
 
 /// Pairs of segments that meet on their way through a step.

@@ -18,12 +18,11 @@ pub(crate) fn edge_edge<'py>(
     radii: PyReadonlyArray2<'py, f64>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let rows = Rows::new(&points, &radii)?;
-    let hits = py.detach(|| {
-        let queries = rows.queries(QueryKind::EdgeEdge)?;
+    let hits = hits(py, rows, QueryKind::EdgeEdge, |queries| {
         let mut batch = Batch::new();
         let edges = queries.iter().filter_map(Query::as_edge_edge);
         edges.for_each(|query| batch.push(query));
-        Ok::<_, Refused>(spread(queries.len(), batch.par_hits()))
+        batch.par_hits()
     })?;
     let mut columns = Columns::new(py, &hits);
     columns.numbers("toi", |hit: &Hit| [hit.toi])?;
@@ -47,12 +46,11 @@ pub(crate) fn vertex_face<'py>(
     radii: PyReadonlyArray2<'py, f64>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let rows = Rows::new(&points, &radii)?;
-    let hits = py.detach(|| {
-        let queries = rows.queries(QueryKind::VertexFace)?;
+    let hits = hits(py, rows, QueryKind::VertexFace, |queries| {
         let mut batch = FaceBatch::new();
         let faces = queries.iter().filter_map(Query::as_vertex_face);
         faces.for_each(|query| batch.push(query));
-        Ok::<_, Refused>(spread(queries.len(), batch.par_hits()))
+        batch.par_hits()
     })?;
     let mut columns = Columns::new(py, &hits);
     columns.numbers("toi", |hit: &FaceHit| [hit.toi])?;
@@ -64,11 +62,19 @@ pub(crate) fn vertex_face<'py>(
     Ok(columns.dict)
 }
 
-/// Each hit at the place of its query.
-fn spread<H: Clone>(count: usize, hits: Vec<(usize, H)>) -> Vec<Option<H>> {
-    let mut spread = vec![None; count];
-    for (index, hit) in hits {
-        spread[index] = Some(hit);
-    }
-    spread
+/// What is decided of queries of a kind, each hit at the place of its query. Python can run meanwhile.
+fn hits<H: Clone + Send>(
+    py: Python<'_>,
+    rows: Rows,
+    kind: QueryKind,
+    decide: impl FnOnce(&[Query]) -> Vec<(usize, H)> + Send,
+) -> Result<Vec<Option<H>>, Refused> {
+    py.detach(|| {
+        let queries = rows.queries(kind)?;
+        let mut hits = vec![None; queries.len()];
+        for (index, hit) in decide(&queries) {
+            hits[index] = Some(hit);
+        }
+        Ok(hits)
+    })
 }

@@ -89,7 +89,7 @@ fn errata_witnesses_show_what_the_page_says() {
     let witnesses: Vec<Witness> = lines.map(Witness::new).collect();
     for witness in &witnesses {
         let id = &witness.id;
-        let truth = decide_query(&witness.query).unwrap();
+        let truth = decide_query(&witness.query);
         assert_eq!(truth.hit.map(|hit| hit.toi.below), witness.right, "{id}");
         assert_eq!(witness.toi(true), witness.right, "{id}, repaired");
         assert_eq!(witness.toi(false), witness.unrepaired, "{id}, unrepaired");
@@ -108,10 +108,7 @@ fn errata_witnesses_shrink_to_what_shows_the_same() {
     for witness in lines.map(Witness::new).filter(|witness| witness.is_exact) {
         let id = &witness.id;
         let subject = Shadow::new(Repairs::ALL.without(witness.erratum));
-        let disagreement = Disagreement {
-            subject: &subject,
-            truth: decide_query,
-        };
+        let disagreement = Disagreement::with_oracle(&subject);
         let fault = disagreement.fault(&witness.query).unwrap().expect(id);
         let shrunk = disagreement.shrink(&witness.query, fault, MOST_CALLS);
         assert!(shrunk.is_minimal && shrunk.after < shrunk.before, "{id}");

@@ -273,7 +273,7 @@ fn exact(a: &Segment, b: &Segment) -> Option<(EdgeEdge, ExactHit)> {
 
 /// The exact first contact.
 fn first_contact(query: EdgeEdge) -> Option<ExactHit> {
-    decide_query(&Query::EdgeEdge(query)).ok()?.hit
+    decide_query(&Query::EdgeEdge(query)).hit
 }
 
 /// What is wrong with a time of impact; right is the exact one rounded down.

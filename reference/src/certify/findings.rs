@@ -2,7 +2,8 @@
 
 use crate::program::Conduct;
 
-use super::run::{Block, Panel};
+use super::block::Block;
+use super::run::Panel;
 use super::shard::Shard;
 
 /// What was judged, by whom, and what came of it.

@@ -4,15 +4,18 @@
 //! say the same on every query. Each query is judged by itself, on any thread; what is counted is
 //! counted in the order of the queries, so that the result does not depend on the threads.
 //!
-//! [`verdict`] says what one answer is worth, [`tally`] counts, [`run`] does it for a whole
-//! [`source`] or a [`shard`] of it, all of which are the [`findings`], [`strict`] says whether the result passes and [`table`] writes it down. How far a
+//! [`judged`] compares one answer with the exact one, [`verdict`] says what it is worth, [`tally`] counts, in a
+//! [`block`] for a whole [`source`] or a [`shard`] of it. [`run`] does it, all blocks are the [`findings`], [`strict`] says whether the result passes and [`table`] writes it down. How far a
 //! subject may be off is in [`permitted`] and nowhere else; [`margin`] is its rule for thresholds.
 
 pub mod batch;
+pub mod block;
 pub mod findings;
 pub mod fingerprint;
+pub mod judged;
 pub mod margin;
 pub mod permitted;
+mod reply;
 pub mod run;
 pub mod shard;
 pub mod source;

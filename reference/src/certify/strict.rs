@@ -1,7 +1,9 @@
 //! Whether what was found passes.
 
+use super::block::Block;
+use super::judged::Judged;
 use super::permitted::permitted;
-use super::run::{Block, Judged, Panel};
+use super::run::Panel;
 use super::table::grouped;
 use super::tally::{Fault, Tally};
 

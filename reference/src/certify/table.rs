@@ -1,7 +1,8 @@
 //! The result of certification as text.
 
+use super::block::Block;
 use super::findings::Findings;
-use super::run::{Block, Panel};
+use super::run::Panel;
 use super::tally::{Explained, Fault, Finding, Tally, Witness};
 use crate::corpus::Entry;
 use crate::corpus::jsonl::{self, Numbers};

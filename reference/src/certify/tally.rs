@@ -141,6 +141,9 @@ impl Fault {
         Fault::Early,
     ];
 
+    /// Those that are told by their number; the others by how bad the worst is.
+    pub const COUNTED: &[Fault] = Fault::ALL.split_at(8).0;
+
     /// The words used in tables.
     pub fn name(self) -> &'static str {
         match self {

@@ -6,7 +6,9 @@ use tunnelproof::contact::{Case, Contact, ContactPoint, Flags, Verdict as Claim}
 use tunnelproof::narrow::{Report, Unsupported};
 use tunnelproof::query::{Point, Query};
 
-use super::run::{Block, Judged, Panel};
+use super::block::Block;
+use super::judged::Judged;
+use super::run::Panel;
 use super::source::Source;
 use super::strict::failures;
 use super::table;
@@ -33,7 +35,7 @@ fn queries() -> impl Iterator<Item = (Query, ExactAnswer)> {
     let entries = lattice().entries().unwrap();
     entries.map(|entry| {
         let query = entry.unwrap().query;
-        (query, decide_query(&query).unwrap())
+        (query, decide_query(&query))
     })
 }
 
@@ -49,7 +51,7 @@ impl<L: Fn(&Query, ExactAnswer) -> Result<Report, Unsupported> + Sync> Subject f
     }
 
     fn answer(&self, query: &Query) -> Result<Answer, NoAnswer> {
-        Ok(Answer::Engine((self.lie)(query, decide_query(query)?)?))
+        Ok(Answer::Engine((self.lie)(query, decide_query(query))?))
     }
 
     fn declared_distance(&self) -> f64 {
@@ -313,7 +315,7 @@ impl Subject for AlmostExact {
     }
 
     fn answer(&self, query: &Query) -> Result<Answer, NoAnswer> {
-        let mut answer = decide_query(query)?;
+        let mut answer = decide_query(query);
         if let Some(hit) = answer.hit.as_mut().filter(|_| is_chosen(query)) {
             hit.toi = Enclosure {
                 below: hit.toi.below,
@@ -353,7 +355,7 @@ fn certify_wrong_labels_are_found() {
     let mut wrong = 0;
     for (index, entry) in lattice().entries().unwrap().take(100).enumerate() {
         let mut entry = entry.unwrap();
-        let truth = decide_query(&entry.query).unwrap().hit.is_some();
+        let truth = decide_query(&entry.query).hit.is_some();
         wrong += u64::from(index % 7 == 0);
         entry.label = Some(truth != (index % 7 == 0));
         writeln!(file, "{}", jsonl::write(&entry, Numbers::Decimal)).unwrap();
@@ -458,7 +460,7 @@ fn certify_wires_missed_by_both_segments_are_joint_tunnels() {
 
 #[test]
 fn certify_wires_hit_by_one_segment_are_no_joint_tunnels() {
-    let is_hit = |query: &Query| decide_query(query).unwrap().hit.is_some();
+    let is_hit = |query: &Query| decide_query(query).hit.is_some();
     // Of the wires that hit both segments, one hit is dropped: a fault, but the wire is held.
     let dropped: Vec<Query> = (members().into_iter())
         .filter(|pair| pair.iter().all(is_hit))

@@ -9,7 +9,8 @@ use crate::generate::{FAMILIES, Family};
 use crate::subject::Engine;
 
 use super::findings::{Findings, Settings};
-use super::run::{Judged, Panel, RunError};
+use super::judged::Judged;
+use super::run::{Panel, RunError};
 use super::shard::Shard;
 use super::source::Source;
 use super::strict::failures;

@@ -3,13 +3,14 @@
 use std::process::ExitCode;
 
 use clap::Args;
+use tunnelproof_reference::certify::block::Block;
 use tunnelproof_reference::certify::findings::{Findings, Settings};
-use tunnelproof_reference::certify::run::{Block, Judged, Panel};
+use tunnelproof_reference::certify::judged::Judged;
+use tunnelproof_reference::certify::run::Panel;
 use tunnelproof_reference::certify::shard::Shard;
 use tunnelproof_reference::certify::source::Source;
 use tunnelproof_reference::certify::table;
 use tunnelproof_reference::generate::{FAMILIES, Family};
-use tunnelproof_reference::oracle;
 use tunnelproof_reference::program::Conduct;
 use tunnelproof_reference::registry;
 use tunnelproof_reference::report::merge::{Kept, MergeError};
@@ -210,10 +211,7 @@ fn shrunk_witnesses(findings: &Findings) -> String {
     let mut lines = vec!["\nShrunk:".to_owned()];
     let subjects = findings.panel.subjects.iter();
     for (judged, tally) in subjects.zip(&findings.total.tallies) {
-        let disagreement = Disagreement {
-            subject: judged.subject,
-            truth: oracle::decide_query,
-        };
+        let disagreement = Disagreement::with_oracle(judged.subject);
         for (&fault, finding) in &tally.faults {
             let Some(witness) = &finding.worst else {
                 continue;

@@ -4,8 +4,6 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use tunnelproof::narrow::Unsupported;
-use tunnelproof_reference::certify::run::RunError;
 use tunnelproof_reference::corpus::locate::locate;
 use tunnelproof_reference::oracle::decide_query;
 use tunnelproof_reference::registry;
@@ -44,18 +42,13 @@ impl Explain {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
         let entry = locate(&self.query, self.reading.options())?;
         let svg = self.svg.as_deref().map(OutputFile::create).transpose()?;
-        let refused = |reason: Unsupported| {
-            let place = self.query.clone();
-            let reason = reason.into();
-            Failure::from(RunError::NoAnswer { place, reason })
-        };
         let more = self.programs.start_all(&self.subject)?;
         let subjects = registry::subjects().into_iter();
         let subjects = subjects.chain(more.iter().map(Answering::subject));
         let subjects: Vec<_> = subjects.map(certify::judged).collect();
         let text = explanation::explain(&entry.id, &entry.query, &subjects);
         if let Some(file) = svg {
-            let answer = decide_query(&entry.query).map_err(refused)?;
+            let answer = decide_query(&entry.query);
             file.write(&picture::draw(&entry.id, &entry.query, &answer))?;
         }
         print(&text)?;

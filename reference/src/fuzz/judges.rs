@@ -5,7 +5,6 @@ use tunnelproof::thesis::{Erratum, Repairs, Thesis};
 
 use crate::certify::permitted::permitted;
 use crate::difference::Difference;
-use crate::oracle::decide_query;
 use crate::registry::SECOND_JUDGE;
 use crate::shadow::Shadow;
 use crate::shrink::Disagreement;
@@ -24,18 +23,12 @@ fn fault(disagreement: &Disagreement, query: &Query) -> Option<String> {
 }
 
 pub(super) fn oracle_vs_shadow(query: &Query) -> Option<String> {
-    let disagreement = Disagreement {
-        subject: &SECOND_JUDGE,
-        truth: decide_query,
-    };
+    let disagreement = Disagreement::with_oracle(&SECOND_JUDGE);
     fault(&disagreement, query)
 }
 
 pub(super) fn oracle_vs_difference(query: &Query) -> Option<String> {
-    let disagreement = Disagreement {
-        subject: &Difference,
-        truth: decide_query,
-    };
+    let disagreement = Disagreement::with_oracle(&Difference);
     fault(&disagreement, query)
 }
 
@@ -45,10 +38,7 @@ pub(super) fn certified_vs_oracle(query: &Query) -> Option<String> {
     if !query.radius().is_zero() && !is_ordinary(query) {
         return None;
     }
-    let disagreement = Disagreement {
-        subject: &Certified,
-        truth: decide_query,
-    };
+    let disagreement = Disagreement::with_oracle(&Certified);
     fault(&disagreement, query)
 }
 

@@ -114,7 +114,7 @@ mod tests {
             );
             assert_eq!(first.start()[2..], second.start()[2..]);
             assert_eq!(first.end()[2..], second.end()[2..]);
-            let hits = members.map(|query| decide_query(&query).unwrap().hit);
+            let hits = members.map(|query| decide_query(&query).hit);
             match hits {
                 [Some(a), Some(b)] if a.toi == b.toi => both += 1,
                 hits => {

@@ -20,7 +20,6 @@
 use std::cmp::Ordering;
 
 use tunnelproof::contact::{Case, ContactKind};
-use tunnelproof::narrow::Unsupported;
 use tunnelproof::query::{EdgeEdge, Query};
 
 use crate::algebraic::Algebraic;
@@ -65,17 +64,13 @@ impl Subject for Oracle {
     }
 
     fn answer(&self, query: &Query) -> Result<Answer, NoAnswer> {
-        Ok(Answer::Exact(decide_query(query)?))
+        Ok(Answer::Exact(decide_query(query)))
     }
 }
 
 /// The exact answer to a query, by the default backend.
-///
-/// # Errors
-///
-/// None: the oracle takes every query. Others that are asked for the truth do not.
-pub fn decide_query(query: &Query) -> Result<ExactAnswer, Unsupported> {
-    Ok(decide::<field::Default>(query).written())
+pub fn decide_query(query: &Query) -> ExactAnswer {
+    decide::<field::Default>(query).written()
 }
 
 /// How often two edges pass through each other, in the sense of [`crate::answer`]: +1 for each crossing at which

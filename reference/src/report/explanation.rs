@@ -9,7 +9,7 @@ use tunnelproof::query::{Query, QueryKind};
 
 use crate::algebraic::Algebraic;
 use crate::answer::{Enclosure, ExactAnswer, ExactHit, Parameters};
-use crate::certify::run::{Found, Judged, exact_gap};
+use crate::certify::judged::{Found, Judged, exact_gap};
 use crate::certify::table;
 use crate::certify::tally::Fault;
 use crate::field::{self, Integer};

@@ -3,8 +3,8 @@
 
 use std::fmt::Write as _;
 
+use crate::certify::block::Block;
 use crate::certify::findings::Findings;
-use crate::certify::run::Block;
 use crate::certify::strict;
 use crate::certify::table::command;
 

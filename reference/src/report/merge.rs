@@ -5,8 +5,10 @@ use std::io::Cursor;
 use tunnelproof::narrow::Unsupported;
 use tunnelproof::query::{Query, QueryKind};
 
+use crate::certify::block::{Agreement, Block};
 use crate::certify::findings::{Findings, Settings};
-use crate::certify::run::{Agreement, Block, Judged, Panel};
+use crate::certify::judged::Judged;
+use crate::certify::run::Panel;
 use crate::certify::shard::Shard;
 use crate::certify::tally::{Explained, Fault, Finding, Sort, Statement, Tally, Witness};
 use crate::corpus::{self, Format, ReadOptions};
@@ -333,7 +335,7 @@ fn witness(row: &WitnessRow) -> Result<Witness, MergeError> {
     let query = entry
         .ok_or_else(|| unreadable("there is none".to_owned()))?
         .query;
-    let truth = oracle::decide_query(&query).map_err(|error| unreadable(error.to_string()))?;
+    let truth = oracle::decide_query(&query);
     Ok(Witness {
         severity: row.severity,
         rank: row.rank,

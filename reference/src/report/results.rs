@@ -32,9 +32,11 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::{Value, json};
 
+use crate::certify::block::Block;
 use crate::certify::findings::Findings;
+use crate::certify::judged::Judged;
 use crate::certify::permitted::{PERMITTED, Permitted};
-use crate::certify::run::{Block, Judged, Panel};
+use crate::certify::run::Panel;
 use crate::certify::strict::failures;
 use crate::certify::table::command;
 use crate::certify::tally::{Explained, Fault, Finding, Sort, Statement, Tally, Witness};

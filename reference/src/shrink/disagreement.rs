@@ -5,12 +5,13 @@ use tunnelproof::query::Query;
 
 use super::{Shrunk, shrink};
 use crate::answer::ExactAnswer;
+use crate::certify::judged::Judged;
 use crate::certify::permitted::permitted;
-use crate::certify::run::Judged;
 use crate::certify::tally::Fault;
+use crate::oracle::decide_query;
 use crate::subject::Subject;
 
-/// Says what is true, such as [`decide_query`](crate::oracle::decide_query).
+/// Says what is true, if it takes the query.
 pub type Truth = fn(&Query) -> Result<ExactAnswer, Unsupported>;
 
 /// A subject and who knows better.
@@ -22,7 +23,13 @@ pub struct Disagreement<'a> {
     pub truth: Truth,
 }
 
-impl Disagreement<'_> {
+impl<'a> Disagreement<'a> {
+    /// With the oracle as the one who is right.
+    pub fn with_oracle(subject: &'a dyn Subject) -> Self {
+        let truth = |query: &Query| Ok(decide_query(query));
+        Disagreement { subject, truth }
+    }
+
     /// What the subject gets wrong, the worst of all that it does, in the order of [`Fault::ALL`];
     /// `None` if it is right. Times of impact that are off by no more than is permitted do not count.
     ///

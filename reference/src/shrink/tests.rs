@@ -8,21 +8,13 @@ use super::*;
 use crate::certify::tally::Fault;
 use crate::corpus::figures;
 use crate::generate::FAMILIES;
-use crate::oracle::decide_query;
 use crate::registry;
 use crate::subject::Engine;
 use crate::subject::Subject;
 
-fn by_oracle(subject: &dyn Subject) -> Disagreement<'_> {
-    Disagreement {
-        subject,
-        truth: decide_query,
-    }
-}
-
 /// Shrinks a query on which the subject is wrong, and checks what has to hold of every result.
 fn shrunk(subject: &dyn Subject, query: &Query) -> Option<(Fault, Shrunk)> {
-    let disagreement = by_oracle(subject);
+    let disagreement = Disagreement::with_oracle(subject);
     let fault = disagreement.fault(query).unwrap()?;
     let shrunk = disagreement.shrink(query, fault, MOST_CALLS);
     assert_eq!(disagreement.fault(&shrunk.query), Ok(Some(fault)));

@@ -6,7 +6,8 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use tunnelproof::thesis::Threshold;
 
 use super::*;
-use crate::certify::run::{Judged, Panel};
+use crate::certify::judged::Judged;
+use crate::certify::run::Panel;
 use crate::certify::source::Source;
 use crate::certify::tally::{Fault, Tally};
 use crate::generate::{FAMILIES, by_name};

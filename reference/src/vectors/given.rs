@@ -10,7 +10,6 @@ use super::Source;
 use super::flag::Flag;
 use super::vector::Described;
 use crate::corpus::{self, Entry, Format, ReadOptions, figures};
-use crate::oracle::decide_query;
 use crate::shadow::Shadow;
 use crate::shrink::{Disagreement, MOST_CALLS};
 
@@ -85,10 +84,7 @@ fn with_smallest(entry: Entry) -> impl Iterator<Item = Described> {
 /// `None` if it is right, since it takes rounding to show this one.
 fn smallest(erratum: Erratum, query: &Query) -> Option<Query> {
     let subject = Shadow::new(Repairs::ALL.without(erratum));
-    let disagreement = Disagreement {
-        subject: &subject,
-        truth: decide_query,
-    };
+    let disagreement = Disagreement::with_oracle(&subject);
     let fault = disagreement.fault(query).ok().flatten()?;
     Some(disagreement.shrink(query, fault, MOST_CALLS).query)
 }

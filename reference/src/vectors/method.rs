@@ -5,7 +5,6 @@ use std::sync::LazyLock;
 use tunnelproof::query::Query;
 
 use crate::certify::tally::Fault;
-use crate::oracle::decide_query;
 use crate::registry;
 use crate::shrink::{Disagreement, Shrunk};
 use crate::subject::Subject;
@@ -76,10 +75,7 @@ impl Method {
     }
 
     fn disagreement(self) -> Disagreement<'static> {
-        Disagreement {
-            subject: self.subject(),
-            truth: decide_query,
-        }
+        Disagreement::with_oracle(self.subject())
     }
 
     fn subject(self) -> &'static dyn Subject {

@@ -2,9 +2,10 @@
 
 use maud::{Markup, html};
 
+use crate::certify::block::Block;
 use crate::certify::findings::Findings;
+use crate::certify::judged::Judged;
 use crate::certify::permitted::permitted;
-use crate::certify::run::{Block, Judged};
 use crate::certify::strict;
 use crate::certify::table::{command, grouped, lapse_counts, measure, short};
 use crate::certify::tally::{Fault, Statement, Tally, Witness};
@@ -49,7 +50,7 @@ fn subject(findings: &Findings, index: usize, judged: &Judged) -> Markup {
         .table { table {
             tr {
                 th { "family" } th { "verdict" } th { "queries" } th { "hits" }
-                @for fault in COUNTED { th { (fault.name()) } }
+                @for fault in Fault::COUNTED { th { (fault.name()) } }
                 th { "worst late" } th { "worst early" }
             }
             @for block in blocks.into_iter().chain(all) { (row(block, index, judged)) }
@@ -58,18 +59,6 @@ fn subject(findings: &Findings, index: usize, judged: &Judged) -> Markup {
         @for (program, conduct) in &findings.programs { @if program == name { (conduct_of(conduct)) } }
     }
 }
-
-/// The faults that are counted in a column of their own.
-const COUNTED: [Fault; 8] = [
-    Fault::Tunnel,
-    Fault::JointTunnel,
-    Fault::MissedGraze,
-    Fault::FalseHit,
-    Fault::NearHit,
-    Fault::NoAnswer,
-    Fault::WrongCase,
-    Fault::Differs,
-];
 
 fn row(block: &Block, index: usize, judged: &Judged) -> Markup {
     let tally = &block.tallies[index];
@@ -84,7 +73,7 @@ fn row(block: &Block, index: usize, judged: &Judged) -> Markup {
             }
             td { (grouped(block.queries - tally.not_asked())) }
             td { (grouped(tally.hits)) }
-            @for fault in COUNTED { td { (grouped(tally.count(fault))) } }
+            @for fault in Fault::COUNTED { td { (grouped(tally.count(*fault))) } }
             td { (short(tally.worst(Fault::Late))) }
             td { (short(tally.worst(Fault::Early))) }
         }

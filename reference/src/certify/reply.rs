@@ -1,0 +1,61 @@
+//! What a subject says when it is asked.
+
+use std::slice;
+
+use tunnelproof::narrow::Unsupported;
+use tunnelproof::query::Query;
+
+use crate::subject::{Answer, Lapse, LapseKind, NoAnswer, Subject};
+
+/// What comes of asking a subject.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Reply {
+    Answer(Answer),
+    /// It does not take such queries.
+    NotAsked,
+    /// It takes them and fails.
+    Nothing(Lapse),
+}
+
+impl Reply {
+    pub(super) fn answer(&self) -> Option<Answer> {
+        match self {
+            Reply::Answer(answer) => Some(*answer),
+            Reply::NotAsked | Reply::Nothing(_) => None,
+        }
+    }
+}
+
+pub(super) fn ask(subject: &dyn Subject, query: &Query) -> Reply {
+    let mut replies = ask_all(subject, slice::from_ref(query));
+    replies.remove(0)
+}
+
+pub(super) fn ask_all(subject: &dyn Subject, queries: &[Query]) -> Vec<Reply> {
+    let answers = subject.answers(queries);
+    assert_eq!(
+        answers.len(),
+        queries.len(),
+        "{} answers each query once",
+        subject.name()
+    );
+    let replies = answers.into_iter().zip(queries);
+    replies
+        .map(|(answer, query)| match answer {
+            Ok(answer) => Reply::Answer(answer),
+            Err(NoAnswer::Lapse(lapse)) => Reply::Nothing(lapse),
+            Err(NoAnswer::Unsupported(reason)) if is_of_sort(reason, query) => Reply::NotAsked,
+            Err(NoAnswer::Unsupported(reason)) => {
+                Reply::Nothing(Lapse::new(LapseKind::Refused, reason.to_string()))
+            }
+        })
+        .collect()
+}
+
+/// Whether what a subject says it does not take is what the query is.
+fn is_of_sort(refusal: Unsupported, query: &Query) -> bool {
+    match refusal {
+        Unsupported::Kind(kind) => kind == query.kind(),
+        Unsupported::Radius(radius) => !radius.is_zero() && radius == query.radius(),
+    }
+}
