@@ -44,9 +44,7 @@ fn boxes_overlap(query: &Query) -> bool {
 #[test]
 fn families_have_hits_and_misses_and_are_seldom_trivial() {
     for family in FAMILIES {
-        let hits = share(family, |query| {
-            oracle::decide_query(query).hit.is_some()
-        });
+        let hits = share(family, |query| oracle::decide_query(query).hit.is_some());
         let near = share(family, boxes_overlap);
         println!(
             "{}: {hits} hit, {near} with boxes that overlap",

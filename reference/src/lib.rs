@@ -11,6 +11,7 @@ pub mod field;
 pub mod fuzz;
 pub mod generate;
 pub mod oracle;
+pub mod perturb;
 pub mod poly;
 pub mod program;
 pub mod registry;

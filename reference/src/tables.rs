@@ -8,6 +8,10 @@ use crate::audit::{Audit, Report};
 use crate::certify::table::grouped;
 use crate::simulate::{Narrow, Run, Summary};
 
+mod starts;
+
+pub use starts::starts;
+
 #[cfg(test)]
 mod tests;
 

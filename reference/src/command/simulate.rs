@@ -11,6 +11,7 @@ use tunnelproof::scenario::scenes::{EMBEDDED, Scene};
 use tunnelproof::wire::recording::{Header, Recorder};
 use tunnelproof::wire::{self, StepRecord, World};
 use tunnelproof_reference::audit::{self, Audit};
+use tunnelproof_reference::perturb;
 use tunnelproof_reference::replay::Replay;
 use tunnelproof_reference::simulate::{Narrow, Run, Summary};
 use tunnelproof_reference::vtk;
@@ -49,6 +50,9 @@ pub(super) struct Simulate {
     /// The duration in s, in place of the scene's
     #[arg(long, value_name = "S")]
     duration: Option<f64>,
+    /// Start elsewhere: every body and point moved along each axis by up to a millimetre, at random
+    #[arg(long, value_name = "SEED")]
+    perturb: Option<u64>,
     /// Write every step to this file, for `audit`
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
@@ -142,6 +146,9 @@ impl Simulate {
             false => Scene::from_toml(&read(name)?),
         }
         .map_err(|error| self.wrong(error))?;
+        if let Some(seed) = self.perturb {
+            scene = perturb::perturbed(&scene, seed, perturb::USUAL);
+        }
         scene.settings.step = self.step.unwrap_or(scene.settings.step);
         scene.duration = self.duration.unwrap_or(scene.duration);
         Ok(scene)

@@ -3,7 +3,8 @@
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
-use tunnelproof_reference::tables::{cases, missed, scenes, speeds, times};
+use tunnelproof_reference::perturb;
+use tunnelproof_reference::tables::{cases, missed, scenes, speeds, starts, times};
 
 use super::Failure;
 use super::output::print;
@@ -35,7 +36,12 @@ enum Which {
     Missed,
     /// The first scene at 1 to 200 m/s
     Speeds,
+    /// Guard mode from ten starts moved by up to a millimetre, by the audit
+    Starts,
 }
+
+/// How many perturbed starts each scene has.
+const STARTS: u64 = 10;
 
 impl Table {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
@@ -44,6 +50,7 @@ impl Table {
             Which::Times => times(&scenes(self.duration)?)?,
             Which::Missed => missed(&scenes(self.duration)?)?,
             Which::Speeds => speeds(self.duration)?,
+            Which::Starts => starts(&scenes(self.duration)?, STARTS, perturb::USUAL)?,
         };
         print(&text)?;
         Ok(ExitCode::SUCCESS)

@@ -46,3 +46,16 @@ fn largest_discrete_step_of_scene_1_does_not_tunnel_and_the_next_does() {
     let longer = audited(&longer, Narrow::Discrete, Mode::Thesis).unwrap();
     assert_eq!(longer.report.standing.len(), 2);
 }
+
+#[test]
+fn table_of_starts_has_a_clean_row_for_each_start_of_scene_1() {
+    let text = starts(&basic_collision(0.1), 3, 0.001).unwrap();
+    let rows: Vec<_> = text.lines().skip(3).collect();
+    assert_eq!(rows.len(), 4, "{text}");
+    for (row, name) in rows.iter().zip(["as it is", "seed 1", "seed 2", "seed 3"]) {
+        let cells: Vec<_> = row[NAME..].split_whitespace().collect();
+        assert!(row.starts_with(name), "{text}");
+        assert_eq!((cells[0], &cells[2..]), ("6", &["0"; 3][..]), "{text}");
+        assert_ne!(cells[1], "0", "{text}");
+    }
+}
