@@ -26,9 +26,8 @@ impl Row {
     }
 }
 
-/// Prints the rows of a scene; those that do not hold must be just those that are known to differ, which
-/// docs/wires.md explains.
-fn judge(scene: &str, rows: &[Row], differ: &[&str]) {
+/// Prints the rows of a scene, all of which must hold.
+fn judge(scene: &str, rows: &[Row]) {
     for row in rows {
         let verdict = if row.holds() { "holds" } else { "differs" };
         println!(
@@ -36,12 +35,9 @@ fn judge(scene: &str, rows: &[Row], differ: &[&str]) {
             row.what, row.thesis, row.ours, row.within
         );
     }
-    let found: Vec<&str> = rows
-        .iter()
-        .filter(|row| !row.holds())
-        .map(|row| row.what)
-        .collect();
-    assert_eq!(found, differ, "{scene}");
+    let differ = rows.iter().filter(|row| !row.holds());
+    let differ: Vec<&str> = differ.map(|row| row.what).collect();
+    assert!(differ.is_empty(), "{scene}: {differ:?}");
 }
 
 /// Runs a scene of the thesis. No motion is made in which midlines meet.
@@ -132,18 +128,20 @@ fn pulling_anchor_collides_slips_and_catches_the_cylinder() {
             within: 1.5,
         },
     ];
-    let differ = ["the cylinder is caught between the wires, s"];
-    judge("pulling-anchor", &rows, &differ);
+    judge("pulling-anchor", &rows);
 }
 
 #[test]
 fn twisting_under_load_winds_its_wires_up() {
-    let (mut first, mut speed) = (None, 0.0);
+    let (mut first, mut speed, mut turns) = (None, 0.0, 0.0);
     run("twisting-under-load", |world, record| {
         if !pushing(record, between_wires).is_empty() {
             first = first.or(Some(record.time));
         }
         let spin = world.bodies()[1].angular_velocity().z;
+        if record.time <= 0.55 + 1e-9 {
+            turns += spin * world.settings().step / (2.0 * PI);
+        }
         if record.time <= 2.1 + 1e-9 {
             speed = spin / PI;
         }
@@ -156,13 +154,19 @@ fn twisting_under_load_winds_its_wires_up() {
             within: 0.175,
         },
         Row {
+            what: "almost a full turn by 0.55 s",
+            thesis: 0.9,
+            ours: turns,
+            within: 0.1,
+        },
+        Row {
             what: "speed at 2.1 s, pi rad/s",
             thesis: 2.83,
             ours: speed,
             within: 0.3,
         },
     ];
-    judge("twisting-under-load", &rows, &["speed at 2.1 s, pi rad/s"]);
+    judge("twisting-under-load", &rows);
 }
 
 #[test]
@@ -189,11 +193,29 @@ fn chains_on_deck_meet_and_are_pulled_twice() {
             within: 0.5,
         },
         Row {
+            what: "tension before 3 s, of that from 4.2 s to 5 s",
+            thesis: 0.0,
+            ours: largest(1.0, 3.0) / largest(4.2, 5.0),
+            within: 0.1,
+        },
+        Row {
+            what: "tension from 5.3 s to 6.5 s, of that from 4.2 s to 5 s",
+            thesis: 0.0,
+            ours: largest(5.3, 6.5) / largest(4.2, 5.0),
+            within: 0.1,
+        },
+        Row {
+            what: "tension from 5.3 s to 6.5 s, of that from 7 s to 8.3 s",
+            thesis: 0.0,
+            ours: largest(5.3, 6.5) / largest(7.0, 8.3),
+            within: 0.1,
+        },
+        Row {
             what: "tension after the halt, of that from 7 s to 8.3 s",
             thesis: 0.0,
             ours: largest(8.6, 9.0) / largest(7.0, 8.3),
             within: 0.1,
         },
     ];
-    judge("chains-on-deck", &rows, &["the chains touch, s"]);
+    judge("chains-on-deck", &rows);
 }

@@ -5,6 +5,9 @@
 //! `l_min = max(l_user, h sqrt(T/mu) / margin)` with the largest `T` of the last [`MEMORY`] steps, and put in
 //! where they are longer than a multiple of it. At one node at least [`MEMORY`] steps lie between two
 //! changes.
+//!
+//! Where wires push on each other they have to bend: there tension does not count, `l_min = l_user`. Segments that
+//! are too short for their tension are held stable by geometric stiffness.
 
 use super::model::strand::MEMORY;
 use super::model::{Node, NodeKind, Segment, Wire, WireId, World};
@@ -40,6 +43,12 @@ pub enum RemeshKind {
 pub trait RemeshGuard {
     /// Whether the change may be made now. One that is refused is tried again in the next step.
     fn permits(&mut self, world: &World, change: &Remesh) -> bool;
+
+    /// Whether a wire has to bend between two of its arc lengths in m, so that tension must not make its segments long
+    /// there. Usually not.
+    fn bends(&self, _wire: WireId, _from: f64, _to: f64) -> bool {
+        false
+    }
 }
 
 impl<F: FnMut(&World, &Remesh) -> bool> RemeshGuard for F {
@@ -69,9 +78,14 @@ pub(super) fn adapt(world: &mut World, guard: &mut dyn RemeshGuard) -> Vec<Remes
     changes
 }
 
-/// The shortest segment wanted under the largest tension that two segments remember, in m.
-fn wanted(world: &World, wire: &Wire, segments: [usize; 2]) -> f64 {
-    let tension = segments.map(|segment| wire.segments[segment].largest_tension());
+/// The shortest segment wanted on a stretch of segments, in m: under the largest tension that the first and the last
+/// remember, unless the wire has to bend there.
+fn wanted(world: &World, at: usize, [first, last]: [usize; 2], guard: &dyn RemeshGuard) -> f64 {
+    let wire = &world.wires[at];
+    if guard.bends(WireId(at), wire.nodes[first].arc, wire.nodes[last + 1].arc) {
+        return wire.resolution.length;
+    }
+    let tension = [first, last].map(|segment| wire.segments[segment].largest_tension());
     let stable = shortest(wire, tension[0].max(tension[1]), world);
     stable.max(wire.resolution.length)
 }
@@ -84,7 +98,8 @@ fn merge(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
         let wire = &world.wires[at];
         let this = &wire.nodes[node];
         let length = wire.rest_length(node - 1).min(wire.rest_length(node));
-        let short = length < wanted(world, wire, [node - 1, node]) * (1.0 - ROUNDING);
+        let wanted = wanted(world, at, [node - 1, node], guard);
+        let short = length < wanted * (1.0 - ROUNDING);
         if this.kind == NodeKind::Free && this.settled <= world.steps && short {
             let nodes = [node - 1, node, node + 1].map(|i| wire.nodes[i]);
             let change = remesh(at, RemeshKind::Merge, &nodes);
@@ -102,7 +117,7 @@ fn split(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
     let mut segment = 0;
     while segment < world.wires[at].segments.len() {
         let wire = &world.wires[at];
-        let long = wanted(world, wire, [segment; 2]) * world.settings.split_ratio;
+        let long = wanted(world, at, [segment; 2], guard) * world.settings.split_ratio;
         let ends = [wire.nodes[segment], wire.nodes[segment + 1]];
         let settled = ends.iter().all(|node| node.settled <= world.steps);
         if settled && wire.rest_length(segment) > long {

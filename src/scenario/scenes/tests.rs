@@ -194,6 +194,9 @@ fn scenes_of_the_thesis_have_its_numbers() {
     near(length(&anchor, 0), 25.0);
     near(length(&anchor, 1), 50.0);
     near(-anchor.bodies()[1].position().x / 2.0, 8.85);
+    // At the end the pulled wire still reaches the end of the hanging one where that is straight towards it.
+    let boxes = anchor.bodies()[1].position() + Vector::x() * 2.0 * 32.0;
+    assert!((boxes.coords - Vector::x() * 25.0).norm() < 25.0);
 
     let (steps, twisting) = world(2);
     assert_eq!(steps, 300);

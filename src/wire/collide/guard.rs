@@ -10,7 +10,7 @@ use super::segment::{pair_at, reach};
 use super::touch::{Touch, Touches};
 use super::{CollisionError, Collisions, Mode, remesh};
 use crate::wire::Vector;
-use crate::wire::model::World;
+use crate::wire::model::{WireId, World};
 use crate::wire::record::ContactRecord;
 use crate::wire::resolution::{Remesh, RemeshGuard, RemeshKind};
 use crate::wire::step::motion::Motion;
@@ -194,5 +194,10 @@ impl RemeshGuard for Guard<'_, '_> {
                 || remesh::meets(world, change, *narrow, *filter).unwrap_or(true));
         self.record.refused += usize::from(refused);
         !refused
+    }
+
+    /// Where wires push on wires.
+    fn bends(&self, wire: WireId, from: f64, to: f64) -> bool {
+        self.collisions.touches.pushes_between(wire.0, from, to)
     }
 }

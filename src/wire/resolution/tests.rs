@@ -112,3 +112,35 @@ fn fixed_nodes_and_fixed_resolutions_stay() {
     tense(&mut world, tension);
     assert!(adapt(&mut world, &mut Permit).is_empty());
 }
+
+/// A wire that has to bend before an arc length.
+struct BendsBefore(f64);
+
+impl RemeshGuard for BendsBefore {
+    fn permits(&mut self, _: &World, _: &Remesh) -> bool {
+        true
+    }
+
+    fn bends(&self, _: WireId, from: f64, _: f64) -> bool {
+        from < self.0
+    }
+}
+
+#[test]
+fn tension_leaves_short_segments_where_a_wire_has_to_bend() {
+    let mut world = chain();
+    let tension = tension_for(&world, 1.5);
+    tense(&mut world, tension);
+    adapt(&mut world, &mut BendsBefore(3.5));
+    let lengths = rest_lengths(&world);
+    let (short, long) = lengths.split_at(4);
+    assert!(short.iter().all(|l| *l < 1.02), "{lengths:?}");
+    assert!(long.iter().all(|l| *l > 2.0), "{lengths:?}");
+    // Where it has to bend later, both long segments are divided under the same tension, one after the other.
+    world.wires[0].resolution.length = 0.75;
+    for divided in [7, 8] {
+        world.steps += MEMORY as u64;
+        adapt(&mut world, &mut BendsBefore(9.0));
+        assert_eq!(rest_lengths(&world).len(), divided);
+    }
+}

@@ -2,7 +2,7 @@
 
 use super::error::Reason;
 use super::motion::{Motion, Shares};
-use crate::wire::model::World;
+use crate::wire::model::{WireId, World};
 use crate::wire::resolution::{Remesh, RemeshGuard};
 use crate::wire::{Contact, Vector};
 
@@ -49,5 +49,9 @@ impl Watch for Given<'_> {
 impl RemeshGuard for Given<'_> {
     fn permits(&mut self, world: &World, change: &Remesh) -> bool {
         self.guard.permits(world, change)
+    }
+
+    fn bends(&self, wire: WireId, from: f64, to: f64) -> bool {
+        self.guard.bends(wire, from, to)
     }
 }
