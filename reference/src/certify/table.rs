@@ -93,16 +93,18 @@ fn name_width(panel: &Panel) -> usize {
     longest.unwrap_or(0).max(NAME[0])
 }
 
-/// A name, or as much of its start as there is room for.
+/// A name, or as much of its start and its end as there is room for: programs often differ in their last argument.
 fn cut(name: &str) -> String {
-    match name.char_indices().nth(NAME[1]) {
-        None => name.to_owned(),
-        Some(_) => name
-            .chars()
-            .take(NAME[1] - 3)
-            .chain("...".chars())
-            .collect(),
-    }
+    let letters: Vec<char> = name.chars().collect();
+    let Some(over) = letters.len().checked_sub(NAME[1]).filter(|&over| over > 0) else {
+        return name.to_owned();
+    };
+    let (start, rest) = letters.split_at(NAME[1] / 3);
+    let dots = &['.'; 3];
+    [start, dots, &rest[over + dots.len()..]]
+        .iter()
+        .flat_map(|part| part.iter())
+        .collect()
 }
 
 /// The line of a subject, with how many queries it was not asked where it takes only some.
@@ -393,5 +395,22 @@ mod tests {
         ] {
             assert_eq!(short(number), text);
         }
+    }
+
+    #[test]
+    fn cut_names_keep_their_ends_and_are_as_wide_as_there_is_room() {
+        let name = |last: &str| format!("cmd:python a/long/way/to/where/it/is/adapter.py {last}");
+        let [one, other] = ["tight-inclusion", "additive"].map(|last| cut(&name(last)));
+        assert_ne!(one, other);
+        for (cut, last) in [(one, "tight-inclusion"), (other, "additive")] {
+            assert_eq!(cut.chars().count(), NAME[1]);
+            assert!(
+                cut.starts_with("cmd:python a/") && cut.contains("..."),
+                "{cut}"
+            );
+            assert!(cut.ends_with(last), "{cut}");
+        }
+        let short = "x".repeat(NAME[1]);
+        assert_eq!(cut(&short), short);
     }
 }
