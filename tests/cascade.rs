@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use tunnelproof::certified::{self, Batch, Stage, Verdict};
 use tunnelproof::query::EdgeEdge;
-use tunnelproof_reference::generate::{FAMILIES, Family};
+use tunnelproof_reference::generate::{self, FAMILIES, Family};
 
 #[test]
 fn certified_batch_is_certified_one_by_one() {
@@ -101,5 +101,29 @@ fn certified_exact_stage_is_reached_no_more_often_than_it_must() {
         let shares = shares(queries.filter_map(|query| query.as_edge_edge().copied()));
         let exact = shares.get(&Stage::Exact).copied().unwrap_or(0.0);
         assert!(exact <= *at_most, "{}: {shares:?}", family.name());
+    }
+}
+
+/// The same with a radius, of a twentieth of the mean length of the edges of a query.
+const EXACT_AT_MOST_WITH_A_RADIUS: &[(&str, f64)] = &[
+    ("uniform", 0.1),
+    ("near_coplanar", 9.0),
+    ("near_parallel", 61.0),
+];
+
+#[test]
+fn certified_exact_stage_is_reached_no_more_often_than_it_must_with_a_radius() {
+    for (name, at_most) in EXACT_AT_MOST_WITH_A_RADIUS {
+        let family = generate::by_name(name).expect("a family");
+        let queries = (0..4000).map(|index| family.query(1, index));
+        let thick = queries.filter_map(|query| {
+            let [a, b, c, d] = query.start();
+            let radius = ((b - a).norm() + (d - c).norm()) / 40.0;
+            EdgeEdge::new(*query.start(), *query.end(), radius).ok()
+        });
+        let shares = shares(thick);
+        let exact = shares.get(&Stage::Exact).copied().unwrap_or(0.0);
+        eprintln!("{name}: {shares:?}");
+        assert!(exact <= *at_most, "{name}: {shares:?}");
     }
 }

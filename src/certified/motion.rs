@@ -92,6 +92,11 @@ pub(super) fn sub<T: Scalar>(x: &[T; 3], y: &[T; 3]) -> [T; 3] {
 }
 
 #[inline(always)]
+pub(super) fn scaled<T: Scalar>(factor: T, x: &[T; 3]) -> [T; 3] {
+    [factor * x[0], factor * x[1], factor * x[2]]
+}
+
+#[inline(always)]
 pub(super) fn cross<T: Scalar>(x: &[T; 3], y: &[T; 3]) -> [T; 3] {
     [
         x[1] * y[2] - x[2] * y[1],

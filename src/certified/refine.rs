@@ -90,6 +90,11 @@ impl Root {
         })
     }
 
+    /// A number no farther from `time` than `error`.
+    pub(super) fn near(time: Double<f64>, error: f64) -> Self {
+        Root { time, error }
+    }
+
     /// The largest `f64` not above the root, if that is certain; then the root is not an `f64` itself.
     pub(super) fn round_down(&self) -> Option<f64> {
         let Double { high, low } = self.time;

@@ -32,6 +32,18 @@ const CERTIFY: &[&str] = &[
     "500",
 ];
 
+/// The same with a radius above 0, on what the thesis and its shadow do not treat.
+const CERTIFY_THICK: &[&str] = &[
+    "certify",
+    "--strict",
+    "--subject",
+    "oracle,certified",
+    "--family",
+    "thick_uniform,thick_lattice,thick_face_uniform,thick_face_lattice",
+    "--count",
+    "300",
+];
+
 /// How many seeds of each family the thesis path is replayed on.
 const SEEDS: u64 = 64;
 
@@ -53,6 +65,7 @@ fn corpus() -> PathBuf {
 fn examine(workspace: &Workspace, culprit: Culprit, corpus: &Path) -> Said {
     match culprit {
         Culprit::Thesis => workspace.run(&["replay", &corpus.to_string_lossy()], LONGEST),
+        Culprit::Thick => workspace.run(CERTIFY_THICK, LONGEST),
         _ => workspace.run(CERTIFY, LONGEST),
     }
 }
@@ -75,7 +88,7 @@ fn names(culprit: Culprit, findings: &[&str]) -> bool {
         Culprit::Thesis => !findings.is_empty(),
         Culprit::Shadow => wrong == [true, true, false],
         Culprit::Oracle => wrong == [true, true, true],
-        Culprit::Certified => wrong == [false, false, true],
+        Culprit::Certified | Culprit::Thick => wrong == [false, false, true],
     }
 }
 
@@ -95,7 +108,7 @@ fn mutants_are_found_within_a_minute() {
     let workspace = Workspace::new();
     let corpus = corpus();
     workspace.build();
-    for culprit in [Culprit::Thesis, Culprit::Oracle] {
+    for culprit in [Culprit::Thesis, Culprit::Oracle, Culprit::Thick] {
         let said = examine(&workspace, culprit, &corpus);
         assert_eq!(
             (said.code, findings(&said)),

@@ -7,6 +7,8 @@ pub(crate) enum Culprit {
     Shadow,
     Oracle,
     Certified,
+    /// The certified path with a radius above 0.
+    Thick,
 }
 
 /// A fault: a text that occurs once in a file, and what takes its place.
@@ -132,5 +134,26 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         text: "self.meets_line(time) && time.sign_of(&self.between).is_le()",
         replacement: "self.meets_line(time) && time.sign_of(&self.between).is_lt()",
         fault: "an end that comes onto an end is no contact",
+    },
+    Mutant {
+        culprit: Culprit::Thick,
+        file: "src/certified/thick/turning.rs",
+        text: "let root = 2.0 * a / divisor * (1.0 - 16.0 * U);",
+        replacement: "let root = 4.0 * a / divisor * (1.0 - 16.0 * U);",
+        fault: "a plane is said to separate for twice as long",
+    },
+    Mutant {
+        culprit: Culprit::Thick,
+        file: "src/certified/thick/shape.rs",
+        text: "m + l.smaller(zero) - k.larger(zero)",
+        replacement: "m + l.smaller(zero) - k.smaller(zero)",
+        fault: "a direction separates if it separates one end of AB",
+    },
+    Mutant {
+        culprit: Culprit::Thick,
+        file: "src/certified/thick/settle.rs",
+        text: "let first = x / (2.0 * slope);",
+        replacement: "let first = x / slope;",
+        fault: "the last step to the contact is twice as long",
     },
 ];

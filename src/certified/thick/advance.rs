@@ -1,16 +1,16 @@
 //! Conservative advancement: planes that keep the two sides more than the radius apart, each for a part of the
 //! step, until the step ends or they are no farther apart than rounding can tell.
 //!
-//! A direction `n` proves that they are apart at a time at which `X . n > R |n|` for all corners `X` of the set of
-//! differences. That is linear in `t`, so it holds from one time to another, which are known by a division. Taken
-//! from the nearest points at the time reached, the direction is the best there is, and the next time is right
-//! up to the square of the step: it is Newton's method from the safe side (after Mirtich, "Impulse-based dynamic
-//! simulation of rigid body systems", 1996).
+//! The first plane's normal is the direction from middle to middle of the motion, and stays ([`Moving::stays_apart_by`]). Then
+//! they turn ([`Turning`]): taken from the nearest points at the time reached, such a plane is the best there
+//! is up to the second order, and so is the next time: it is Newton's method from the safe side (after Mirtich, "Impulse-based
+//! dynamic simulation of rigid body systems", 1996, who advances by bounds on speeds).
 
-use super::shape::{Gram, Shape, Spot};
+use super::instant::Instant;
+use super::shape::Shape;
+use super::turning::Turning;
 use crate::certified::ends::Ends;
-use crate::certified::locate::at;
-use crate::certified::motion::{Motion, Positions, Vector, add, both, dot, sub};
+use crate::certified::motion::{Motion, Positions, Vector, add, both, dot, scaled, sub};
 use crate::certified::separate::{SweptBoxes, U};
 use crate::query::Radius;
 
@@ -21,13 +21,6 @@ pub(super) struct Moving<E> {
     pub(super) boxes: SweptBoxes,
     /// Not below the radius, and above it by no more than some `u`.
     pub(super) radius: f64,
-}
-
-/// A part of the step, ends included; nothing if it ends before it starts.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Span {
-    pub(super) from: f64,
-    pub(super) to: f64,
 }
 
 /// How far it is proved that they are more than the radius apart.
@@ -43,97 +36,74 @@ pub(super) enum Advance {
 
 const MOST_STEPS: u32 = 24;
 
-impl Span {
-    const NOTHING: Span = Span { from: 1.0, to: 0.0 };
-
-    pub(super) fn is_all(&self) -> bool {
-        self.from <= 0.0 && self.to >= 1.0
-    }
-}
-
 impl<E: Ends> Moving<E> {
+    #[inline(always)]
     pub(super) fn new<S: Shape>(positions: &Positions, boxes: SweptBoxes, radius: f64) -> Self {
         let points = positions.points::<E>();
-        let [k, l, m] = S::WAYS.map(|(from, to)| sub(&points[to], &points[from]));
+        let way = |(from, to): (usize, usize)| sub(&points[to], &points[from]);
+        let [k, l, m] = S::WAYS;
         Moving {
-            motion: Motion { k, l, m },
+            motion: Motion {
+                k: way(k),
+                l: way(l),
+                m: way(m),
+            },
             boxes,
             radius,
         }
     }
 
-    /// `K`, `L` and `M` at a time, about.
-    pub(super) fn at(&self, t: f64) -> [Vector; 3] {
-        let Motion { k, l, m } = &self.motion;
-        [at(k, t), at(l, t), at(m, t)]
-    }
-
-    /// The part of the step in which a plane with this normal certainly keeps them more than the radius apart.
+    /// Up to when a plane with this normal certainly keeps them more than the radius apart, if not for the whole
+    /// step: then 1 or more; 0 if not even at the start.
     ///
-    /// Error bound: the products with `n` at both ends are within [`SweptBoxes::bound`] of the exact ones, of which
-    /// `parts` are taken here, `|n|` within `4 u`. What is computed from them passes three roundings, which `8 u` outweigh. NaN and
+    /// The least product of a corner with `n` is a concave function of time, not below the line from its value at the
+    /// start to that at the end.
+    ///
+    /// Error bound: the products with `n` at both ends are within [`SweptBoxes::bound`] of the exact ones,
+    /// `|n|` within `4 u`. What is computed from them passes three roundings, which `8 u` outweigh. NaN and
     /// infinities prove nothing, nor does what underflows.
-    pub(super) fn span<S: Shape>(&self, n: &Vector, bounds: f64) -> Span {
+    #[inline(always)]
+    pub(super) fn stays_apart_by<S: Shape>(&self, n: &Vector) -> f64 {
         let square = dot(n, n);
-        let least = self.radius * square.sqrt() * (1.0 + 8.0 * U) + bounds * self.boxes.bound(n);
-        if !(square > SMALLEST && square < LARGEST && least < LARGEST) {
-            return Span::NOTHING;
-        }
+        let least = self.radius * square.sqrt() * (1.0 + 8.0 * U) + self.boxes.bound(n);
         let along = both(n);
         let Motion { k, l, m } = &self.motion;
-        let (k, l, m) = (dot(k, &along), dot(l, &along), dot(m, &along));
-        let mut span = Span {
-            from: 0.0,
-            to: f64::INFINITY,
-        };
-        for &(u, v) in S::CORNERS {
-            let corner = m + E::both(v) * l - E::both(u) * k;
-            let (start, end) = (corner.start() - least, corner.end() - least);
-            match (start > 0.0, end > 0.0) {
-                (true, true) => {}
-                (true, false) => span.to = span.to.min(start / (start - end) * (1.0 - 8.0 * U)),
-                (false, true) => span.from = span.from.max(start / (start - end) * (1.0 + 8.0 * U)),
-                (false, false) => return Span::NOTHING,
-            }
+        let corner = S::least_corner(dot(k, &along), dot(l, &along), dot(m, &along));
+        let [start, end] = [corner.start() - least, corner.end() - least];
+        let is_proof = (square > SMALLEST) & (square < LARGEST) & (least < LARGEST);
+        match (is_proof & (start > 0.0), end > 0.0) {
+            (true, true) => 1.0,
+            (true, false) => start / (start - end) * (1.0 - 8.0 * U),
+            (false, _) => 0.0,
         }
-        span
     }
 
-    /// The part of the step in which the direction from the middle of one side's motion to that of the other
-    /// separates them.
-    pub(super) fn span_of_centres<S: Shape>(&self) -> Span {
+    /// The same for the direction from the middle of one side's motion to that of the other.
+    #[inline(always)]
+    pub(super) fn stays_apart_by_centres<S: Shape>(&self) -> f64 {
         let Motion { k, l, m } = &self.motion;
-        let [m, l, k] = [m, l, k].map(|x| x.map(E::sum));
-        let share = 1.0 / S::CORNERS.len() as f64;
-        let [u, v] = [0, 1].map(|i| {
-            let sum: f64 = S::CORNERS.iter().map(|&(u, v)| [u, v][i]).sum();
-            sum * share
-        });
-        self.span::<S>(&way(&[k, l, m], u, v), 1.0)
-    }
-
-    /// About the nearest place at a time, and the difference there.
-    pub(super) fn nearest<S: Shape>(&self, t: f64) -> (Spot, Vector) {
-        let vectors = self.at(t);
-        let [k, l, m] = &vectors;
-        let spot = S::nearest(&Gram::new(k, l, m));
-        (spot, way(&vectors, spot.u, spot.v))
+        let sum = |[x, y, z]: &[E; 3]| [x.sum(), y.sum(), z.sum()];
+        let (u, v) = S::MIDDLE;
+        self.stays_apart_by::<S>(&way(&[sum(k), sum(l), sum(m)], u, v))
     }
 
     /// Advances from a time up to which they are apart.
     pub(super) fn advance<S: Shape>(&self, from: f64) -> Advance {
         let mut t = from;
         for _ in 0..MOST_STEPS {
-            let (_, n) = self.nearest::<S>(t);
-            let span = self.span::<S>(&n, 1.0);
-            if !(span.from <= t && span.to > t) {
-                break;
-            }
-            if span.to >= 1.0 {
+            // Not below what is left.
+            let left = (1.0 - t) * (1.0 + 2.0 * U);
+            let here = Instant::new::<S, E>(self, t);
+            let step = self.stays_apart_turning::<S>(&here, &Turning::new(&here), left);
+            if step >= left {
                 return Advance::Apart;
             }
-            let step = span.to - t;
-            t = span.to;
+            // Not above the time that is reached.
+            let next = (t + step) * (1.0 - 2.0 * U);
+            if !(next > t) {
+                break;
+            }
+            t = next;
             if step < t * SHORT {
                 break;
             }
@@ -152,18 +122,19 @@ pub(super) fn rounded_up(radius: Radius) -> f64 {
 }
 
 /// `M + v L - u K`.
+#[inline(always)]
 pub(super) fn way([k, l, m]: &[Vector; 3], u: f64, v: f64) -> Vector {
-    sub(&add(m, &l.map(|x| v * x)), &k.map(|x| u * x))
+    sub(&add(m, &scaled(v, l)), &scaled(u, k))
 }
 
-/// A step so short that the next one is up to rounding.
-const SHORT: f64 = 1.0 / (1u64 << 44) as f64;
+/// A step so short that the next one, of its square, is as short as what is left to [`settle`](super::settle).
+const SHORT: f64 = 1.0 / (1u64 << 20) as f64;
 
-/// 2^-900.
-const SMALLEST: f64 = f64::from_bits((1023 - 900) << 52);
+/// 2^-900: squares above it lose nothing to underflow.
+pub(super) const SMALLEST: f64 = f64::from_bits((1023 - 900) << 52);
 
 /// 2^900.
-const LARGEST: f64 = f64::from_bits((1023 + 900) << 52);
+pub(super) const LARGEST: f64 = f64::from_bits((1023 + 900) << 52);
 
 #[cfg(test)]
 mod tests;

@@ -2,19 +2,26 @@
 //!
 //! 1. The swept boxes are farther apart than the radius (`separate`).
 //! 2. The direction from middle to middle separates them by more than the radius for the whole step (`advance`).
-//! 3. Other planes do so for one part of the step after the other, up to its end or to the contact (`advance`). There,
-//!    in double-double arithmetic, a plane and two points hold the time of impact between neighbours in `f64`
+//! 3. Other planes, which turn with the two (`turning`), do so for one part of the step after the other, up to its end
+//!    or to the contact (`advance`). There the squared distance of the points that are nearest, in double-double
+//!    arithmetic, and a bound on how far these move (`nearness`) hold the time of impact between neighbours in `f64`
 //!    (`settle`). Points that are near at the start are a contact there. The rest of the answer is bounded in
-//!    `f64` too (`place`).
-//! 4. Integers decide what is left (`exact::thick`).
+//!    `f64` too (`contact`).
+//! 4. Integers decide what is left (`exact::thick`): edges that are or may be parallel where they touch, a time of impact that
+//!    is a number in `f64`, grazes.
 //!
 //! The proofs need no case distinction: a plane between two sides bounds their distance from below, two points
 //! bound it from above, wherever they come from.
 
 mod advance;
-mod place;
+mod contact;
+mod instant;
+mod nearness;
 mod settle;
 mod shape;
+#[cfg(test)]
+mod testing;
+mod turning;
 
 use wide::f64x2;
 
@@ -27,10 +34,12 @@ use super::motion::{Motion, Positions, dot};
 use super::root::Bracket;
 use super::separate::{SweptBoxes, U};
 use super::verdict::{Hit, Parameters};
-use crate::contact::{Case, ContactKind, Flags};
+use crate::contact::Flags;
 use crate::query::Radius;
 use advance::{Advance, Moving, rounded_up};
-use settle::settle;
+use contact::{Contact, contact};
+use instant::Instant;
+use settle::{Settled, settle};
 use shape::{Shape, Spot};
 
 /// The first contact of two edges within a radius above 0.
@@ -111,15 +120,6 @@ trait Kind: Shape {
     fn decide_exactly(positions: &Positions, radius: Radius) -> Option<Self::Hit>;
 }
 
-/// A contact that is certain, in a place that is a single one.
-struct Contact {
-    toi: [f64; 2],
-    side: i8,
-    spot: Spot,
-    error: f64,
-    passage: Passage,
-}
-
 /// All stages.
 fn decide<K: Kind>(
     positions: &Positions,
@@ -134,15 +134,12 @@ fn decide<K: Kind>(
         return None;
     }
     let moving = Moving::new::<K>(positions, boxes, rounded);
-    let span = moving.span_of_centres::<K>();
-    if span.is_all() {
+    let proved = moving.stays_apart_by_centres::<K>();
+    if proved >= 1.0 {
         observe(Stage::Direction);
         return None;
     }
-    let proved = if span.from <= 0.0 { span.to } else { 0.0 };
-    if moving.is_ordinary()
-        && let Some(contact) = decide_by_planes::<K>(positions, &moving, radius, proved)
-    {
+    if let Some(contact) = decide_by_planes::<K>(positions, &moving, radius, proved) {
         observe(Stage::Planes);
         return contact.map(|contact| K::hit(&contact));
     }
@@ -160,77 +157,17 @@ fn decide_by_planes<K: Kind>(
 ) -> Option<Option<Contact>> {
     let contact = match moving.advance::<K>(proved) {
         Advance::Apart => return Some(None),
-        Advance::Near if moving.is_near_at_start::<K>(radius) => {
-            let (spot, _) = moving.nearest::<K>(0.0);
-            contact::<K>(positions, moving, 0.0, spot)
+        _ if !moving.is_ordinary() => None,
+        Advance::Near => {
+            let start = moving.near_start::<K>(radius)?;
+            contact::<K>(positions, moving, &start)
         }
-        Advance::Near => None,
-        Advance::Until(proved) => {
-            let settled = settle::<K>(positions, moving, radius, proved)?;
-            contact::<K>(positions, moving, settled.below, settled.spot)
-        }
+        Advance::Until(proved) => match settle::<K>(positions, moving, radius, proved)? {
+            None => return Some(None),
+            Some(settled) => contact::<K>(positions, moving, &settled),
+        },
     };
     contact.map(Some)
-}
-
-/// The whole answer for a contact at a time or just above it, 0 if at the start.
-fn contact<K: Kind>(
-    positions: &Positions,
-    moving: &Moving<f64x2>,
-    below: f64,
-    spot: Spot,
-) -> Option<Contact> {
-    let error = place::parameter_error::<K, _>(moving, below, &spot)?;
-    if !(error <= Hit::PARAMETER_ERROR / 4.0) {
-        return None;
-    }
-    let cubic = Cubic::new(&moving.motion)?;
-    let is_start = below == 0.0;
-    let passage = passage::<K>(positions, &cubic);
-    let side = match passage.case {
-        _ if is_start => 0,
-        Case::General => place::side(&cubic, below)?,
-        _ => 0,
-    };
-    Some(Contact {
-        toi: if is_start {
-            [0.0; 2]
-        } else {
-            [below, below.next_up()]
-        },
-        side,
-        spot,
-        error,
-        passage,
-    })
-}
-
-/// What the midlines do during the step.
-fn passage<K: Kind>(positions: &Positions, cubic: &Cubic) -> Passage {
-    let quick = || {
-        if !cubic.is_not_identically_0() {
-            return None;
-        }
-        let points = positions.points::<f64x2>();
-        let mut crosses = false;
-        if !cubic.has_no_root() {
-            for bracket in cubic.isolate(|_, _| false)?.as_slice() {
-                crosses |= K::crosses_at(&points, cubic, bracket)?;
-            }
-        }
-        Some(crosses)
-    };
-    match quick() {
-        Some(crosses) => Passage {
-            case: Case::General,
-            kind: if crosses {
-                ContactKind::Crossing
-            } else {
-                ContactKind::Graze
-            },
-        },
-        None => K::passage(positions),
-    }
 }
 
 impl Moving<f64x2> {
@@ -239,15 +176,21 @@ impl Moving<f64x2> {
         self.radius > SMALLEST && self.radius < LARGEST && self.boxes.size() < LARGEST
     }
 
-    /// Whether two points are certainly within the radius of each other at the start.
+    /// The nearest place at the start, if two points are certainly within the radius of each other there.
     ///
     /// With the size `e` of the box around all points, a component of the way is within `12 u e` of the exact one;
     /// its length then within `12 u |e|`, and computed with a relative error below `4 u`.
-    fn is_near_at_start<S: Shape>(&self, radius: Radius) -> bool {
-        let (_, way) = self.nearest::<S>(0.0);
-        let length = dot(&way, &way).sqrt();
+    fn near_start<S: Shape>(&self, radius: Radius) -> Option<Settled> {
+        let start = Instant::new::<S, _>(self, 0.0);
+        let length = dot(&start.way, &start.way).sqrt();
         let high = (length + 16.0 * U * self.boxes.size()) * (1.0 + 16.0 * U) + f64::MIN_POSITIVE;
-        length.is_finite() && high <= radius.rounded().next_down()
+        let is_near = length.is_finite() && high <= radius.rounded().next_down();
+        let nearness = self.nearness(&start, 0.0).filter(|_| is_near)?;
+        Some(Settled {
+            below: 0.0,
+            spot: start.spot,
+            error: nearness.error,
+        })
     }
 }
 

@@ -4,6 +4,7 @@
 //! square for edges and in the triangle `u, v >= 0`, `u + v <= 1` for a face. They fill a parallelogram or a
 //! triangle whose corners move linearly; the distance of the two sides is its distance from 0.
 
+use crate::certified::ends::Ends;
 use crate::certified::motion::{Vector, dot};
 
 /// What is different between edges and a face.
@@ -14,16 +15,14 @@ pub(super) trait Shape {
     /// The corners as `(u, v)`; each number is 0 or 1.
     const CORNERS: &'static [(f64, f64)];
 
+    /// The mean of the corners.
+    const MIDDLE: (f64, f64);
+
+    /// The least product of a corner with a vector, from those of `K`, `L` and `M`.
+    fn least_corner<E: Ends>(k: E, l: E, m: E) -> E;
+
     /// About where the difference is nearest to 0.
     fn nearest(gram: &Gram) -> Spot;
-
-    /// How far a place is at least from where it may not move any more.
-    fn clearance(spot: &Spot) -> f64;
-
-    /// By how much the first order conditions of the nearest place fail, in `u` and in `v`, given half of the
-    /// gradient of the squared distance: for the nearest place `(u*, v*)`, the product of the gradient with
-    /// `(u - u*, v - v*)` is at most that of these with the magnitudes.
-    fn slack(spot: &Spot, gradient: [f64; 2]) -> [f64; 2];
 }
 
 /// Scalar products of `K`, `L` and `M` at one time.
@@ -35,27 +34,29 @@ pub(super) struct Gram {
     ml: f64,
 }
 
-/// A place, and which way it may move without leaving the part of the boundary that it is on.
+/// A place, and two ways from it: the whole set is in `(u, v) + s ways[0] + r ways[1]`, with a number of at
+/// least 0 for a way that is not free.
+///
+/// The determinant of the ways is 1 or -1, and their numbers are 0, 1 or -1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Spot {
     pub(super) u: f64,
     pub(super) v: f64,
-    pub(super) free: Free,
+    pub(super) ways: [Way; 2],
 }
 
-/// Directions in which a place may move.
+/// A direction in which a place may move.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Free {
-    /// It is a corner.
-    Nowhere,
-    /// On a side.
-    Along(f64, f64),
-    /// Inside.
-    Everywhere,
+pub(super) struct Way {
+    pub(super) u: f64,
+    pub(super) v: f64,
+    /// Whether backwards too.
+    pub(super) is_free: bool,
 }
 
 impl Gram {
-    pub(super) fn new(k: &Vector, l: &Vector, m: &Vector) -> Self {
+    #[inline(always)]
+    pub(super) fn new([k, l, m]: &[Vector; 3]) -> Self {
         Gram {
             kk: dot(k, k),
             ll: dot(l, l),
@@ -85,38 +86,30 @@ impl Shape for Edges {
 
     const CORNERS: &'static [(f64, f64)] = &[(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)];
 
+    const MIDDLE: (f64, f64) = (0.5, 0.5);
+
+    #[inline(always)]
+    fn least_corner<E: Ends>(k: E, l: E, m: E) -> E {
+        let zero = E::both(0.0);
+        m + l.smaller(zero) - k.larger(zero)
+    }
+
     /// The nearest `v` for the `u` of the lines' nearest points, then the nearest `u` for that (Ericson,
     /// Real-Time Collision Detection, 5.1.9).
     fn nearest(gram: &Gram) -> Spot {
-        let u = share(gram.centre().0, gram.determinant());
-        let v = share(u * gram.kl - gram.ml, gram.ll);
-        let u = share(gram.mk + v * gram.kl, gram.kk);
-        let is_inside = |x: f64| x > 0.0 && x < 1.0;
-        let free = match (is_inside(u), is_inside(v)) {
-            (true, true) => Free::Everywhere,
-            (true, false) => Free::Along(1.0, 0.0),
-            (false, true) => Free::Along(0.0, 1.0),
-            (false, false) => Free::Nowhere,
-        };
-        Spot { u, v, free }
-    }
-
-    fn clearance(spot: &Spot) -> f64 {
-        let of = |x: f64| x.min(1.0 - x);
-        match spot.free {
-            Free::Nowhere => 1.0,
-            Free::Along(x, _) => of(if x == 0.0 { spot.v } else { spot.u }),
-            Free::Everywhere => of(spot.u).min(of(spot.v)),
-        }
-    }
-
-    fn slack(spot: &Spot, [u, v]: [f64; 2]) -> [f64; 2] {
-        let slack = |x: f64, slope: f64| match x {
-            0.0 => (-slope).max(0.0),
-            1.0 => slope.max(0.0),
-            _ => slope.abs(),
-        };
-        [slack(spot.u, u), slack(spot.v, v)]
+        // Divisions that do not wait for each other.
+        let (of_k, of_l) = (1.0 / gram.kk, 1.0 / gram.ll);
+        let u = share(gram.centre().0 / gram.determinant());
+        let v = share((u * gram.kl - gram.ml) * of_l);
+        let u = share((gram.mk + v * gram.kl) * of_k);
+        // The sign of the way that leads inside, and whether the other one does too.
+        let inward = |x: f64| (if x == 1.0 { -1.0 } else { 1.0 }, x > 0.0 && x < 1.0);
+        let ((along_u, u_is_free), (along_v, v_is_free)) = (inward(u), inward(v));
+        let ways = [
+            Way::new(along_u, 0.0, u_is_free),
+            Way::new(0.0, along_v, v_is_free),
+        ];
+        Spot { u, v, ways }
     }
 }
 
@@ -128,75 +121,64 @@ impl Shape for Face {
 
     const CORNERS: &'static [(f64, f64)] = &[(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)];
 
+    const MIDDLE: (f64, f64) = (1.0 / 3.0, 1.0 / 3.0);
+
+    #[inline(always)]
+    fn least_corner<E: Ends>(k: E, l: E, m: E) -> E {
+        let zero = E::both(0.0);
+        m + l.smaller(zero - k).smaller(zero)
+    }
+
     /// The foot in the plane, or the nearest of the nearest points of the sides.
     fn nearest(gram: &Gram) -> Spot {
         let (determinant, centre) = (gram.determinant(), gram.centre());
         let (u, v) = (centre.0 / determinant, centre.1 / determinant);
         if u > 0.0 && v > 0.0 && u + v < 1.0 {
-            let free = Free::Everywhere;
-            return Spot { u, v, free };
+            let ways = [Way::new(1.0, 0.0, true), Way::new(0.0, 1.0, true)];
+            return Spot { u, v, ways };
         }
         let Gram { kk, ll, kl, mk, ml } = gram;
-        let third = share(kk - mk - ml + kl, ll + kk + 2.0 * kl);
+        let third = share((kk - mk - ml + kl) / (ll + kk + 2.0 * kl));
         // One and what is left of it add up to 1 exactly.
         let rest = 1.0 - third;
+        // Each side with the way along it and one into the face.
         let places = [
-            (share(*mk, *kk), 0.0, (1.0, 0.0)),
-            (0.0, share(-ml, *ll), (0.0, 1.0)),
-            (rest, 1.0 - rest, (1.0, -1.0)),
+            (share(mk / kk), 0.0, [(1.0, 0.0), (0.0, 1.0)]),
+            (0.0, share(-ml / ll), [(0.0, 1.0), (1.0, 0.0)]),
+            (rest, 1.0 - rest, [(1.0, -1.0), (-1.0, 0.0)]),
         ];
-        let height = |(u, v, _): (f64, f64, _)| {
+        let height = |&(u, v, _): &(f64, f64, _)| {
             u * (u * kk - 2.0 * mk) + v * (v * ll + 2.0 * ml) - 2.0 * u * v * kl
         };
         let [first, second, third] = places;
-        let nearer = |x, y| if height(y) < height(x) { y } else { x };
-        let (u, v, way) = nearer(nearer(first, second), third);
-        let is_corner = [u, v, u + v]
-            .iter()
-            .filter(|x| **x == 0.0 || **x == 1.0)
-            .count()
-            > 1;
-        let free = if is_corner {
-            Free::Nowhere
-        } else {
-            Free::Along(way.0, way.1)
-        };
-        Spot { u, v, free }
-    }
-
-    fn clearance(spot: &Spot) -> f64 {
-        let weights = [1.0 - spot.u - spot.v, spot.u, spot.v];
-        let used = weights.into_iter().filter(|weight| *weight != 0.0);
-        match spot.free {
-            Free::Nowhere => 1.0,
-            _ => used.fold(1.0, f64::min),
-        }
-    }
-
-    /// With the corners `e` and their weights `b`, the product of the gradient with the difference is the sum of
-    /// `b* g . (x - e)`, and with `b` for `b*` it is 0: so it is that of `(b* - b) g . (x - e)`, where terms below 0
-    /// with `b = 0` only help.
-    fn slack(spot: &Spot, [gu, gv]: [f64; 2]) -> [f64; 2] {
-        let &Spot { u, v, .. } = spot;
-        let from_b = gu * u + gv * v;
-        let slack = |weight: f64, rise: f64| {
-            if weight == 0.0 {
-                rise.max(0.0)
-            } else {
-                rise.abs()
+        let nearer = |x, y| if height(&y) < height(&x) { y } else { x };
+        let (u, v, [along, inward]) = nearer(nearer(first, second), third);
+        // At a corner, the ways along both of its sides.
+        let [along, inward] = match (u, v) {
+            (0.0, 0.0) => [(1.0, 0.0), (0.0, 1.0)],
+            (1.0, 0.0) => [(-1.0, 0.0), (-1.0, 1.0)],
+            (0.0, 1.0) => [(0.0, -1.0), (1.0, -1.0)],
+            _ => {
+                let ways = [
+                    Way::new(along.0, along.1, true),
+                    Way::new(inward.0, inward.1, false),
+                ];
+                return Spot { u, v, ways };
             }
         };
-        let (b, c, d) = (
-            slack(1.0 - u - v, from_b),
-            slack(u, from_b - gu),
-            slack(v, from_b - gv),
-        );
-        [b + c, b + d]
+        let ways = [along, inward].map(|(u, v)| Way::new(u, v, false));
+        Spot { u, v, ways }
     }
 }
 
-/// `n / d` in `[0, 1]`; 0 if it is not a number.
-fn share(n: f64, d: f64) -> f64 {
-    let share = n / d;
+impl Way {
+    fn new(u: f64, v: f64, is_free: bool) -> Self {
+        Way { u, v, is_free }
+    }
+}
+
+/// What of a number is in `[0, 1]`; 0 if it is not a number.
+#[inline(always)]
+fn share(share: f64) -> f64 {
     if share > 0.0 { share.min(1.0) } else { 0.0 }
 }

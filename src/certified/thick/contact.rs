@@ -1,0 +1,89 @@
+//! What else is said of a contact whose time and place are certain: the side the two come from, and whether the midlines
+//! cross.
+
+use wide::f64x2;
+
+use super::Kind;
+use super::advance::Moving;
+use super::settle::{MOST_ERROR, Settled};
+use super::shape::Spot;
+use crate::certified::cubic::Cubic;
+use crate::certified::exact::Passage;
+use crate::certified::motion::Positions;
+use crate::contact::{Case, ContactKind};
+
+/// A contact that is certain, in a place that is a single one.
+pub(super) struct Contact {
+    pub(super) toi: [f64; 2],
+    pub(super) side: i8,
+    pub(super) spot: Spot,
+    pub(super) error: f64,
+    pub(super) passage: Passage,
+}
+
+/// The whole answer for a contact; `None` if some of it is not certain.
+pub(super) fn contact<K: Kind>(
+    positions: &Positions,
+    moving: &Moving<f64x2>,
+    &Settled { below, spot, error }: &Settled,
+) -> Option<Contact> {
+    if !(error <= MOST_ERROR) {
+        return None;
+    }
+    let cubic = Cubic::new(&moving.motion);
+    let passage = passage::<K>(positions, cubic.as_ref());
+    let (toi, side) = match passage.case {
+        _ if below == 0.0 => ([0.0; 2], 0),
+        Case::General => ([below, below.next_up()], side(&cubic?, below)?),
+        _ => ([below, below.next_up()], 0),
+    };
+    Some(Contact {
+        toi,
+        side,
+        spot,
+        error,
+        passage,
+    })
+}
+
+/// What the midlines do during the step.
+fn passage<K: Kind>(positions: &Positions, cubic: Option<&Cubic>) -> Passage {
+    let quick = || {
+        let cubic = cubic.filter(|cubic| cubic.is_not_identically_0())?;
+        if cubic.has_no_root() {
+            return Some(false);
+        }
+        let points = positions.points::<f64x2>();
+        let mut crosses = false;
+        for bracket in cubic.isolate(|_, _| false)?.as_slice() {
+            crosses |= K::crosses_at(&points, cubic, bracket).or_else(|| {
+                let (sharp, _) = cubic.sharpen(bracket)?;
+                K::crosses_at(&points, cubic, &sharp)
+            })?;
+        }
+        Some(crosses)
+    };
+    let of = |crosses| Passage {
+        case: Case::General,
+        kind: if crosses {
+            ContactKind::Crossing
+        } else {
+            ContactKind::Graze
+        },
+    };
+    quick().map_or_else(|| K::passage(positions), of)
+}
+
+/// The sign of `f` just before a time of impact up to `2 u` from `t`, if it is certain.
+///
+/// The value is within twice the error of the cubic of that at `t`, and changes by at most 2 u times three
+/// differences of coefficients: `12 u P`, less than its error.
+fn side(cubic: &Cubic, t: f64) -> Option<i8> {
+    let (value, _) = cubic.evaluate(t);
+    let error = 3.0 * cubic.error;
+    if value > error {
+        Some(1)
+    } else {
+        (value < -error).then_some(-1)
+    }
+}

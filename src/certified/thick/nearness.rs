@@ -1,0 +1,149 @@
+//! How far the nearest place can be from where it was shortly before.
+//!
+//! With `w` the difference at a place, the squared distance from it along its ways `V1` and `V2` is
+//! `w^2 + 2 g . s + s . Q s` with `g = (V1 . w, V2 . w)` and the Gram matrix `Q` of the ways. At the nearest place `g` is 0, or
+//! leads away from 0 along a way that is not free.
+
+use super::advance::{LARGEST, Moving, SMALLEST};
+use super::instant::Instant;
+use super::shape::Way;
+use crate::certified::cubic::permanents;
+use crate::certified::ends::Ends;
+use crate::certified::motion::{Motion, Vector, add, cross, dot, reach, scaled};
+use crate::certified::separate::U;
+
+/// What is certain about a place from a time on, for a while.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Nearness {
+    /// The squared distance is below that of the place by no more than this.
+    pub(super) excess: f64,
+    /// `u` and `v` of the nearest place, which is a single one, differ by no more than this.
+    pub(super) error: f64,
+}
+
+/// `g`, a bound on its error, and bounds on the length, of one way.
+#[derive(Clone, Copy)]
+struct Slope {
+    value: f64,
+    error: f64,
+    least: f64,
+    most: f64,
+}
+
+impl Slope {
+    /// Whether it is certainly farther that way.
+    fn is_uphill(&self, way: &Way) -> bool {
+        !way.is_free && self.value > self.error
+    }
+
+    fn size(&self) -> f64 {
+        self.value.abs() + self.error
+    }
+}
+
+impl<E: Ends> Moving<E> {
+    /// The larger magnitudes at both ends of `K`, `L` and `M`, and their sum.
+    pub(super) fn reaches(&self) -> ([Vector; 2], Vector) {
+        let Motion { k, l, m } = &self.motion;
+        let (k, l, m) = (reach(k), reach(l), reach(m));
+        ([k, l], add(&add(&k, &l), &m))
+    }
+
+    /// What is certain about the nearest place at a time, up to a time at most `while_` later. `None` unless
+    /// `N = K x L` is certainly not 0 all the while.
+    ///
+    /// # Proof
+    ///
+    /// The set is convex and in that which the ways span. Let `s` be the nearest place.
+    ///
+    /// - Both `g` are above 0 and their ways not free: the product of `g` and `s` is at least 0, so it is not nearer
+    ///   anywhere, and as near only where `s` is 0.
+    /// - One is, `g2`, with `m = g2 - |V1 . V2| |g1| / V1^2 > 0`. With `e = s1 + s2 V1 . V2 / V1^2` the squared distance
+    ///   grows by at least `V1^2 e^2 - 2 |g1 e| + 2 m s2`: it falls by at most `g1^2 / V1^2`. At the nearest place
+    ///   its gradient leads away from 0, so that `V1^2 e^2 + m s2 <= |g1 e|`: `|e| <= |g1| / V1^2` and `s2 <= g1^2 / 4 V1^2 m`.
+    /// - Else it falls by no more than where no boundary is in the way, by `g . Q^-1 g`, at most `(|g1| |V2| + |g2| |V1|)^2 / N^2`.
+    ///   To go to the nearest point of a convex set makes no distance larger, in the norm of `Q`: `s . Q s` is at most
+    ///   that too, and `|s1| <= |V2| / |N|` times its root, `|s2|` likewise.
+    ///
+    /// # Error bounds
+    ///
+    /// With the larger magnitudes `v` of a way at both ends, their sum `s` for `K`, `L` and `M`, and the while `T < 1/8`: a
+    /// component of a way is within `6 u v` of the exact one and changes by up to `2 T v`, one of the difference is within `12 u s`
+    /// and changes by `2 T s`. The product adds `3.1 u`: below `(32 u + 6 T) v . s`. Lengths are within `(8 u + 3 T) |v|`
+    /// and `8 u` of themselves; `N`, up to its sign the product of the ways, within `(16 u + 5 T)` of the permanents of their `v`. Everything here passes fewer than
+    /// 30 roundings.
+    pub(super) fn nearness(&self, here: &Instant, while_: f64) -> Option<Nearness> {
+        let ([k, l], size) = self.reaches();
+        let ways = here.spot.ways;
+        let along = here.along();
+        let reach = |way: &Way| add(&scaled(way.u.abs(), &k), &scaled(way.v.abs(), &l));
+        let reaches = [reach(&ways[0]), reach(&ways[1])];
+        let slope = |i: usize| {
+            let (vector, most) = (&along[i], &reaches[i]);
+            let length = dot(vector, vector).sqrt();
+            let error = (8.0 * U + 3.0 * while_) * dot(most, most).sqrt();
+            Slope {
+                value: dot(vector, &here.way),
+                error: (32.0 * U + 6.0 * while_) * dot(most, &size) * (1.0 + 8.0 * U) + TINY,
+                least: length * (1.0 - 8.0 * U) - error * (1.0 + 8.0 * U),
+                most: length * (1.0 + 8.0 * U) + error * (1.0 + 8.0 * U),
+            }
+        };
+        let (first, second) = (slope(0), slope(1));
+        if !(while_ < 0.125 && first.size() < LARGEST && second.size() < LARGEST) {
+            return None;
+        }
+        let normal = cross(&along[0], &along[1]);
+        let permanent: f64 = permanents(&reaches[0], &reaches[1]).iter().sum();
+        let error = (16.0 * U + 5.0 * while_) * permanent * (1.0 + 8.0 * U);
+        let square = dot(&normal, &normal);
+        let least = square.sqrt() * (1.0 - 8.0 * U) - error;
+        if !(square > SMALLEST && least > 0.0) {
+            return None;
+        }
+        let is_uphill = [first.is_uphill(&ways[0]), second.is_uphill(&ways[1])];
+        let held = match is_uphill {
+            [true, true] => Some((0.0, 0.0)),
+            [false, true] => beside(first, second),
+            [true, false] => beside(second, first),
+            [false, false] => None,
+        };
+        let (excess, error) = held.unwrap_or_else(|| inside(first, second, least));
+        Some(Nearness {
+            excess: excess * (1.0 + 64.0 * U),
+            error: error * (1.0 + 64.0 * U),
+        })
+    }
+}
+
+/// Bounds on the fall of the squared distance and on `|s1| + |s2|`, where it is farther along the second way.
+fn beside(first: Slope, second: Slope) -> Option<(f64, f64)> {
+    let Slope { least, .. } = first;
+    let turn = second.most / least;
+    let rest = (second.value - second.error) - turn * first.size() * (1.0 + 8.0 * U);
+    if !(least > SHORTEST && rest > 0.0) {
+        return None;
+    }
+    let fall = (first.size() / least) * (first.size() / least);
+    let second = fall / (4.0 * rest);
+    let first = first.size() / (least * least) + turn * second;
+    Some((fall, first + second))
+}
+
+/// The same where nothing is in the way, with a bound on `|N|`.
+fn inside(first: Slope, second: Slope, normal: f64) -> (f64, f64) {
+    let length = (first.size() * second.most + second.size() * first.most) / normal;
+    (
+        length * length,
+        length * ((first.most + second.most) / normal),
+    )
+}
+
+/// 2^-450: what is longer has a square that loses nothing to underflow.
+const SHORTEST: f64 = f64::from_bits((1023 - 450) << 52);
+
+/// Far above what underflows.
+const TINY: f64 = SMALLEST;
+
+#[cfg(test)]
+mod tests;
