@@ -101,11 +101,16 @@ fn mutants_have_a_text_that_occurs_once() {
     }
 }
 
+#[test]
+fn mutants_have_every_package_of_the_workspace() {
+    assert!(Workspace::new("packages").is_whole());
+}
+
 /// `TUNNELPROOF_MUTANTS` is a part of the file names of those to plant.
 #[test]
 #[ignore = "extensive: builds the program once for each fault"]
 fn mutants_are_found_within_a_minute() {
-    let workspace = Workspace::new();
+    let workspace = Workspace::new("mutants");
     let corpus = corpus();
     workspace.build();
     for culprit in [Culprit::Thesis, Culprit::Oracle, Culprit::Thick] {

@@ -8,13 +8,16 @@ use std::time::{Duration, Instant};
 use super::table::Mutant;
 
 /// What the program needs to be built.
-const SOURCES: [&str; 6] = [
+const SOURCES: [&str; 9] = [
     "Cargo.toml",
     "Cargo.lock",
     "src",
     "reference",
     "benches",
     "docs",
+    "hosts",
+    "scenes",
+    "c",
 ];
 
 /// A copy of the sources. It stays, with what is built from it, so that every mutant and every later run
@@ -34,15 +37,32 @@ pub(crate) struct Said {
 }
 
 impl Workspace {
-    /// Copies the sources as they are.
-    pub(crate) fn new() -> Self {
+    /// Copies the sources as they are to a folder of this name.
+    pub(crate) fn new(name: &str) -> Self {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("mutants");
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
         fs::create_dir_all(&folder).expect("a folder can be made");
         for name in SOURCES {
             copy(&root.join(name), &folder.join(name));
         }
         Workspace { folder }
+    }
+
+    /// Whether Cargo finds every package of it.
+    pub(crate) fn is_whole(&self) -> bool {
+        let mut cargo = Command::new(env!("CARGO"));
+        cargo.args([
+            "metadata",
+            "--no-deps",
+            "--offline",
+            "--format-version",
+            "1",
+        ]);
+        let status = cargo
+            .current_dir(&self.folder)
+            .stdout(Stdio::null())
+            .status();
+        status.expect("cargo runs").success()
     }
 
     /// Plants a fault for as long as `work` runs.
