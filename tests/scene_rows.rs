@@ -179,11 +179,19 @@ fn chains_on_deck_meet_and_are_pulled_twice() {
         let all = record.wires[1].tensions.iter();
         tensions.push((record.time, all.fold(0.0, |a: f64, b| a.max(*b))));
     });
-    let largest = |from: f64, to: f64| {
+    let largest = |[from, to]: [f64; 2]| {
         let inside = tensions
             .iter()
             .filter(|(time, _)| *time > from && *time <= to);
         inside.fold(0.0, |a: f64, (_, tension)| a.max(*tension))
+    };
+    const FIRST_PULL: [f64; 2] = [4.2, 5.0];
+    const SECOND_PULL: [f64; 2] = [7.0, 8.3];
+    let slack = |what, during: [f64; 2], pull: [f64; 2]| Row {
+        what,
+        thesis: 0.0,
+        ours: largest(during) / largest(pull),
+        within: 0.1,
     };
     let rows = [
         Row {
@@ -192,30 +200,26 @@ fn chains_on_deck_meet_and_are_pulled_twice() {
             ours: first.unwrap_or(f64::INFINITY),
             within: 0.5,
         },
-        Row {
-            what: "tension before 3 s, of that from 4.2 s to 5 s",
-            thesis: 0.0,
-            ours: largest(1.0, 3.0) / largest(4.2, 5.0),
-            within: 0.1,
-        },
-        Row {
-            what: "tension from 5.3 s to 6.5 s, of that from 4.2 s to 5 s",
-            thesis: 0.0,
-            ours: largest(5.3, 6.5) / largest(4.2, 5.0),
-            within: 0.1,
-        },
-        Row {
-            what: "tension from 5.3 s to 6.5 s, of that from 7 s to 8.3 s",
-            thesis: 0.0,
-            ours: largest(5.3, 6.5) / largest(7.0, 8.3),
-            within: 0.1,
-        },
-        Row {
-            what: "tension after the halt, of that from 7 s to 8.3 s",
-            thesis: 0.0,
-            ours: largest(8.6, 9.0) / largest(7.0, 8.3),
-            within: 0.1,
-        },
+        slack(
+            "tension before 3 s, of that from 4.2 s to 5 s",
+            [1.0, 3.0],
+            FIRST_PULL,
+        ),
+        slack(
+            "tension from 5.3 s to 6.5 s, of that from 4.2 s to 5 s",
+            [5.3, 6.5],
+            FIRST_PULL,
+        ),
+        slack(
+            "tension from 5.3 s to 6.5 s, of that from 7 s to 8.3 s",
+            [5.3, 6.5],
+            SECOND_PULL,
+        ),
+        slack(
+            "tension after the halt, of that from 7 s to 8.3 s",
+            [8.6, 9.0],
+            SECOND_PULL,
+        ),
     ];
     judge("chains-on-deck", &rows);
 }

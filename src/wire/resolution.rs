@@ -82,12 +82,15 @@ pub(super) fn adapt(world: &mut World, guard: &mut dyn RemeshGuard) -> Vec<Remes
 /// remember, unless the wire has to bend there.
 fn wanted(world: &World, at: usize, [first, last]: [usize; 2], guard: &dyn RemeshGuard) -> f64 {
     let wire = &world.wires[at];
-    if guard.bends(WireId(at), wire.nodes[first].arc, wire.nodes[last + 1].arc) {
-        return wire.resolution.length;
-    }
     let tension = [first, last].map(|segment| wire.segments[segment].largest_tension());
     let stable = shortest(wire, tension[0].max(tension[1]), world);
-    stable.max(wire.resolution.length)
+    let (from, to) = (wire.nodes[first].arc, wire.nodes[last + 1].arc);
+    // Contacts are looked through only where tension asks for more.
+    if stable > wire.resolution.length && !guard.bends(WireId(at), from, to) {
+        stable
+    } else {
+        wire.resolution.length
+    }
 }
 
 fn merge(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mut Vec<Remesh>) {

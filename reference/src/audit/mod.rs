@@ -84,12 +84,22 @@ pub struct Report {
 impl Report {
     /// Whether nothing passed unnoticed and nothing stands on the wrong side.
     pub fn is_clean(&self) -> bool {
-        self.missed == [0; 3] && self.remeshes_through + self.jumps == 0 && self.standing.is_empty()
+        self.unnoticed() == 0 && self.standing.is_empty()
     }
 
     /// Whether every time of impact was right as well, to the last bit, and no contact made up.
     pub fn is_exact(&self) -> bool {
-        self.is_clean() && self.late.0 + self.early.0 + self.false_hits == 0
+        self.is_clean() && self.inexact() == 0
+    }
+
+    /// How much passed unnoticed, and how often a wire jumped.
+    pub fn unnoticed(&self) -> u64 {
+        self.missed.iter().sum::<u64>() + self.remeshes_through + self.jumps
+    }
+
+    /// How often what was reported is not exact: late, early or no contact.
+    pub fn inexact(&self) -> u64 {
+        self.late.0 + self.early.0 + self.false_hits
     }
 
     fn add(&mut self, finding: Finding) {

@@ -37,9 +37,8 @@ pub fn starts(scenes: &[Scene], count: u64, most: f64) -> Result<String, SceneEr
                 0 => "as it is".to_owned(),
                 seed => format!("seed {seed}"),
             };
-            let missed = report.missed.iter().sum::<u64>() + report.remeshes_through + report.jumps;
-            let inexact = report.late.0 + report.early.0 + report.false_hits;
             let standing = report.standing.len() as u64;
+            let (missed, inexact) = (report.unnoticed(), report.inexact());
             let cells = [summary.steps, report.prevented, missed, inexact, standing];
             text += &row(&name, cells.map(grouped));
         }
