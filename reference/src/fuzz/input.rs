@@ -26,6 +26,17 @@ pub fn query(bytes: &[u8]) -> Query {
     changed.query().unwrap_or(base)
 }
 
+/// The same of edges without radius.
+pub fn edges(bytes: &[u8]) -> Query {
+    let query = query(bytes);
+    let edges = Shape {
+        kind: QueryKind::EdgeEdge,
+        radii: [0.0; 2],
+        ..Shape::new(&query)
+    };
+    edges.query().unwrap_or(query)
+}
+
 /// Bytes that make a query of this family, which is given by its place in the table, out of these
 /// random numbers: the seeds of a corpus.
 pub fn seed(family: usize, random: &[u8]) -> Vec<u8> {
@@ -37,6 +48,18 @@ fn family(place: u8) -> &'static Family {
     let place = usize::from(place) % generate::all().count();
     let family = generate::all().nth(place);
     family.unwrap_or(&FAMILIES[0])
+}
+
+/// Numbers of any bits are within a factor of 2 to this power of 1. Exact arithmetic takes a thousand times
+/// as long on numbers that span all of `f64`, and these are as rare.
+fn span(byte: u8) -> u64 {
+    match byte % 64 {
+        0 => 1023,
+        1..4 => 200,
+        4..16 => 30,
+        16..40 => 8,
+        _ => 2,
+    }
 }
 
 /// What changes are made to.
@@ -56,7 +79,7 @@ fn base(bytes: &mut Unstructured) -> Query {
     match BASES[usize::from(byte(bytes) % 4)] {
         Base::Family => family(byte(bytes)).draw(&mut Numbers::new(bytes)),
         Base::AnyBits => {
-            let span = [2, 30, 200, 1023][usize::from(byte(bytes) % 4)];
+            let span = span(byte(bytes));
             of_numbers(bytes, |bytes| finite(word(bytes), span))
         }
         Base::SmallIntegers => {

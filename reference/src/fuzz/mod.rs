@@ -22,11 +22,11 @@ use crate::shrink;
 
 #[cfg(feature = "gmp")]
 mod backends;
+mod euclid;
 pub mod input;
 mod judges;
 mod parsers;
 mod poly;
-mod rational;
 
 #[cfg(test)]
 mod tests;
@@ -45,6 +45,8 @@ pub struct Target {
 #[derive(Debug)]
 enum Check {
     Query(fn(&Query) -> Option<String>),
+    /// Queries of edges without radius.
+    Edges(fn(&Query) -> Option<String>),
     Bytes(fn(&[u8]) -> Option<String>),
 }
 
@@ -53,7 +55,7 @@ pub const TARGETS: &[Target] = &[
     Target {
         name: "thesis_vs_shadow",
         description: "the thesis path against its exact shadow, where its thresholds excuse nothing",
-        check: Check::Query(judges::thesis_vs_shadow),
+        check: Check::Edges(judges::thesis_vs_shadow),
     },
     Target {
         name: "certified_vs_oracle",
@@ -63,7 +65,7 @@ pub const TARGETS: &[Target] = &[
     Target {
         name: "oracle_vs_shadow",
         description: "the two exact judges of edges, in every field of the answer",
-        check: Check::Query(judges::oracle_vs_shadow),
+        check: Check::Edges(judges::oracle_vs_shadow),
     },
     Target {
         name: "oracle_vs_difference",
@@ -74,7 +76,7 @@ pub const TARGETS: &[Target] = &[
     Target {
         name: "backends",
         description: "both judges on num-bigint against themselves on GMP",
-        check: Check::Query(backends::judges),
+        check: Check::Edges(backends::judges),
     },
     #[cfg(feature = "gmp")]
     Target {
@@ -84,7 +86,7 @@ pub const TARGETS: &[Target] = &[
     },
     Target {
         name: "poly",
-        description: "roots, divisors and signs at roots against Sturm chains over the rationals",
+        description: "roots, divisors and signs at roots against Sturm chains and Euclid's algorithm",
         check: Check::Bytes(poly::check),
     },
     Target {
@@ -112,12 +114,11 @@ impl Target {
     ///
     /// [`Finding`] if the two ways differ.
     pub fn run(&self, bytes: &[u8]) -> Result<(), Finding> {
-        let (what, query) = match self.check {
-            Check::Query(check) => {
-                let query = input::query(bytes);
-                (guarded(|| check(&query)), Some(Box::new(query)))
-            }
-            Check::Bytes(check) => (guarded(|| check(bytes)), None),
+        let query = self.query(bytes).map(Box::new);
+        let what = match (&self.check, &query) {
+            (Check::Query(check) | Check::Edges(check), Some(query)) => guarded(|| check(query)),
+            (Check::Bytes(check), _) => guarded(|| check(bytes)),
+            (_, None) => None,
         };
         let finding = |what| Finding {
             target: self.name,
@@ -142,7 +143,7 @@ impl Target {
     /// random bytes, or files for the readers.
     pub fn seeds(&self, count: u64) -> Vec<Vec<u8>> {
         match self.check {
-            Check::Query(_) => (0..generate::all().count())
+            Check::Query(_) | Check::Edges(_) => (0..generate::all().count())
                 .flat_map(|family| (0..count).map(move |seed| input::seed(family, &random(seed))))
                 .collect(),
             Check::Bytes(_) if self.name == "parsers" => parsers::seeds(),
@@ -154,6 +155,7 @@ impl Target {
     pub fn query(&self, bytes: &[u8]) -> Option<Query> {
         match self.check {
             Check::Query(_) => Some(input::query(bytes)),
+            Check::Edges(_) => Some(input::edges(bytes)),
             Check::Bytes(_) => None,
         }
     }
@@ -174,7 +176,7 @@ pub fn by_name(name: &str) -> Option<&'static Target> {
 impl Finding {
     /// The query shrunk as long as the target finds the same, in words and with its command.
     fn shrunk(&self, query: &Query) -> Option<String> {
-        let Check::Query(check) = by_name(self.target)?.check else {
+        let (Check::Query(check) | Check::Edges(check)) = by_name(self.target)?.check else {
             return None;
         };
         let is_same = |query: &Query| guarded(|| check(query)).as_ref() == Some(&self.what);

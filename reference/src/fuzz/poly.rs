@@ -1,12 +1,11 @@
-//! Polynomials and real algebraic numbers against Sturm chains and Euclid's algorithm over the
-//! rationals.
+//! Polynomials and real algebraic numbers against Sturm chains and Euclid's algorithm.
 
 use arbitrary::{Arbitrary, Unstructured};
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::One;
+use num_traits::{One, Zero};
 
-use super::rational::{Rational, Sturm};
+use super::euclid::{Polynomial, Sturm};
 use crate::algebraic::{Algebraic, isolate_roots};
 use crate::field;
 use crate::field::Integer;
@@ -16,7 +15,7 @@ use crate::poly::Poly;
 type Z = field::Default;
 
 /// How narrow the slow way makes an interval: a root of degree 9 is told from its neighbours anyway.
-const BITS: u32 = 24;
+const BITS: u64 = 24;
 
 /// Compares everything about the two polynomials that these bytes make.
 pub(super) fn check(bytes: &[u8]) -> Option<String> {
@@ -35,11 +34,9 @@ pub(super) fn check(bytes: &[u8]) -> Option<String> {
     );
     let [fast_p, fast_q] =
         [&p, &q].map(|c| Poly::<Z>::new(c.iter().map(|&c| integer(c)).collect()));
-    let [slow_p, slow_q] = [&p, &q].map(|c| {
-        let c: Vec<BigInt> = c.iter().map(|&c| BigInt::from(c)).collect();
-        Rational::of_integers(&c)
-    });
-    let what = if slow(&fast_p.gcd(&fast_q)).monic() != slow_p.gcd(&slow_q) {
+    let [slow_p, slow_q] =
+        [&p, &q].map(|c| Polynomial::new(c.iter().map(|&c| BigInt::from(c)).collect()));
+    let what = if slow(&fast_p.gcd(&fast_q)).positive() != slow_p.gcd(&slow_q) {
         "the greatest common divisor"
     } else if slow_p.is_zero() {
         return None;
@@ -49,20 +46,27 @@ pub(super) fn check(bytes: &[u8]) -> Option<String> {
     Some(format!("{what} of {p:?} and {q:?}"))
 }
 
-fn roots(p: &Poly<Z>, q: &Poly<Z>, slow_p: &Rational, slow_q: &Rational) -> Option<&'static str> {
+fn roots(
+    p: &Poly<Z>,
+    q: &Poly<Z>,
+    slow_p: &Polynomial,
+    slow_q: &Polynomial,
+) -> Option<&'static str> {
     let chain = Sturm::new(slow_p);
     let (found, intervals) = (isolate_roots(p), chain.roots(BITS));
     if found.len() != intervals.len() {
         return Some("the number of roots");
     }
-    for (root, interval) in found.iter().zip(&intervals) {
-        let [low, high] = interval.each_ref().map(|end| root.compare(&number(end)));
+    let signs = slow_q.signs_at(&chain, &intervals);
+    for ((root, interval), sign) in found.iter().zip(&intervals).zip(signs) {
+        let ends = interval.ends();
+        let [low, high] = ends.each_ref().map(|end| root.compare(&number(end)));
         // The interval around the root 0 begins below it.
-        let begins_below = interval[0] < BigRational::from_integer(0.into());
+        let begins_below = ends[0] < BigRational::zero();
         if !(begins_below && root.is_zero() || low.is_gt() && high.is_le()) {
             return Some("the place of a root");
         }
-        if root.sign_of(q) != slow_q.sign_at(&chain, interval) {
+        if root.sign_of(q) != sign {
             return Some("the sign at a root");
         }
         let enclosure = root.enclosure();
@@ -81,14 +85,10 @@ fn integer(value: i64) -> Z {
     <Z as Integer>::from_i64(value)
 }
 
-fn slow(poly: &Poly<Z>) -> Rational {
+fn slow(poly: &Poly<Z>) -> Polynomial {
     let digits = poly.coefficients().iter().map(|c| c.to_string().parse());
     // What is written in decimal is read.
-    Rational::of_integers(
-        &digits
-            .map(Result::unwrap_or_default)
-            .collect::<Vec<BigInt>>(),
-    )
+    Polynomial::new(digits.map(Result::unwrap_or_default).collect())
 }
 
 /// A dyadic rational, those below 0 as 0.

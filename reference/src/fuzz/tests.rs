@@ -1,6 +1,5 @@
 use std::collections::{HashMap, HashSet};
 
-use num_bigint::BigInt;
 use num_rational::BigRational;
 use proptest::prelude::*;
 use rand::RngExt;
@@ -11,7 +10,7 @@ use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
 use tunnelproof::query::{EdgeEdge, Point, QueryKind};
 use tunnelproof::thesis::{Erratum, Options, Repairs, Thesis};
 
-use super::rational::{Rational, Sturm};
+use super::euclid::{Polynomial, Sturm};
 use super::*;
 use crate::certify::permitted::permitted;
 use crate::generate::{FAMILIES, by_name as family};
@@ -76,6 +75,16 @@ fn input_seeds_reach_every_family_and_mean_its_queries() {
 }
 
 #[test]
+fn input_edges_are_the_query_without_its_kind_and_radius() {
+    for seed in 0..1000 {
+        let (query, edges) = (input::query(&random(seed)), input::edges(&random(seed)));
+        assert_eq!(edges.kind(), QueryKind::EdgeEdge);
+        assert!(edges.radius().is_zero());
+        assert_eq!((query.start(), query.end()), (edges.start(), edges.end()));
+    }
+}
+
+#[test]
 fn input_bases_have_any_bits_and_small_integers() {
     let of_base = |base: u8, first: u8, seed| {
         input::query(&[&[0, base, first], random(seed).as_slice()].concat())
@@ -85,9 +94,9 @@ fn input_bases_have_any_bits_and_small_integers() {
         points.flat_map(|point| point.iter().copied()).collect()
     };
     for seed in 0..100 {
-        let wide = numbers(&of_base(1, 3, seed));
+        let wide = numbers(&of_base(1, 0, seed));
         assert!(wide.iter().any(|n| n.abs() > 1e30 || n.abs() < 1e-30));
-        let narrow = numbers(&of_base(1, 0, seed));
+        let narrow = numbers(&of_base(1, 63, seed));
         assert!(narrow.iter().all(|n| (0.25..8.0).contains(&n.abs())));
         let integers = numbers(&of_base(2, 3, seed));
         assert!(integers.iter().all(|n| n.fract() == 0.0 && n.abs() <= 4.0));
@@ -283,26 +292,33 @@ fn finding_of_a_panic_has_its_query() {
 
 /// The slow way by itself, on polynomials whose roots are known.
 #[test]
-fn rational_roots_divisors_and_signs_of_known_products() {
-    let integers =
-        |c: &[i64]| Rational::of_integers(&c.iter().map(|&c| BigInt::from(c)).collect::<Vec<_>>());
+fn euclid_roots_divisors_and_signs_of_known_products() {
+    let polynomial = |c: &[i64]| Polynomial::new(c.iter().map(|&c| c.into()).collect());
     let ratio = |n: i64, d: i64| BigRational::new(n.into(), d.into());
-    // (2t - 1)^2 (3t - 1) t and (2t - 1)(t - 2)
-    let p = integers(&[0, -1, 7, -16, 12]);
-    let q = integers(&[2, -5, 2]);
-    assert_eq!(p.gcd(&q), integers(&[-1, 2]).monic());
+    // (2t - 1)^2 (3t - 1) t and -7 (2t - 1)(t - 2)
+    let p = polynomial(&[0, -1, 7, -16, 12]);
+    let q = polynomial(&[-14, 35, -14]);
+    assert_eq!(q, polynomial(&[-2, 5, -2]));
+    assert_eq!(p.gcd(&q), polynomial(&[-1, 2]));
     let chain = Sturm::new(&p);
-    assert_eq!(chain.count(&[ratio(0, 1), ratio(1, 1)]), 2);
-    assert_eq!(chain.count(&[ratio(-1, 1), ratio(1, 2)]), 3);
     let roots = chain.roots(10);
     assert_eq!(roots.len(), 3);
-    for ([low, high], root) in roots.iter().zip([ratio(0, 1), ratio(1, 3), ratio(1, 2)]) {
-        assert!(*low < root && root <= *high);
+    for (interval, root) in roots.iter().zip([ratio(0, 1), ratio(1, 3), ratio(1, 2)]) {
+        let [low, high] = interval.ends();
+        assert!(low < root && root <= high);
+        assert!(high - low <= ratio(1, 1 << 10));
+        assert_eq!(chain.count(interval), 1);
     }
-    let signs: Vec<_> = roots
-        .iter()
-        .map(|root| q.sign_at(&chain, root) as i8)
-        .collect();
-    assert_eq!(signs, [1, 1, 0]);
-    assert_eq!(Sturm::new(&integers(&[-2, 0, 1])).roots(10).len(), 0);
+    let signs = q.signs_at(&chain, &roots);
+    assert_eq!(
+        signs.iter().map(|&sign| sign as i8).collect::<Vec<_>>(),
+        [-1, -1, 0]
+    );
+    let none = polynomial(&[]);
+    assert!(
+        none.signs_at(&chain, &roots)
+            .iter()
+            .all(|sign| sign.is_eq())
+    );
+    assert_eq!(Sturm::new(&polynomial(&[-2, 0, 1])).roots(10).len(), 0);
 }
