@@ -118,6 +118,11 @@ impl Feature {
         Feature { points }
     }
 
+    /// How many points span it: 1 for a vertex, 2 for an edge, 3 for the face.
+    pub fn corners(&self) -> usize {
+        self.points.iter().filter(|spans| **spans).count()
+    }
+
     /// The part of the edge from point `start` to the next one at this parameter.
     fn of_edge(start: usize, parameter: Enclosure) -> Self {
         let is = |value| parameter == Enclosure::exactly(value);

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use tunnelproof::contact::{Case, ContactKind};
-use tunnelproof::query::Query;
+use tunnelproof::query::{Query, QueryKind};
 
 use super::exact_time::ExactTime;
 use super::flag::Flag;
@@ -20,6 +20,8 @@ const RANGE: f64 = 1e60;
 /// The exact answer and what is special about it.
 pub(super) struct Assessment {
     pub(super) answer: ExactAnswer,
+    /// Whether the query has a radius above 0.
+    is_thick: bool,
     /// The time of impact, exactly; `None` for a miss.
     pub(super) time: Option<ExactTime>,
     pub(super) flags: BTreeSet<Flag>,
@@ -29,21 +31,24 @@ impl Assessment {
     pub(super) fn new(query: &Query) -> Self {
         let decision = decide::<field::Default>(query);
         let answer = decision.written();
+        let is_thick = !query.radius().is_zero();
         let time = decision.toi().map(ExactTime::new);
         let is_irrational = time.as_ref().is_some_and(ExactTime::is_irrational);
         let of_motion = [
             (Flag::Motion(answer.case), answer.case != Case::General),
-            (Flag::MultipleRoot, is_multiple_root(&decision)),
+            (Flag::MultipleRoot, !is_thick && is_multiple_root(&decision)),
             (Flag::IrrationalTime, is_irrational),
             (Flag::ExtremeRange, is_extreme(query)),
+            (Flag::SumOfRadii, is_sum_of_radii(query)),
         ];
         let failure = |method: Method| Some(Flag::Failure(method.fault(query)?, method));
         let flags = that_are(of_motion)
-            .chain(answer.hit.iter().flat_map(of_contact))
+            .chain(answer.hit.iter().flat_map(|hit| of_contact(hit, query)))
             .chain(Method::ALL.into_iter().filter_map(failure))
             .collect();
         Assessment {
             answer,
+            is_thick,
             time,
             flags,
         }
@@ -51,13 +56,20 @@ impl Assessment {
 
     /// The answer in a few words.
     pub(super) fn summary(&self) -> String {
-        let contact = match self.answer.hit {
-            None => "no contact".to_owned(),
-            Some(hit) if hit.toi.above == 0.0 => format!("{} at the start", hit.kind),
-            Some(hit) if hit.toi.below == 1.0 => format!("{} at the end", hit.kind),
-            Some(hit) => format!("{} inside the step", hit.kind),
+        let Some(hit) = self.answer.hit else {
+            return format!("{} motion, no contact", self.answer.case);
         };
-        format!("{} motion, {contact}", self.answer.case)
+        let when = match hit.toi {
+            Enclosure { above: 0.0, .. } => "at the start",
+            Enclosure { below: 1.0, .. } => "at the end",
+            _ => "inside the step",
+        };
+        let contact = match (self.is_thick, hit.crosses) {
+            (false, _) => hit.kind.name(),
+            (true, false) => "contact by the radius",
+            (true, true) => "contact of what passes through",
+        };
+        format!("{} motion, {contact} {when}", self.answer.case)
     }
 }
 
@@ -67,11 +79,13 @@ fn that_are<const N: usize>(flags: [(Flag, bool); N]) -> impl Iterator<Item = Fl
     so.map(|(flag, _)| flag)
 }
 
-fn of_contact(hit: &ExactHit) -> impl Iterator<Item = Flag> + use<> {
+fn of_contact(hit: &ExactHit, query: &Query) -> impl Iterator<Item = Flag> + use<> {
     let is = |number: Enclosure, value| number == Enclosure::exactly(value);
     let is_end = |number| is(number, 0.0) || is(number, 1.0);
     let touches_end = |place: &Parameters| is_end(place.u) || is_end(place.v);
-    let is_graze = hit.kind == ContactKind::Graze;
+    let is_thick = !query.radius().is_zero();
+    let is_graze = !is_thick && hit.kind == ContactKind::Graze;
+    let (is_edges, [_, of_face]) = (query.kind() == QueryKind::EdgeEdge, hit.features);
     that_are([
         (Flag::ContactAtStart, is(hit.toi, 0.0)),
         (Flag::ContactAtEnd, is(hit.toi, 1.0)),
@@ -79,8 +93,10 @@ fn of_contact(hit: &ExactHit) -> impl Iterator<Item = Flag> + use<> {
         (Flag::LaterCrossing, is_graze && hit.crosses),
         (
             Flag::EndOfEdge,
-            touches_end(&hit.first) || hit.second.as_ref().is_some_and(touches_end),
+            is_edges && (touches_end(&hit.first) || hit.second.as_ref().is_some_and(touches_end)),
         ),
+        (Flag::BorderOfFace, !is_edges && of_face.corners() < 3),
+        (Flag::PassesThrough, is_thick && hit.crosses),
         (Flag::Overlap, hit.second.is_some()),
         (Flag::TemporarilyParallel, hit.flags.temporarily_parallel),
         (Flag::TemporarilyPoint, hit.flags.temporarily_point),
@@ -98,4 +114,13 @@ fn is_extreme(query: &Query) -> bool {
     let points = query.start().iter().chain(query.end());
     let mut numbers = points.flat_map(|point| point.iter().map(|number| number.abs()));
     numbers.any(|number| number > RANGE || number > 0.0 && number < 1.0 / RANGE)
+}
+
+/// Whether the radius is a sum of two numbers that no `f64` is.
+fn is_sum_of_radii(query: &Query) -> bool {
+    let [a, b] = query.radius().parts();
+    let sum = a + b;
+    // What is lost by rounding a sum is an f64 (Knuth's two-sum).
+    let of_b = sum - a;
+    (a - (sum - of_b)) + (b - of_b) != 0.0
 }

@@ -22,6 +22,12 @@ pub(super) enum Flag {
     LaterCrossing,
     /// An end of an edge touches.
     EndOfEdge,
+    /// The vertex touches an edge or a corner of the face.
+    BorderOfFace,
+    /// With a radius: what touches passes through each other in the step.
+    PassesThrough,
+    /// The radius is a sum of two that no `f64` is.
+    SumOfRadii,
     /// The edges touch in more than a point.
     Overlap,
     /// Parallel at the time of impact alone.
@@ -65,6 +71,9 @@ impl Flag {
             Flag::Graze => "Graze",
             Flag::LaterCrossing => "LaterCrossing",
             Flag::EndOfEdge => "EndOfEdge",
+            Flag::BorderOfFace => "BorderOfFace",
+            Flag::PassesThrough => "PassesThrough",
+            Flag::SumOfRadii => "SumOfRadii",
             Flag::Overlap => "Overlap",
             Flag::TemporarilyParallel => "TemporarilyParallel",
             Flag::TemporarilyPoint => "TemporarilyPoint",
@@ -85,7 +94,7 @@ impl Flag {
             Flag::Erratum(erratum) => return self::erratum(erratum),
             Flag::ContactAtStart => (
                 "boundary",
-                "The edges touch at t = 0.",
+                "There is contact at t = 0; with a radius, the two are within it then.",
                 "Implementations that look for roots in (0, 1] or for a change of sign report no contact \
                  or a later one.",
             ),
@@ -97,40 +106,59 @@ impl Flag {
             ),
             Flag::Graze => (
                 "boundary",
-                "The first contact is inside the step, and the edges do not pass through each other \
-                 there: a double root, or contact at an end of an edge.",
+                "The first contact is inside the step, and the two do not pass through each other \
+                 there: a double root, or contact at an end of an edge, or on the border of the face.",
                 "Implementations that look for changes of sign, or compare rounded parameters with 0 \
                  and 1, report no contact.",
             ),
             Flag::LaterCrossing => (
                 "boundary",
                 "The first contact is a graze, and a later contact of the step is a crossing.",
-                "An implementation that misses the graze and stops there lets the edges through.",
+                "An implementation that misses the graze and stops there lets them through.",
             ),
             Flag::EndOfEdge => (
                 "boundary",
                 "An end of an edge touches: u or v is exactly 0 or 1 at the time of impact.",
                 "Parameters that round to less than 0 or more than 1 make it a miss.",
             ),
+            Flag::BorderOfFace => (
+                "boundary",
+                "The vertex touches an edge or a corner of the face, or is nearest to one.",
+                "Weights that round to less than 0 make it a miss, of both faces that share the edge: the \
+                 vertex goes through a closed mesh.",
+            ),
+            Flag::PassesThrough => (
+                "boundary",
+                "With a radius: the midlines, or the vertex and the face, pass through each other in the \
+                 step, at the time of impact or later.",
+                "Who misses this contact lets them through.",
+            ),
+            Flag::SumOfRadii => (
+                "rounding",
+                "The radius is the sum of two numbers of which no f64 is the sum.",
+                "Who adds them in f64 asks about another radius.",
+            ),
             Flag::Overlap => (
                 "degeneracy",
-                "The edges lie on one line at the time of impact and touch in more than a point.",
+                "The edges touch in more than a point at the time of impact; with a radius, they are nearest in \
+                 more than a point.",
                 "The lines have no single common point: implementations that solve for u and v divide by \
                  0, and report no contact or one of the two ends.",
             ),
             Flag::TemporarilyParallel => (
                 "degeneracy",
-                "The edges are parallel at the time of impact and not for the whole step.",
+                "At the time of impact, and not for the whole step, the edges are parallel, or the face is a \
+                 segment.",
                 "Implementations that solve for u and v at the root divide by 0 or by what rounding left.",
             ),
             Flag::TemporarilyPoint => (
                 "degeneracy",
-                "An edge is a point at the time of impact and not for the whole step.",
+                "An edge or the face is a point at the time of impact and not for the whole step.",
                 "Implementations that normalise directions or solve for u and v divide by 0.",
             ),
             Flag::MultipleRoot => (
                 "rounding",
-                "The time of impact is a multiple root of the cubic (B - A) x (D - C) . (C - A).",
+                "The time of impact is a multiple root of the cubic that is 0 when the four points are coplanar.",
                 "Half of the digits of a double root, two thirds of those of a triple root are lost to \
                  rounding, or the root is not found at all.",
             ),
@@ -178,7 +206,7 @@ fn note(bug_type: &'static str, description: &str, effect: &str) -> Note {
 fn motion(case: Case) -> Note {
     let (description, effect) = match case {
         Case::General => (
-            "The edges are neither coplanar for the whole step nor share a point.",
+            "No degeneracy lasts for the whole step.",
             "None of its own.",
         ),
         Case::Parallel => (
@@ -199,8 +227,8 @@ fn motion(case: Case) -> Note {
             "The edges touch at 0 whatever else they do; the cubic is identically 0.",
         ),
         Case::Degenerate => (
-            "An edge is a point for the whole step.",
-            "The cubic is identically 0 and the edge has no direction.",
+            "An edge is a point, or the face has no area, for the whole step.",
+            "The cubic is identically 0, and the edge has no direction or the face no normal.",
         ),
     };
     note("degeneracy", description, effect)

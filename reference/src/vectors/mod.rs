@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, HashSet};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::generate::FAMILIES;
+use crate::generate;
 use crate::shape::Shape;
 
 mod assessment;
@@ -59,7 +59,8 @@ struct Document {
 /// Every file of vectors. No query is in two of them, but those that belong to a wire.
 pub fn files() -> Vec<VectorFile> {
     let mut sources = vec![given::figures(), given::errata(), reports::reports()];
-    let families: Vec<_> = FAMILIES.par_iter().map(families::selection).collect();
+    let families: Vec<_> = generate::all().collect();
+    let families: Vec<_> = families.into_par_iter().map(families::selection).collect();
     sources.extend(families);
     without_repetition(&mut sources);
     sources.into_iter().map(Source::file).collect()

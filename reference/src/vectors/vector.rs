@@ -1,6 +1,7 @@
 //! One query with its exact answer, as the files have it.
 
 use serde::Serialize;
+use serde_json::Value;
 use tunnelproof::query::{Point, Query};
 
 use super::assessment::Assessment;
@@ -38,7 +39,10 @@ pub(super) struct Vector {
     comment: String,
     flags: Vec<String>,
     wire: Option<Wire>,
-    radius: serde_json::Value,
+    kind: String,
+    /// In metres: a number, or two whose exact sum it is.
+    radius: Value,
+    radius_hex: Value,
     /// A, B, C and D at the start and at the end.
     points: Vec<[f64; 3]>,
     points_hex: Vec<[String; 3]>,
@@ -58,7 +62,9 @@ impl Vector {
         let points: Vec<[f64; 3]> = points.map(|point: &Point| (*point).into()).collect();
         Vector {
             flags: own_flags.iter().map(|flag| flag.name()).collect(),
+            kind: query.kind().to_string(),
             radius: jsonl::radius(query.radius(), Numbers::Decimal),
+            radius_hex: jsonl::radius(query.radius(), Numbers::Hexadecimal),
             points_hex: points
                 .iter()
                 .map(|point| point.map(hexfloat::format))

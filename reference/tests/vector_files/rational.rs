@@ -1,5 +1,5 @@
 //! The exact time of a vector against the definitions, in rational arithmetic that shares nothing with
-//! the judges: Sturm's theorem for roots, the definition of contact at a time.
+//! the judges: Sturm's theorem for roots, the distance at a time by trying all that can be nearest.
 
 use std::cmp::Ordering;
 
@@ -18,15 +18,14 @@ type Vector3 = [BigRational; 3];
 
 /// What is wrong with the points or the exact time of a vector.
 pub(crate) fn check(vector: &Vector) -> Result<(), String> {
-    for (decimal, hex) in vector
-        .points
-        .iter()
-        .flatten()
-        .zip(vector.points_hex.iter().flatten())
-    {
+    let decimals = vector.points.iter().flatten().chain(vector.radius.parts());
+    let in_hex = vector.points_hex.iter().flatten();
+    let in_hex: Vec<_> = in_hex.chain(vector.radius_hex.parts()).collect();
+    says("radius", in_hex.len() == 24 + vector.radius.parts().len())?;
+    for (decimal, hex) in decimals.zip(in_hex) {
         let value = hex_float(hex).ok_or_else(|| format!("{hex} is no hexadecimal float"))?;
         says(
-            "points",
+            "points or radius",
             value == number(*decimal) && hex.starts_with('-') == decimal.is_sign_negative(),
         )?;
     }
@@ -42,10 +41,7 @@ pub(crate) fn check(vector: &Vector) -> Result<(), String> {
             let time = fraction(text).ok_or("no fraction in lowest terms")?;
             says("flag of a fraction", !flagged)?;
             says("fraction out of bounds", is_within(&time, toi))?;
-            says(
-                "no contact at the fraction",
-                touch(&positions(vector, &time)),
-            )
+            says("no contact at the fraction", touch(vector, &time))
         }
         (None, Some(root)) => {
             says("flag of a root", flagged)?;
@@ -55,8 +51,8 @@ pub(crate) fn check(vector: &Vector) -> Result<(), String> {
     }
 }
 
-/// The polynomial has exactly one root in the interval, which is within the bounds and a root of the
-/// cubic.
+/// The polynomial has exactly one root in the interval, which is within the bounds and a time at which
+/// the distance can be the radius.
 fn check_root(vector: &Vector, root: &Root, toi: Bounds) -> Result<(), String> {
     let integers: Option<Vec<BigInt>> = root
         .polynomial
@@ -86,12 +82,11 @@ fn check_root(vector: &Vector, root: &Root, toi: Bounds) -> Result<(), String> {
         "the root is out of bounds",
         (&inner[0] * &inner[1]).is_negative(),
     )?;
-    let cubic = cubic(vector);
-    let common = gcd(&poly, &cubic);
-    says(
-        "no root of the cubic",
-        cubic.is_empty() || common.len() > 1 && roots_between(&common, &low, &high) == 1,
-    )
+    let is_root = |border: &Poly| {
+        let common = gcd(&poly, border);
+        border.is_empty() || common.len() > 1 && roots_between(&common, &low, &high) == 1
+    };
+    says("no time of contact", is_of_a_border(vector, is_root))
 }
 
 fn number(value: f64) -> BigRational {
@@ -128,32 +123,81 @@ fn positions(vector: &Vector, time: &BigRational) -> [Vector3; 4] {
     })
 }
 
-/// Whether two edges touch, by definition: `A + u K = C + v L` for some `u` and `v` in `[0, 1]`.
-fn touch([a, b, c, d]: &[Vector3; 4]) -> bool {
-    let (k, l, m) = (minus(b, a), minus(d, c), minus(c, a));
-    let n = cross(&k, &l);
-    if is_zero(&n) {
-        // Parallel, or an edge is a point: then an end of one edge is on the other.
-        return on(a, c, d) || on(b, c, d) || on(c, a, b) || on(d, a, b);
-    }
-    let square = dot(&n, &n);
-    let u = dot(&cross(&m, &l), &n) / &square;
-    let v = dot(&cross(&m, &k), &n) / &square;
-    dot(&n, &m).is_zero() && is_unit(&u) && is_unit(&v)
+/// The radius, squared.
+fn radius_squared(vector: &Vector) -> BigRational {
+    let radius: BigRational = vector.radius.parts().iter().map(|&part| number(part)).sum();
+    &radius * &radius
 }
 
-/// Whether X is on the edge YZ.
-fn on(x: &Vector3, y: &Vector3, z: &Vector3) -> bool {
-    let (to_y, to_z) = (minus(y, x), minus(z, x));
-    is_zero(&cross(&to_y, &to_z)) && !dot(&to_y, &to_z).is_positive()
+/// Whether the two touch: the distance is the radius, or less at the start.
+fn touch(vector: &Vector, time: &BigRational) -> bool {
+    let distance = distance_squared(vector, &positions(vector, time));
+    match time.is_zero() {
+        true => distance <= radius_squared(vector),
+        false => distance == radius_squared(vector),
+    }
+}
+
+/// The least of the squared distances that can be it: of a vertex from an edge, of the insides of both
+/// edges, or of the vertex from the inside of the face.
+fn distance_squared(vector: &Vector, points: &[Vector3; 4]) -> BigRational {
+    let [a, b, c, d] = points;
+    let (of_ends, inside) = match vector.is_of_edges() {
+        true => (
+            vec![(a, c, d), (b, c, d), (c, a, b), (d, a, b)],
+            between_lines(points),
+        ),
+        false => (vec![(a, b, c), (a, c, d), (a, b, d)], above_face(points)),
+    };
+    let of_ends = of_ends.into_iter().map(|(x, y, z)| from_edge(x, y, z));
+    let least = of_ends.chain(inside).min();
+    least.expect("there are vertices")
+}
+
+/// The squared distance of two lines, if their common normal meets both between the ends.
+fn between_lines([a, b, c, d]: &[Vector3; 4]) -> Option<BigRational> {
+    let (k, l, m) = (minus(b, a), minus(d, c), minus(c, a));
+    let n = cross(&k, &l);
+    let square = dot(&n, &n);
+    if square.is_zero() {
+        return None;
+    }
+    let u = dot(&cross(&m, &l), &n) / &square;
+    let v = dot(&cross(&m, &k), &n) / &square;
+    let height = dot(&n, &m);
+    (is_unit(&u) && is_unit(&v)).then(|| &height * &height / &square)
+}
+
+/// The squared distance of A from the plane of the face, if it is above or below the face.
+fn above_face([a, b, c, d]: &[Vector3; 4]) -> Option<BigRational> {
+    let (e, g, w) = (minus(c, b), minus(d, b), minus(a, b));
+    let n = cross(&e, &g);
+    let square = dot(&n, &n);
+    if square.is_zero() {
+        return None;
+    }
+    let of_c = dot(&cross(&w, &g), &n) / &square;
+    let of_d = dot(&cross(&e, &w), &n) / &square;
+    let of_b = BigRational::one() - &of_c - &of_d;
+    let height = dot(&n, &w);
+    let is_inside = [of_b, of_c, of_d].iter().all(is_unit);
+    is_inside.then(|| &height * &height / &square)
+}
+
+/// The squared distance of X from the edge YZ.
+fn from_edge(x: &Vector3, y: &Vector3, z: &Vector3) -> BigRational {
+    let (edge, to_x) = (minus(z, y), minus(x, y));
+    let (along, length) = (dot(&to_x, &edge), dot(&edge, &edge));
+    let nearest = match length.is_zero() {
+        true => BigRational::zero(),
+        false => (along / length).clamp(BigRational::zero(), BigRational::one()),
+    };
+    let rest = [0, 1, 2].map(|i| &to_x[i] - &edge[i] * &nearest);
+    dot(&rest, &rest)
 }
 
 fn is_unit(value: &BigRational) -> bool {
     !value.is_negative() && *value <= BigRational::one()
-}
-
-fn is_zero(vector: &Vector3) -> bool {
-    vector.iter().all(Zero::is_zero)
 }
 
 fn minus(a: &Vector3, b: &Vector3) -> Vector3 {
@@ -168,25 +212,84 @@ fn dot(a: &Vector3, b: &Vector3) -> BigRational {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// `(K x L) . M`, through its values at four times.
-fn cubic(vector: &Vector) -> Poly {
-    let times = [0, 1, 2, 3].map(|time| BigRational::from(BigInt::from(time)));
-    let values = times.each_ref().map(|time| {
-        let [a, b, c, d] = positions(vector, time);
-        dot(&cross(&minus(&b, &a), &minus(&d, &c)), &minus(&c, &a))
-    });
-    // Newton's divided differences, equal steps of 1.
-    let [f0, f1, f2, f3] = values;
-    let (d1, e1, g1) = (&f1 - &f0, &f2 - &f1, &f3 - &f2);
-    let (d2, e2) = ((&e1 - &d1) / integer(2), (&g1 - &e1) / integer(2));
-    let d3 = (&e2 - &d2) / integer(3);
-    // f0 + d1 t + d2 t (t - 1) + d3 t (t - 1) (t - 2)
-    trimmed(vec![
-        f0,
-        &d1 - &d2 + &d3 * integer(2),
-        &d2 - &d3 * integer(3),
-        d3,
-    ])
+/// Whether this is so of one of the polynomials in time that are 0 where the distance becomes the radius `R`: `f`
+/// without radius, and with one `f^2 - R^2 n^2` for the lines of both edges or the plane of the face,
+/// `|w x e|^2 - R^2 e^2` for a vertex and an edge, `w^2 - R^2` for two vertices. One that is 0 throughout has
+/// no coefficients.
+fn is_of_a_border(vector: &Vector, is_so: impl Fn(&Poly) -> bool) -> bool {
+    let is_so_of = |value: &dyn Fn([Vector3; 4]) -> BigRational| {
+        is_so(&interpolated(|time| value(positions(vector, time))))
+    };
+    let normal_and_between = |[a, b, c, d]: &[Vector3; 4]| match vector.is_of_edges() {
+        true => (cross(&minus(b, a), &minus(d, c)), minus(c, a)),
+        false => (cross(&minus(c, b), &minus(d, b)), minus(a, b)),
+    };
+    let square = radius_squared(vector);
+    if square.is_zero() {
+        return is_so_of(&|points| {
+            let (normal, between) = normal_and_between(&points);
+            dot(&normal, &between)
+        });
+    }
+    let inside = |points: [Vector3; 4]| {
+        let (normal, between) = normal_and_between(&points);
+        let height = dot(&normal, &between);
+        &height * &height - &square * dot(&normal, &normal)
+    };
+    let at_edge = |[x, y, z]: [usize; 3], points: [Vector3; 4]| {
+        let (w, edge) = (minus(&points[x], &points[y]), minus(&points[z], &points[y]));
+        let moment = cross(&w, &edge);
+        dot(&moment, &moment) - &square * dot(&edge, &edge)
+    };
+    let at_corner = |[x, y]: [usize; 2], points: [Vector3; 4]| {
+        let w = minus(&points[x], &points[y]);
+        dot(&w, &w) - &square
+    };
+    let (edges, corners): (&[_], &[_]) = match vector.is_of_edges() {
+        true => (
+            &[[0, 2, 3], [1, 2, 3], [2, 0, 1], [3, 0, 1]],
+            &[[0, 2], [0, 3], [1, 2], [1, 3]],
+        ),
+        false => (
+            &[[0, 1, 2], [0, 2, 3], [0, 1, 3]],
+            &[[0, 1], [0, 2], [0, 3]],
+        ),
+    };
+    let at_edges = || {
+        edges
+            .iter()
+            .any(|&edge| is_so_of(&|points| at_edge(edge, points)))
+    };
+    let at_corners = || {
+        corners
+            .iter()
+            .any(|&pair| is_so_of(&|points| at_corner(pair, points)))
+    };
+    is_so_of(&inside) || at_edges() || at_corners()
+}
+
+/// The polynomial of degree 6 at most with these values, by Newton's divided differences.
+fn interpolated(value: impl Fn(&BigRational) -> BigRational) -> Poly {
+    let times: Vec<_> = (0..=6).map(integer).collect();
+    let mut differences: Vec<_> = times.iter().map(value).collect();
+    for order in 1..times.len() {
+        for i in (order..times.len()).rev() {
+            let span = &times[i] - &times[i - order];
+            differences[i] = (&differences[i] - &differences[i - 1]) / span;
+        }
+    }
+    // Horner: p (t - t_i) + d_i.
+    let mut poly = Poly::new();
+    for (difference, time) in differences.iter().zip(&times).rev() {
+        let mut next = vec![BigRational::zero(); poly.len() + 1];
+        for (power, c) in poly.iter().enumerate() {
+            next[power + 1] += c;
+            next[power] -= c * time;
+        }
+        next[0] += difference;
+        poly = next;
+    }
+    trimmed(poly)
 }
 
 fn integer(value: i64) -> BigRational {
@@ -217,7 +320,7 @@ fn roots_between(poly: &Poly, low: &BigRational, high: &BigRational) -> usize {
         && !b.is_empty()
     {
         let next = remainder(a, b).into_iter().map(|c| -c).collect();
-        chain.push(next);
+        chain.push(scaled(next));
     }
     let variations = |at: &BigRational| {
         let signs = chain
@@ -248,5 +351,13 @@ fn gcd(a: &Poly, b: &Poly) -> Poly {
     if b.is_empty() {
         return a.clone();
     }
-    gcd(b, &remainder(a, b))
+    gcd(b, &scaled(remainder(a, b)))
+}
+
+/// Times a number above 0, so that the leading coefficient is 1 or -1: it keeps the digits few.
+fn scaled(poly: Poly) -> Poly {
+    match poly.last().map(Signed::abs) {
+        Some(leading) => poly.iter().map(|c| c / &leading).collect(),
+        None => poly,
+    }
 }

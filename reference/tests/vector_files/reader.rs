@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use serde::Deserialize;
-use tunnelproof::query::{EdgeEdge, Point};
+use tunnelproof::query::{Point, Query, QueryKind};
 
 #[derive(Deserialize)]
 struct File {
@@ -16,10 +16,21 @@ pub(crate) struct Vector {
     pub(crate) id: String,
     pub(crate) flags: Vec<String>,
     pub(crate) wire: Option<Wire>,
+    pub(crate) kind: String,
+    pub(crate) radius: Radius<f64>,
+    pub(crate) radius_hex: Radius<String>,
     pub(crate) points: [[f64; 3]; 8],
     pub(crate) points_hex: [[String; 3]; 8],
     pub(crate) result: Outcome,
     pub(crate) exact_toi: Option<ExactTime>,
+}
+
+/// One number, or two whose sum it is.
+#[derive(Clone, Deserialize)]
+#[serde(untagged)]
+pub(crate) enum Radius<T> {
+    One(T),
+    Sum([T; 2]),
 }
 
 #[derive(Clone, Deserialize)]
@@ -35,6 +46,7 @@ pub(crate) struct Outcome {
     pub(crate) kind_of_contact: Option<String>,
     pub(crate) crosses: Option<bool>,
     pub(crate) side: Option<i8>,
+    pub(crate) features: Option<[String; 2]>,
     pub(crate) temporarily_parallel: Option<bool>,
     pub(crate) temporarily_point: Option<bool>,
     pub(crate) u: Option<Bounds>,
@@ -67,9 +79,31 @@ pub(crate) struct Root {
 }
 
 impl Vector {
-    pub(crate) fn query(&self) -> EdgeEdge {
+    pub(crate) fn query(&self) -> Query {
         let [a, b, c, d, a1, b1, c1, d1] = self.points.map(Point::from);
-        EdgeEdge::new([a, b, c, d], [a1, b1, c1, d1], 0.0).unwrap()
+        let kind = match self.kind.as_str() {
+            "edge-edge" => QueryKind::EdgeEdge,
+            "vertex-face" => QueryKind::VertexFace,
+            kind => panic!("{}: {kind}", self.id),
+        };
+        let radii = match self.radius {
+            Radius::One(radius) => [radius, 0.0],
+            Radius::Sum(radii) => radii,
+        };
+        Query::new(kind, [a, b, c, d], [a1, b1, c1, d1], radii).unwrap()
+    }
+
+    pub(crate) fn is_of_edges(&self) -> bool {
+        self.kind == "edge-edge"
+    }
+}
+
+impl<T> Radius<T> {
+    pub(crate) fn parts(&self) -> &[T] {
+        match self {
+            Radius::One(radius) => std::slice::from_ref(radius),
+            Radius::Sum(radii) => radii,
+        }
     }
 }
 
