@@ -9,6 +9,7 @@ use clap::Args;
 use serde::Serialize;
 use tunnelproof::wire::recording::Recording;
 use tunnelproof_reference::audit::{Audit as Auditor, Report};
+use tunnelproof_reference::replay::Replay;
 use tunnelproof_reference::report::audit;
 
 use super::output::{OutputFile, print};
@@ -21,6 +22,7 @@ Examples:
   tunnelproof simulate basic-collision --record run.tps
   tunnelproof audit run.tps
   tunnelproof audit run.tps --exact --json -
+  tunnelproof audit run.tps --replay run.html
 
 Every pair of segments whose swept boxes meet, in every step and every change of resolution, of one wire too. Exit code
 1 if anything passed unnoticed or stands on the wrong side at the end.")]
@@ -33,23 +35,34 @@ pub(super) struct Audit {
     /// Write what was found to this file as JSON
     #[arg(long, value_name = "OUT")]
     json: Option<PathBuf>,
+    /// Write a page to watch the run, what was found marked on it, to this file
+    #[arg(long, value_name = "OUT")]
+    replay: Option<PathBuf>,
 }
 
 impl Audit {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
         let json = self.json.as_deref().map(OutputFile::create).transpose()?;
-        let file = File::open(&self.recording).map_err(|error| self.wrong(error))?;
-        let recording = Recording::open(BufReader::new(file)).map_err(|error| self.wrong(error))?;
+        let page = self.replay.as_deref().map(OutputFile::create).transpose()?;
+        let mut replay = page.is_some().then(|| self.empty_page()).transpose()?;
+        let recording = self.open()?;
         let wires = recording.header().wires.iter();
         let mut auditor = Auditor::new(wires.map(|wire| wire.material.radius).collect());
         progress::counting("steps", |done| {
             for record in recording {
-                auditor.step(&record.map_err(|error| self.wrong(error))?);
+                let record = record.map_err(|error| self.wrong(error))?;
+                auditor.step(&record);
+                if let Some(replay) = &mut replay {
+                    replay.step(&record);
+                }
                 done(1);
             }
             Ok::<(), Failure>(())
         })?;
         let report = auditor.finish();
+        if let Some((page, replay)) = page.zip(replay) {
+            page.write(&replay.page(Some(&report)).map_err(no_json)?)?;
+        }
         show(&report)?;
         if let Some(json) = json {
             json.write(&as_json(&report)?)?;
@@ -64,6 +77,20 @@ impl Audit {
         } else {
             ExitCode::FAILURE
         })
+    }
+
+    fn open(&self) -> Result<Recording<BufReader<File>>, Failure> {
+        let file = File::open(&self.recording).map_err(|error| self.wrong(error))?;
+        Recording::open(BufReader::new(file)).map_err(|error| self.wrong(error))
+    }
+
+    /// A page that the steps are still to be added to, called after the file. It has to know how many there are.
+    fn empty_page(&self) -> Result<Replay, Failure> {
+        let recording = self.open()?;
+        let header = recording.header().clone();
+        let title = self.recording.file_stem().unwrap_or_default();
+        let steps = recording.count() as u64;
+        Ok(Replay::new(&title.to_string_lossy(), header, steps))
     }
 
     fn wrong(&self, error: impl ToString) -> Failure {

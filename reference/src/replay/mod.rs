@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use maud::{DOCTYPE, PreEscaped, html};
 use serde::Serialize;
 use tunnelproof::query::Point;
+use tunnelproof::scenario::scenes::Scene;
 use tunnelproof::wire::recording::Header;
 use tunnelproof::wire::{
     BodyRecord, ContactRecord, NodeKind, Outcome, Place, Pose, StepRecord, Vector, WireRecord,
@@ -24,12 +25,20 @@ const MOST_FRAMES: u64 = 2000;
 pub struct Replay {
     title: String,
     header: Header,
+    /// What wires and bodies are called.
+    names: Names,
     frames: Vec<Frame>,
     #[serde(skip)]
     stride: u64,
     /// What happened since the last frame.
     #[serde(skip)]
     events: Events,
+}
+
+#[derive(Debug, Serialize)]
+struct Names {
+    wires: Vec<String>,
+    bodies: Vec<String>,
 }
 
 /// An instant. Lengths in 0.01 mm, forces in 0.01 N, rounded.
@@ -62,15 +71,29 @@ struct Frame {
 type Events = BTreeMap<&'static str, usize>;
 
 impl Replay {
-    /// A run of so many steps that is to come.
+    /// A run of so many steps that is to come. Wires and bodies have numbers.
     pub fn new(title: &str, header: Header, steps: u64) -> Self {
+        let numbered = |what, count| (0..count).map(|k| format!("{what} {k}")).collect();
         Replay {
             title: title.to_owned(),
+            names: Names {
+                wires: numbered("wire", header.wires.len()),
+                bodies: numbered("body", header.bodies.len()),
+            },
             header,
             frames: Vec::new(),
             stride: steps.div_ceil(MOST_FRAMES).max(1),
             events: Events::new(),
         }
+    }
+
+    /// The same with the names that wires and bodies have in the scene that is run.
+    pub fn named_as_in(mut self, scene: &Scene) -> Self {
+        self.names = Names {
+            wires: scene.wires.iter().map(|wire| wire.name.clone()).collect(),
+            bodies: scene.bodies.iter().map(|body| body.name.clone()).collect(),
+        };
+        self
     }
 
     /// Adds the next step.

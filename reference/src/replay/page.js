@@ -182,10 +182,10 @@ function charts(seek) {
   const spins = run.header.bodies.map((body, k) => body.dynamic ? k : -1).filter(k => k >= 0);
   const palette = ["#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#ff7f0e", "#17becf", "#8c564b", "#e377c2"];
   const all = [
-    ["Largest tension of each wire, N", run.header.wires.map((_, w) => [`wire ${w}`, frames.map(frame => frame.tensions[w].reduce((a, b) => Math.max(a, b), 0))])],
+    ["Largest tension of each wire, N", run.header.wires.map((_, w) => [run.names.wires[w], frames.map(frame => frame.tensions[w].reduce((a, b) => Math.max(a, b), 0))])],
     ["Energy, J", ["kinetic", "potential", "elastic"].map((name, k) => [name, frames.map(frame => frame.energy[k])])],
     ["Contacts", [["contacts", frames.map(frame => frame.contacts.length)], ["met on the way", frames.map(frame => frame.met)]]],
-    ["Angular velocity, rad/s", spins.map(k => [`body ${k}`, frames.map(frame => frame.spin[k])])],
+    ["Angular velocity, rad/s", spins.map(k => [run.names.bodies[k], frames.map(frame => frame.spin[k])])],
   ];
   return all.filter(([, series]) => series.length).map(([title, series]) => {
     const box = document.createElement("div");

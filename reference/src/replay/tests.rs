@@ -18,7 +18,10 @@ fn basic_collision() -> Scene {
 #[test]
 fn replay_has_a_frame_for_the_start_and_for_every_step() {
     let (header, records) = records(&basic_collision(), 3);
-    let mut replay = Replay::new("a </script> & b", header, 3);
+    let replay = Replay::new("a </script> & b", header, 3);
+    assert_eq!(replay.names.wires, ["wire 0", "wire 1", "wire 2"]);
+    let mut replay = replay.named_as_in(&basic_collision());
+    assert_eq!(replay.names.wires, ["left", "right", "falling"]);
     records.iter().for_each(|record| replay.step(record));
     assert_eq!(replay.frames.len(), 4);
     assert_eq!(replay.frames[0].time, 0.0);

@@ -42,6 +42,15 @@ fn simulate_records_what_audit_reads_and_both_find_the_same() {
     assert!(said.ends_with(&stdout(&output)), "{said}");
     let (live, read) = (json(&live), json(&read));
     assert_eq!(live["audit"], read);
+    // A page from the recording is that of the run, but for names.
+    let page = folder.path().join("read.html");
+    let output = tunnelproof(&["audit", &path(&recording), "--replay", &path(&page)]);
+    assert_eq!(output.status.code(), Some(1));
+    let page = std::fs::read_to_string(page).unwrap();
+    assert!(page.contains("<title>run</title>"));
+    assert!(page.contains("\"missed\":"));
+    assert_eq!(page.matches("\"time\":").count(), 13);
+    assert!(page.contains(r#""names":{"wires":["wire 0","wire 1","wire 2"]"#));
     assert_eq!(live["summary"]["steps"], 12);
     // The witness is a query that the commands read.
     let witness = read["findings"][0]["query"].as_str().unwrap();
