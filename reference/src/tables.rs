@@ -2,7 +2,7 @@
 
 use tunnelproof::contact::Case;
 use tunnelproof::scenario::scenes::{EMBEDDED, Scene, SceneError};
-use tunnelproof::wire::Mode;
+use tunnelproof::wire::{Mode, StepRecord, World};
 
 use crate::audit::{Audit, Report};
 use crate::certify::table::grouped;
@@ -211,8 +211,30 @@ pub fn largest_discrete_step(scene: &Scene) -> Result<Option<(f64, Audited)>, Sc
     Ok(largest)
 }
 
+/// How often a run is repeated where its time is measured.
+const REPETITIONS: usize = 3;
+
+/// What the fastest of several runs of a scene counts. What else the machine does only makes a run longer.
+fn fastest(scene: &Scene, narrow: Narrow, mode: Mode) -> Result<Summary, SceneError> {
+    let narrow = &*narrow.phase();
+    let run = Run {
+        scene,
+        narrow,
+        mode,
+    };
+    let unseen = |_: &World, _: &StepRecord| Ok::<(), SceneError>(());
+    let mut fastest = run.go(unseen)?;
+    for _ in 1..REPETITIONS {
+        let again = run.go(unseen)?;
+        if again.wall < fastest.wall {
+            fastest = again;
+        }
+    }
+    Ok(fastest)
+}
+
 /// Table 4.2: what continuous detection costs at 1/60 s, in guard mode by the certified path, against discrete detection
-/// at the largest step that does not tunnel. Run times are those of this machine, without the audit.
+/// at the largest step that does not tunnel. Run times are those of this machine, without the audit, the least of three.
 ///
 /// # Errors
 ///
@@ -226,27 +248,29 @@ pub fn times(scenes: &[Scene]) -> Result<String, SceneError> {
     ];
     let mut rows = vec![Vec::new(); 5];
     for (scene, (step, [continuous, discrete], change)) in scenes.iter().zip(thesis) {
-        let ours = audited(scene, Narrow::Certified, Mode::Guard)?.summary;
-        let found = largest_discrete_step(scene)?;
-        let of = |read: fn(f64, &Summary) -> String| match &found {
-            Some((step, run)) => read(*step, &run.summary),
-            None => "none".to_owned(),
+        let largest = largest_discrete_step(scene)?.map(|(step, _)| step);
+        let ours = fastest(scene, Narrow::Certified, Mode::Guard)?;
+        let at = |step| {
+            let mut scene = scene.clone();
+            scene.settings.step = step;
+            fastest(&scene, Narrow::Discrete, Mode::Thesis)
         };
-        let wall = ours.wall;
-        let ratio = found
-            .as_ref()
-            .map(|(_, run)| 100.0 * (wall / run.summary.wall - 1.0));
-        rows[0].push(beside(step, of(|step, _| step.to_string())));
-        rows[1].push(beside(continuous, format!("{wall:.3}")));
-        rows[2].push(beside(
-            discrete,
-            of(|_, summary| format!("{:.3}", summary.wall)),
-        ));
-        rows[3].push(beside(
-            format!("{change} %"),
-            ratio.map_or_else(|| "none".to_owned(), |ratio| format!("{ratio:.2} %")),
-        ));
-        rows[4].push(format!("{:.2} %", 100.0 * ours.wall_collision / wall));
+        let other = largest.map(at).transpose()?.map(|summary| summary.wall);
+        let written = |number: Option<String>| number.unwrap_or_else(|| "none".to_owned());
+        let ratio = other.map(|other| 100.0 * (ours.wall / other - 1.0));
+        let cells = [
+            beside(step, written(largest.map(|step| step.to_string()))),
+            beside(continuous, format!("{:.3}", ours.wall)),
+            beside(discrete, written(other.map(|wall| format!("{wall:.3}")))),
+            beside(
+                format!("{change} %"),
+                written(ratio.map(|ratio| format!("{ratio:.2} %"))),
+            ),
+            format!("{:.2} %", 100.0 * ours.wall_collision / ours.wall),
+        ];
+        for (row, cell) in rows.iter_mut().zip(cells) {
+            row.push(cell);
+        }
     }
     let names = [
         "Time step (discrete), s",
