@@ -10,6 +10,7 @@ use super::block::{BLOCK, Block};
 use super::cascade::Stage;
 use super::motion::Positions;
 use super::pair::Pair;
+use super::thick;
 use crate::query::{EdgeEdge, Point, QueryError, Radius, VertexFace};
 
 /// How many blocks are not screened after one for which that did not pay.
@@ -191,7 +192,7 @@ impl<Q: Pair> PairBatch<Q> {
         if radius.is_zero() {
             Q::decide_all(|| self.positions(index), observe)
         } else {
-            Q::decide_thick(&self.positions(index), radius, observe)
+            thick::decide::<Q::Thick>(|| self.positions(index), radius, observe)
         }
     }
 

@@ -74,7 +74,7 @@ pub fn decide(query: &EdgeEdge) -> Verdict {
 #[inline]
 pub fn decide_observed(query: &EdgeEdge, observe: &mut impl FnMut(Stage)) -> Verdict {
     if !query.radius().is_zero() {
-        let hit = thick::decide_edges(&Positions::new(query), query.radius(), observe);
+        let hit = thick::decide::<thick::Edges>(|| Positions::new(query), query.radius(), observe);
         return hit.map_or(Verdict::Miss, Verdict::Hit);
     }
     decide_all(|| Positions::new(query), observe)

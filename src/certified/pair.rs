@@ -28,6 +28,9 @@ impl Batched for VertexFace {
 
 /// A kind of query, as the stages see it.
 pub(super) trait Pair: Batched + Sized {
+    /// The same with a radius.
+    type Thick: thick::Kind<Hit = Self::Hit>;
+
     fn of_points(start: [Point; 4], end: [Point; 4], radius: Radius) -> Result<Self, QueryError>;
 
     /// The points at both ends of the step and the radius.
@@ -55,13 +58,6 @@ pub(super) trait Pair: Batched + Sized {
         positions: impl Fn() -> Positions,
         observe: &mut impl FnMut(Stage),
     ) -> Option<Self::Hit>;
-
-    /// All stages for a radius above 0.
-    fn decide_thick(
-        positions: &Positions,
-        radius: Radius,
-        observe: &mut impl FnMut(Stage),
-    ) -> Option<Self::Hit>;
 }
 
 macro_rules! points_and_radius {
@@ -81,6 +77,8 @@ macro_rules! points_and_radius {
 }
 
 impl Pair for EdgeEdge {
+    type Thick = thick::Edges;
+
     points_and_radius!();
 
     #[inline(always)]
@@ -117,14 +115,6 @@ impl Pair for EdgeEdge {
     ) -> Option<Hit> {
         hit(cascade::decide_rest(positions, observe))
     }
-
-    fn decide_thick(
-        positions: &Positions,
-        radius: Radius,
-        observe: &mut impl FnMut(Stage),
-    ) -> Option<Hit> {
-        thick::decide_edges(positions, radius, observe)
-    }
 }
 
 fn hit(verdict: Verdict) -> Option<Hit> {
@@ -135,6 +125,8 @@ fn hit(verdict: Verdict) -> Option<Hit> {
 }
 
 impl Pair for VertexFace {
+    type Thick = thick::Face;
+
     points_and_radius!();
 
     #[inline(always)]
@@ -170,13 +162,5 @@ impl Pair for VertexFace {
         observe: &mut impl FnMut(Stage),
     ) -> Option<FaceHit> {
         face::decide_rest(positions, observe)
-    }
-
-    fn decide_thick(
-        positions: &Positions,
-        radius: Radius,
-        observe: &mut impl FnMut(Stage),
-    ) -> Option<FaceHit> {
-        thick::decide_face(positions, radius, observe)
     }
 }

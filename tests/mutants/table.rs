@@ -156,4 +156,11 @@ pub(crate) const MUTANTS: &[Mutant] = &[
         replacement: "let first = x / slope;",
         fault: "the last step to the contact is twice as long",
     },
+    Mutant {
+        culprit: Culprit::Thick,
+        file: "src/certified/thick/nearness.rs",
+        text: "if !(square > SMALLEST && least > 0.0) {",
+        replacement: "if square.is_nan() {",
+        fault: "edges that may be parallel where they touch are said to be not",
+    },
 ];

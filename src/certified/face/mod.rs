@@ -55,7 +55,7 @@ pub fn decide_vertex_face_observed(
 ) -> Option<FaceHit> {
     let positions = || Positions::of(query.start(), query.end());
     if !query.radius().is_zero() {
-        return thick::decide_face(&positions(), query.radius(), observe);
+        return thick::decide::<thick::Face>(positions, query.radius(), observe);
     }
     decide_all(positions, observe)
 }

@@ -1,8 +1,8 @@
 //! Conservative advancement: planes that keep the two sides more than the radius apart, each for a part of the
 //! step, until the step ends or they are no farther apart than rounding can tell.
 //!
-//! The first plane's normal is the direction from middle to middle of the motion, and stays ([`Moving::stays_apart_by`]). Then
-//! they turn ([`Turning`]): taken from the nearest points at the time reached, such a plane is the best there
+//! The first plane's normal is the direction from middle to middle of the motion, the second one's that between the points that are
+//! nearest where the first one fails; both stay ([`Moving::stays_apart_by`]). Then they turn ([`Turning`]): taken from the nearest points at the time reached, such a plane is the best there
 //! is up to the second order, and so is the next time: it is Newton's method from the safe side (after Mirtich, "Impulse-based
 //! dynamic simulation of rigid body systems", 1996, who advances by bounds on speeds).
 
@@ -10,7 +10,7 @@ use super::instant::Instant;
 use super::shape::Shape;
 use super::turning::Turning;
 use crate::certified::ends::Ends;
-use crate::certified::motion::{Motion, Positions, Vector, add, both, dot, scaled, sub};
+use crate::certified::motion::{Motion, Vector, add, both, dot, scaled, sub};
 use crate::certified::separate::{SweptBoxes, U};
 use crate::query::Radius;
 
@@ -38,8 +38,7 @@ const MOST_STEPS: u32 = 24;
 
 impl<E: Ends> Moving<E> {
     #[inline(always)]
-    pub(super) fn new<S: Shape>(positions: &Positions, boxes: SweptBoxes, radius: f64) -> Self {
-        let points = positions.points::<E>();
+    pub(super) fn new<S: Shape>(points: &[[E; 3]; 4], radius: f64) -> Self {
         let way = |(from, to): (usize, usize)| sub(&points[to], &points[from]);
         let [k, l, m] = S::WAYS;
         Moving {
@@ -48,37 +47,54 @@ impl<E: Ends> Moving<E> {
                 l: way(l),
                 m: way(m),
             },
-            boxes,
+            boxes: S::boxes(points, radius * (1.0 + 4.0 * U)),
             radius,
         }
     }
 
-    /// Up to when a plane with this normal certainly keeps them more than the radius apart, if not for the whole
-    /// step: then 1 or more; 0 if not even at the start.
+    /// How far certainly beyond the radius, times the length of the normal, all corners are on a plane's side, at the
+    /// start and at the end; neither is above 0 unless that is a proof.
     ///
     /// The least product of a corner with `n` is a concave function of time, not below the line from its value at the
     /// start to that at the end.
     ///
     /// Error bound: the products with `n` at both ends are within [`SweptBoxes::bound`] of the exact ones,
-    /// `|n|` within `4 u`. What is computed from them passes three roundings, which `8 u` outweigh. NaN and
-    /// infinities prove nothing, nor does what underflows.
+    /// `|n|` within `4 u`. NaN and infinities prove nothing, nor does what underflows.
     #[inline(always)]
-    pub(super) fn stays_apart_by<S: Shape>(&self, n: &Vector) -> f64 {
+    fn margins<S: Shape>(&self, n: &Vector) -> [f64; 2] {
         let square = dot(n, n);
         let least = self.radius * square.sqrt() * (1.0 + 8.0 * U) + self.boxes.bound(n);
         let along = both(n);
         let Motion { k, l, m } = &self.motion;
         let corner = S::least_corner(dot(k, &along), dot(l, &along), dot(m, &along));
-        let [start, end] = [corner.start() - least, corner.end() - least];
         let is_proof = (square > SMALLEST) & (square < LARGEST) & (least < LARGEST);
-        match (is_proof & (start > 0.0), end > 0.0) {
+        let least = if is_proof { least } else { f64::INFINITY };
+        [corner.start() - least, corner.end() - least]
+    }
+
+    /// Up to when a plane with this normal certainly keeps them more than the radius apart, if not for the whole
+    /// step: then 1 or more; 0 if not even at the start.
+    ///
+    /// What is computed from the margins passes three roundings, which `8 u` outweigh.
+    #[inline(always)]
+    pub(super) fn stays_apart_by<S: Shape>(&self, n: &Vector) -> f64 {
+        let [start, end] = self.margins::<S>(n);
+        match (start > 0.0, end > 0.0) {
             (true, true) => 1.0,
             (true, false) => start / (start - end) * (1.0 - 8.0 * U),
             (false, _) => 0.0,
         }
     }
 
-    /// The same for the direction from the middle of one side's motion to that of the other.
+    /// Whether it does so for the whole step.
+    #[inline(always)]
+    fn is_separated_by<S: Shape>(&self, n: &Vector) -> bool {
+        let [start, end] = self.margins::<S>(n);
+        (start > 0.0) & (end > 0.0)
+    }
+
+    /// The same as [`stays_apart_by`](Self::stays_apart_by) for the direction from the middle of one side's motion to
+    /// that of the other.
     #[inline(always)]
     pub(super) fn stays_apart_by_centres<S: Shape>(&self) -> f64 {
         let Motion { k, l, m } = &self.motion;
@@ -90,10 +106,14 @@ impl<E: Ends> Moving<E> {
     /// Advances from a time up to which they are apart.
     pub(super) fn advance<S: Shape>(&self, from: f64) -> Advance {
         let mut t = from;
+        let mut here = Instant::new::<S, E>(self, t);
+        // Most sides that stay apart turn little.
+        if self.is_separated_by::<S>(&here.way) {
+            return Advance::Apart;
+        }
         for _ in 0..MOST_STEPS {
             // Not below what is left.
             let left = (1.0 - t) * (1.0 + 2.0 * U);
-            let here = Instant::new::<S, E>(self, t);
             let step = self.stays_apart_turning::<S>(&here, &Turning::new(&here), left);
             if step >= left {
                 return Advance::Apart;
@@ -107,6 +127,7 @@ impl<E: Ends> Moving<E> {
             if step < t * SHORT {
                 break;
             }
+            here = Instant::new::<S, E>(self, t);
         }
         if t > 0.0 {
             Advance::Until(t)

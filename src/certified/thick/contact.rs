@@ -5,7 +5,7 @@ use wide::f64x2;
 
 use super::Kind;
 use super::advance::Moving;
-use super::settle::{MOST_ERROR, Settled};
+use super::settle::Settled;
 use super::shape::Spot;
 use crate::certified::cubic::Cubic;
 use crate::certified::exact::Passage;
@@ -13,7 +13,7 @@ use crate::certified::motion::Positions;
 use crate::contact::{Case, ContactKind};
 
 /// A contact that is certain, in a place that is a single one.
-pub(super) struct Contact {
+pub(in crate::certified) struct Contact {
     pub(super) toi: [f64; 2],
     pub(super) side: i8,
     pub(super) spot: Spot,
@@ -27,9 +27,6 @@ pub(super) fn contact<K: Kind>(
     moving: &Moving<f64x2>,
     &Settled { below, spot, error }: &Settled,
 ) -> Option<Contact> {
-    if !(error <= MOST_ERROR) {
-        return None;
-    }
     let cubic = Cubic::new(&moving.motion);
     let passage = passage::<K>(positions, cubic.as_ref());
     let (toi, side) = match passage.case {
@@ -54,14 +51,16 @@ fn passage<K: Kind>(positions: &Positions, cubic: Option<&Cubic>) -> Passage {
             return Some(false);
         }
         let points = positions.points::<f64x2>();
-        let mut crosses = false;
         for bracket in cubic.isolate(|_, _| false)?.as_slice() {
-            crosses |= K::crosses_at(&points, cubic, bracket).or_else(|| {
+            let crosses = K::crosses_at(&points, cubic, bracket).or_else(|| {
                 let (sharp, _) = cubic.sharpen(bracket)?;
                 K::crosses_at(&points, cubic, &sharp)
             })?;
+            if crosses {
+                return Some(true);
+            }
         }
-        Some(crosses)
+        Some(false)
     };
     let of = |crosses| Passage {
         case: Case::General,

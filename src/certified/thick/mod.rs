@@ -2,7 +2,8 @@
 //!
 //! 1. The swept boxes are farther apart than the radius (`separate`).
 //! 2. The direction from middle to middle separates them by more than the radius for the whole step (`advance`).
-//! 3. Other planes, which turn with the two (`turning`), do so for one part of the step after the other, up to its end
+//! 3. A plane that stays does so, between the points that are nearest where that direction fails; or others, which turn with the
+//!    two (`turning`), do so for one part of the step after the other, up to its end
 //!    or to the contact (`advance`). There the squared distance of the points that are nearest, in double-double
 //!    arithmetic, and a bound on how far these move (`nearness`) hold the time of impact between neighbours in `f64`
 //!    (`settle`). Points that are near at the start are a contact there. The rest of the answer is bounded in
@@ -32,7 +33,7 @@ use super::face::{self, FaceHit};
 use super::locate::Place;
 use super::motion::{Motion, Positions, dot};
 use super::root::Bracket;
-use super::separate::{SweptBoxes, U};
+use super::separate::U;
 use super::verdict::{Hit, Parameters};
 use crate::contact::Flags;
 use crate::query::Radius;
@@ -40,25 +41,8 @@ use advance::{Advance, Moving, rounded_up};
 use contact::{Contact, contact};
 use instant::Instant;
 use settle::{Settled, settle};
+pub(super) use shape::{Edges, Face};
 use shape::{Shape, Spot};
-
-/// The first contact of two edges within a radius above 0.
-pub(super) fn decide_edges(
-    positions: &Positions,
-    radius: Radius,
-    observe: &mut impl FnMut(Stage),
-) -> Option<Hit> {
-    decide::<shape::Edges>(positions, radius, observe)
-}
-
-/// The first contact of a vertex and a face within a radius above 0.
-pub(super) fn decide_face(
-    positions: &Positions,
-    radius: Radius,
-    observe: &mut impl FnMut(Stage),
-) -> Option<FaceHit> {
-    decide::<shape::Face>(positions, radius, observe)
-}
 
 /// The first contact of two edges, by integers alone, and the case of the motion.
 pub(super) fn decide_edges_exactly(positions: &Positions, radius: Radius) -> exact::Decision {
@@ -103,11 +87,8 @@ pub(super) fn decide_face_exactly(positions: &Positions, radius: Radius) -> Opti
 }
 
 /// A kind of query.
-trait Kind: Shape {
+pub(super) trait Kind: Shape {
     type Hit;
-
-    /// The swept boxes, disjoint if they are farther apart than a distance.
-    fn boxes(points: &[[f64x2; 3]; 4], distance: f64) -> SweptBoxes;
 
     /// Where the midlines, or the vertex and the face, are at a root of `f`.
     fn crosses_at(points: &[[f64x2; 3]; 4], cubic: &Cubic, bracket: &Bracket) -> Option<bool>;
@@ -120,37 +101,35 @@ trait Kind: Shape {
     fn decide_exactly(positions: &Positions, radius: Radius) -> Option<Self::Hit>;
 }
 
-/// All stages.
-fn decide<K: Kind>(
-    positions: &Positions,
+/// The first contact within a radius above 0, by all stages.
+#[inline(always)]
+pub(super) fn decide<K: Kind>(
+    positions: impl Fn() -> Positions,
     radius: Radius,
     observe: &mut impl FnMut(Stage),
 ) -> Option<K::Hit> {
-    let points = positions.points::<f64x2>();
-    let rounded = rounded_up(radius);
-    let boxes = K::boxes(&points, rounded * (1.0 + 4.0 * U));
-    if boxes.are_disjoint {
+    let moving = Moving::new::<K>(&positions().points::<f64x2>(), rounded_up(radius));
+    if moving.boxes.are_disjoint {
         observe(Stage::Boxes);
         return None;
     }
-    let moving = Moving::new::<K>(positions, boxes, rounded);
     let proved = moving.stays_apart_by_centres::<K>();
     if proved >= 1.0 {
         observe(Stage::Direction);
         return None;
     }
-    if let Some(contact) = decide_by_planes::<K>(positions, &moving, radius, proved) {
+    if let Some(contact) = decide_by_planes::<K>(&positions, &moving, radius, proved) {
         observe(Stage::Planes);
         return contact.map(|contact| K::hit(&contact));
     }
     observe(Stage::Exact);
-    K::decide_exactly(positions, radius)
+    K::decide_exactly(&positions(), radius)
 }
 
 /// The contact, if any; `None` if something is not certain.
 #[inline(never)]
 fn decide_by_planes<K: Kind>(
-    positions: &Positions,
+    positions: &impl Fn() -> Positions,
     moving: &Moving<f64x2>,
     radius: Radius,
     proved: f64,
@@ -160,12 +139,15 @@ fn decide_by_planes<K: Kind>(
         _ if !moving.is_ordinary() => None,
         Advance::Near => {
             let start = moving.near_start::<K>(radius)?;
-            contact::<K>(positions, moving, &start)
+            contact::<K>(&positions(), moving, &start)
         }
-        Advance::Until(proved) => match settle::<K>(positions, moving, radius, proved)? {
-            None => return Some(None),
-            Some(settled) => contact::<K>(positions, moving, &settled),
-        },
+        Advance::Until(proved) => {
+            let positions = &positions();
+            match settle::<K>(positions, moving, radius, proved)? {
+                None => return Some(None),
+                Some(settled) => contact::<K>(positions, moving, &settled),
+            }
+        }
     };
     contact.map(Some)
 }
@@ -186,11 +168,7 @@ impl Moving<f64x2> {
         let high = (length + 16.0 * U * self.boxes.size()) * (1.0 + 16.0 * U) + f64::MIN_POSITIVE;
         let is_near = length.is_finite() && high <= radius.rounded().next_down();
         let nearness = self.nearness(&start, 0.0).filter(|_| is_near)?;
-        Some(Settled {
-            below: 0.0,
-            spot: start.spot,
-            error: nearness.error,
-        })
+        Settled::new(0.0, start.spot, &nearness)
     }
 }
 
@@ -200,12 +178,8 @@ const SMALLEST: f64 = f64::from_bits((1023 - 200) << 52);
 /// 2^180.
 const LARGEST: f64 = f64::from_bits((1023 + 180) << 52);
 
-impl Kind for shape::Edges {
+impl Kind for Edges {
     type Hit = Hit;
-
-    fn boxes([a, b, c, d]: &[[f64x2; 3]; 4], distance: f64) -> SweptBoxes {
-        SweptBoxes::around([a, b], [c, d], distance)
-    }
 
     fn crosses_at(points: &[[f64x2; 3]; 4], cubic: &Cubic, bracket: &Bracket) -> Option<bool> {
         match Motion::new(points).meeting(cubic, bracket).place() {
@@ -240,12 +214,8 @@ impl Kind for shape::Edges {
     }
 }
 
-impl Kind for shape::Face {
+impl Kind for Face {
     type Hit = FaceHit;
-
-    fn boxes([a, b, c, d]: &[[f64x2; 3]; 4], distance: f64) -> SweptBoxes {
-        SweptBoxes::around([a], [b, c, d], distance)
-    }
 
     fn crosses_at(points: &[[f64x2; 3]; 4], cubic: &Cubic, bracket: &Bracket) -> Option<bool> {
         face::is_inside_at(points, cubic, bracket)

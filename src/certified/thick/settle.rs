@@ -8,6 +8,7 @@ use wide::f64x2;
 
 use super::advance::Moving;
 use super::instant::Instant;
+use super::nearness::Nearness;
 use super::shape::{Shape, Spot};
 use crate::certified::double::{Double, two_difference, two_sum};
 use crate::certified::ends::Ends;
@@ -28,11 +29,16 @@ pub(super) struct Settled {
     pub(super) error: f64,
 }
 
+impl Settled {
+    /// A contact, if its place is known so well that what is computed from it is within what is promised.
+    pub(super) fn new(below: f64, spot: Spot, nearness: &Nearness) -> Option<Self> {
+        let error = nearness.error;
+        (error <= Hit::PARAMETER_ERROR / 4.0).then_some(Settled { below, spot, error })
+    }
+}
+
 /// How often the time is corrected at most.
 const MOST_STEPS: u32 = 4;
-
-/// What the error of a place may be, so that what is computed from it is within what is promised.
-pub(super) const MOST_ERROR: f64 = Hit::PARAMETER_ERROR / 4.0;
 
 /// `2^-106`.
 const H: f64 = U * U;
@@ -84,14 +90,9 @@ pub(super) fn settle<S: Shape>(
             return None;
         }
         let root = Root::near(two_sum(t, delta), error);
-        if nearness.error <= MOST_ERROR
-            && let Some(below) = root.round_down()
-        {
-            return Some(Some(Settled {
-                below,
-                spot: here.spot,
-                error: nearness.error,
-            }));
+        let settled = |below| Settled::new(below, here.spot, &nearness);
+        if let Some(settled) = root.round_down().and_then(settled) {
+            return Some(Some(settled));
         }
         // They are apart until then.
         let next = (t + (delta - error)) * (1.0 - 2.0 * U);

@@ -5,10 +5,11 @@
 //! triangle whose corners move linearly; the distance of the two sides is its distance from 0.
 
 use crate::certified::ends::Ends;
-use crate::certified::motion::{Vector, dot};
+use crate::certified::motion::{Vector, dot, larger, smaller};
+use crate::certified::separate::SweptBoxes;
 
 /// What is different between edges and a face.
-pub(super) trait Shape {
+pub(in crate::certified) trait Shape {
     /// From which of A, B, C and D to which one `K`, `L` and `M` are.
     const WAYS: [(usize, usize); 3];
 
@@ -18,6 +19,9 @@ pub(super) trait Shape {
     /// The mean of the corners.
     const MIDDLE: (f64, f64);
 
+    /// The swept boxes, disjoint if they are farther apart than a distance.
+    fn boxes<E: Ends>(points: &[[E; 3]; 4], distance: f64) -> SweptBoxes;
+
     /// The least product of a corner with a vector, from those of `K`, `L` and `M`.
     fn least_corner<E: Ends>(k: E, l: E, m: E) -> E;
 
@@ -26,7 +30,7 @@ pub(super) trait Shape {
 }
 
 /// Scalar products of `K`, `L` and `M` at one time.
-pub(super) struct Gram {
+pub(in crate::certified) struct Gram {
     pub(super) kk: f64,
     pub(super) ll: f64,
     pub(super) kl: f64,
@@ -39,7 +43,7 @@ pub(super) struct Gram {
 ///
 /// The determinant of the ways is 1 or -1, and their numbers are 0, 1 or -1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Spot {
+pub(in crate::certified) struct Spot {
     pub(super) u: f64,
     pub(super) v: f64,
     pub(super) ways: [Way; 2],
@@ -47,7 +51,7 @@ pub(super) struct Spot {
 
 /// A direction in which a place may move.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Way {
+pub(in crate::certified) struct Way {
     pub(super) u: f64,
     pub(super) v: f64,
     /// Whether backwards too.
@@ -79,7 +83,7 @@ impl Gram {
 }
 
 /// Two edges: `K = B - A`, `L = D - C`, `M = C - A`.
-pub(super) struct Edges;
+pub(in crate::certified) struct Edges;
 
 impl Shape for Edges {
     const WAYS: [(usize, usize); 3] = [(0, 1), (2, 3), (0, 2)];
@@ -89,6 +93,11 @@ impl Shape for Edges {
     const MIDDLE: (f64, f64) = (0.5, 0.5);
 
     #[inline(always)]
+    fn boxes<E: Ends>([a, b, c, d]: &[[E; 3]; 4], distance: f64) -> SweptBoxes {
+        SweptBoxes::around([a, b], [c, d], distance)
+    }
+
+    #[inline(always)]
     fn least_corner<E: Ends>(k: E, l: E, m: E) -> E {
         let zero = E::both(0.0);
         m + l.smaller(zero) - k.larger(zero)
@@ -96,6 +105,7 @@ impl Shape for Edges {
 
     /// The nearest `v` for the `u` of the lines' nearest points, then the nearest `u` for that (Ericson,
     /// Real-Time Collision Detection, 5.1.9).
+    #[inline(always)]
     fn nearest(gram: &Gram) -> Spot {
         // Divisions that do not wait for each other.
         let (of_k, of_l) = (1.0 / gram.kk, 1.0 / gram.ll);
@@ -114,7 +124,7 @@ impl Shape for Edges {
 }
 
 /// A vertex A and a face BCD, with the weights `u` of C and `v` of D: `K = B - C`, `L = D - B`, `M = B - A`.
-pub(super) struct Face;
+pub(in crate::certified) struct Face;
 
 impl Shape for Face {
     const WAYS: [(usize, usize); 3] = [(2, 1), (1, 3), (0, 1)];
@@ -122,6 +132,11 @@ impl Shape for Face {
     const CORNERS: &'static [(f64, f64)] = &[(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)];
 
     const MIDDLE: (f64, f64) = (1.0 / 3.0, 1.0 / 3.0);
+
+    #[inline(always)]
+    fn boxes<E: Ends>([a, b, c, d]: &[[E; 3]; 4], distance: f64) -> SweptBoxes {
+        SweptBoxes::around([a], [b, c, d], distance)
+    }
 
     #[inline(always)]
     fn least_corner<E: Ends>(k: E, l: E, m: E) -> E {
@@ -180,5 +195,5 @@ impl Way {
 /// What of a number is in `[0, 1]`; 0 if it is not a number.
 #[inline(always)]
 fn share(share: f64) -> f64 {
-    if share > 0.0 { share.min(1.0) } else { 0.0 }
+    smaller(larger(share, 0.0), 1.0)
 }

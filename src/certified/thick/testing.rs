@@ -5,7 +5,6 @@ use wide::f64x2;
 use super::advance::Moving;
 use super::shape::Shape;
 use crate::certified::motion::Positions;
-use crate::certified::separate::SweptBoxes;
 use crate::certified::testing::{Exact, Number, Search, dot, layout};
 
 /// How long to look for the worst inputs.
@@ -28,9 +27,8 @@ impl Sample {
     /// From 24 coordinates.
     pub(super) fn new<S: Shape>(coordinates: &[f64], radius: f64) -> Self {
         let positions = layout(coordinates);
-        let boxes = SweptBoxes::new(&positions.points::<f64x2>());
         Sample {
-            moving: Moving::new::<S>(&positions, boxes, radius),
+            moving: Moving::new::<S>(&positions.points(), radius),
             exact: Exact::of(&positions, S::WAYS.map(|(from, to)| (to, from))),
             positions,
         }
