@@ -38,6 +38,10 @@ pub(super) enum Settled {
     Between(f64, f64),
 }
 
+/// How many bits the ends may have, and as many more as the other polynomial's coefficients, before that is likely to be 0 at a
+/// root.
+const LEAST_EXPONENT: u64 = 64;
+
 /// The most bits that a chord is worth, computed in floating point.
 pub(super) const MOST_BITS: u32 = 48;
 
@@ -84,6 +88,11 @@ impl<'a, const N: usize> Bracket<'a, N> {
         }
     }
 
+    /// Numbers between which the root is.
+    pub(super) fn ends(&self) -> [&Dyadic; 2] {
+        [&self.low, &self.high]
+    }
+
     /// Compares the root with a number strictly between the ends, if it is that; returns the root if
     /// that is it.
     fn meet(&mut self, at: Dyadic) -> Option<Dyadic> {
@@ -93,7 +102,7 @@ impl<'a, const N: usize> Bracket<'a, N> {
 
     /// Narrows it to one of its cells, or to what lies on one side of that. Returns the root if it is
     /// met.
-    fn refine(&mut self) -> Option<Dyadic> {
+    pub(super) fn refine(&mut self) -> Option<Dyadic> {
         let own = self.low.exponent.max(self.high.exponent);
         let exponent = own + u64::from(self.bits);
         let start = self.low.numerator.shifted(exponent - self.low.exponent);
@@ -185,33 +194,41 @@ impl<'a, const N: usize> Bracket<'a, N> {
     }
 
     /// The sign of a polynomial at the root.
+    ///
+    /// One with a factor in common may still not be 0 there: it is narrowed for a while before remainders, whose numbers are
+    /// many times as long, tell.
     pub(super) fn sign_of(&self, q: Poly<N>) -> Ordering {
         self.plain_sign_of(&q).unwrap_or_else(|| {
-            if are_coprime(self.poly, &q) {
-                self.sign_by_narrowing(&q)
+            let limit = if are_coprime(self.poly, &q) {
+                u64::MAX
             } else {
-                self.sturm_sign_of(q)
-            }
+                let bits = q.coefficients().iter().map(Integer::bits).max();
+                LEAST_EXPONENT + bits.unwrap_or(0)
+            };
+            self.sign_by_narrowing(&q, limit)
+                .unwrap_or_else(|| self.sturm_sign_of(q))
         })
     }
 
     /// The sign of a polynomial at the root, if it has that in the whole bracket.
-    fn plain_sign_of(&self, q: &Poly<N>) -> Option<Ordering> {
+    pub(super) fn plain_sign_of(&self, q: &Poly<N>) -> Option<Ordering> {
         let (value, variation) = self.range(q, q.degree().max(1));
         value.exceeds(&variation).then(|| value.sign())
     }
 
-    /// The sign of a polynomial that is not 0 at the root: it is shown in the end.
-    fn sign_by_narrowing(&self, q: &Poly<N>) -> Ordering {
+    /// The sign of a polynomial at the root, if it is shown before the ends have so many bits. If it is not 0, it is shown in
+    /// the end.
+    fn sign_by_narrowing(&self, q: &Poly<N>, most_bits: u64) -> Option<Ordering> {
         let mut bracket = self.clone();
-        loop {
+        while bracket.low.exponent.max(bracket.high.exponent) < most_bits {
             if let Some(at) = bracket.refine() {
-                return q.sign_at(&at);
+                return Some(q.sign_at(&at));
             }
             if let Some(sign) = bracket.plain_sign_of(q) {
-                return sign;
+                return Some(sign);
             }
         }
+        None
     }
 
     /// The same for a polynomial that is likely to be 0 there.

@@ -45,6 +45,12 @@ impl From<i128> for Integer {
 }
 
 impl Integer {
+    /// 0.
+    pub(super) const ZERO: Integer = Integer {
+        negative: false,
+        limbs: Limbs::new_const(),
+    };
+
     /// The integer of this sign and magnitude, least significant limb first.
     pub(super) fn from_magnitude(negative: bool, limbs: &[u64]) -> Self {
         let length = limbs
@@ -222,17 +228,23 @@ impl Integer {
     }
 
     /// How many of its lowest bits are 0; 0 for 0.
-    fn trailing_zeros(&self) -> u64 {
+    pub(super) fn trailing_zeros(&self) -> u64 {
         let low = self.limbs.iter().position(|&limb| limb != 0);
         low.map_or(0, |at| {
             64 * at as u64 + u64::from(self.limbs[at].trailing_zeros())
         })
     }
 
-    /// `self / 2^shift`, which is an integer.
-    fn shifted_down(&self, shift: u64) -> Integer {
-        let windows = (shift..self.bits().max(shift)).step_by(64);
-        let limbs: Limbs = windows.map(|from| self.window(from).0).collect();
+    /// `self / 2^shift`, rounded towards 0.
+    pub(super) fn shifted_down(&self, shift: u64) -> Integer {
+        let (whole, bits) = ((shift / 64) as usize, (shift % 64) as u32);
+        let kept = self.limbs.get(whole..).unwrap_or_default();
+        let next = kept.iter().skip(1).chain(&[0]);
+        let limbs = kept
+            .iter()
+            .zip(next)
+            .map(|(&low, &high)| ((u128::from(high) << 64 | u128::from(low)) >> bits) as u64);
+        let limbs: Limbs = limbs.collect();
         Integer::from_magnitude(self.negative, &limbs)
     }
 

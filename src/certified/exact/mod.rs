@@ -96,7 +96,7 @@ pub struct Decision {
 ///
 /// Every finite query is decided. It takes about a microsecond where the coordinates are of similar
 /// magnitude, and up to milliseconds where their exponents span the range of `f64`; with a radius above 0,
-/// hundreds of times that.
+/// about fifty times that.
 pub fn decide_exactly(query: &EdgeEdge) -> Decision {
     let positions = Positions::new(query);
     if !query.radius().is_zero() {

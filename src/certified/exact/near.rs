@@ -60,27 +60,38 @@ fn is_fraction(n: &Integer, d: &Integer) -> bool {
 }
 
 /// The points and the sum of the radii times one power of two.
-pub(super) fn scaled<const N: usize>(
-    points: &[Vector; N],
-    radii: [f64; 2],
-) -> ([Point; N], Integer) {
-    let numbers = points.iter().flatten().chain(&radii);
-    let used = numbers
-        .map(|x| decompose(*x))
-        .filter(|(mantissa, _)| *mantissa != 0);
-    let lowest = used.map(|(_, exponent)| exponent).min().unwrap_or(0);
-    let integer = |x: f64| match decompose(x) {
+fn scaled(points: &[Vector; 4], radii: [f64; 2]) -> ([Point; 4], Integer) {
+    let unit = unit(points.iter().flatten().chain(&radii));
+    (in_unit(points, unit), radius_in_unit(radii, unit))
+}
+
+/// The exponent of the largest power of two of which all these numbers are multiples; 0 if all are 0.
+pub(super) fn unit<'a>(numbers: impl Iterator<Item = &'a f64>) -> i32 {
+    let parts = numbers.map(|x| decompose(*x));
+    let used = parts.filter(|(mantissa, _)| *mantissa != 0);
+    used.map(|(_, exponent)| exponent).min().unwrap_or(0)
+}
+
+/// The points in multiples of `2^unit`.
+pub(super) fn in_unit<const N: usize>(points: &[Vector; N], unit: i32) -> [Point; N] {
+    points.map(|point| point.map(|x| integer(x, unit)))
+}
+
+/// The sum of the radii in multiples of `2^unit`.
+pub(super) fn radius_in_unit(radii: [f64; 2], unit: i32) -> Integer {
+    let [first, second] = radii.map(|x| integer(x, unit));
+    Integer::sum(&first, &second)
+}
+
+/// A number in multiples of `2^unit`.
+fn integer(x: f64, unit: i32) -> Integer {
+    match decompose(x) {
         (0, _) => Integer::default(),
         (mantissa, exponent) => {
-            let shift = exponent.abs_diff(lowest);
+            let shift = exponent.abs_diff(unit);
             Integer::from(i128::from(mantissa)).shifted(shift.into())
         }
-    };
-    let [first, second] = radii.map(integer);
-    (
-        points.map(|point| point.map(integer)),
-        Integer::sum(&first, &second),
-    )
+    }
 }
 
 pub(super) fn sub(x: &Point, y: &Point) -> Point {

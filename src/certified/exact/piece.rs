@@ -70,6 +70,15 @@ impl Piece {
         changes(&self.coefficients)
     }
 
+    /// The number of sign changes of its derivative.
+    pub(super) fn turns(&self) -> usize {
+        let pairs = self.coefficients.windows(2);
+        let slopes: SmallVec<[Integer; 4]> = pairs
+            .map(|pair| Integer::difference(&pair[1], &pair[0]))
+            .collect();
+        changes(&slopes)
+    }
+
     /// Whether the polynomial is 0 where it starts.
     pub(super) fn starts_at_root(&self) -> bool {
         self.coefficients[0].is_zero()
@@ -108,7 +117,8 @@ impl Piece {
             left.push(row[0].shifted(missing));
             right.push(row[degree - i].shifted(missing));
             for j in 0..degree - i {
-                row[j] = Integer::sum(&row[j], &row[j + 1]);
+                let (own, next) = row.split_at_mut(j + 1);
+                own[j].add_shifted(&next[0], 0);
             }
         }
         right.reverse();

@@ -1,65 +1,65 @@
 //! Polynomials of small degree with integers of any size as coefficients.
 
-use std::array;
 use std::cmp::Ordering;
+
+use smallvec::SmallVec;
 
 use super::dyadic::Dyadic;
 use super::integer::Integer;
 use super::lane::Number;
 
-/// A polynomial of degree below `N`; the coefficients beyond its degree are 0.
+/// A polynomial, of which `N` coefficients are held in place; 0 where moving it costs more than finding it on the heap.
 #[derive(Clone, Debug)]
 pub(super) struct Poly<const N: usize = 4> {
-    coefficients: [Integer; N],
-    /// One more than the degree; 0 for the polynomial that is 0.
-    length: usize,
+    /// Up to the leading one, which is not 0.
+    coefficients: SmallVec<[Integer; N]>,
 }
 
 impl<const N: usize> Default for Poly<N> {
     fn default() -> Self {
         Poly {
-            coefficients: array::from_fn(|_| Integer::default()),
-            length: 0,
+            coefficients: SmallVec::new(),
         }
     }
 }
 
+static ZERO: Integer = Integer::ZERO;
+
 impl<const N: usize> Poly<N> {
-    /// The polynomial with these coefficients, at most `N`, the constant one first.
+    /// The polynomial with these coefficients, the constant one first.
     pub(super) fn new<Z: Number>(coefficients: &[Z]) -> Self {
-        let mut poly = Poly::default();
-        for (own, coefficient) in poly.coefficients.iter_mut().zip(coefficients) {
-            *own = coefficient.to_integer();
-        }
-        poly.trim(coefficients.len());
+        Self::of(coefficients.iter().map(Number::to_integer).collect())
+    }
+
+    fn of(coefficients: SmallVec<[Integer; N]>) -> Self {
+        let mut poly = Poly { coefficients };
+        poly.trim();
         poly
     }
 
-    fn trim(&mut self, length: usize) {
-        let used = self.coefficients[..length]
-            .iter()
-            .rposition(|c| !c.is_zero());
-        self.length = used.map_or(0, |at| at + 1);
+    fn trim(&mut self) {
+        let used = self.coefficients.iter().rposition(|c| !c.is_zero());
+        self.coefficients.truncate(used.map_or(0, |at| at + 1));
     }
 
     /// The coefficients up to the leading one.
     pub(super) fn coefficients(&self) -> &[Integer] {
-        &self.coefficients[..self.length]
+        &self.coefficients
     }
 
     /// The coefficient of `t^i`.
     pub(super) fn coefficient(&self, i: usize) -> &Integer {
-        &self.coefficients[i]
+        self.coefficients.get(i).unwrap_or(&ZERO)
     }
 
     /// Whether it is identically 0.
     pub(super) fn is_zero(&self) -> bool {
-        self.length == 0
+        self.coefficients.is_empty()
     }
 
     /// The degree; 0 for the polynomial that is 0.
     pub(super) fn degree(&self) -> usize {
-        self.length.saturating_sub(1)
+        self.coefficients.len().saturating_sub(1)
     }
 
     /// `2^(exponent degree)` times the value at a time.
@@ -95,94 +95,133 @@ impl<const N: usize> Poly<N> {
         let Some((leading, lower)) = divisor.coefficients().split_last() else {
             return self;
         };
-        for top in (divisor.degree()..self.length).rev() {
+        while self.coefficients.len() > divisor.degree() {
+            let Some(mut own) = self.coefficients.pop() else {
+                break;
+            };
             // |leading| self - (own leading term / leading term) |leading| divisor
-            let mut own = std::mem::take(&mut self.coefficients[top]);
             if leading.sign().is_lt() {
                 own.negate();
             }
-            for coefficient in &mut self.coefficients[..top] {
+            for coefficient in &mut self.coefficients {
                 coefficient.mul_assign(leading);
                 if leading.sign().is_lt() {
                     coefficient.negate();
                 }
             }
-            let shift = top - divisor.degree();
+            let shift = self.coefficients.len() - divisor.degree();
             for (coefficient, other) in self.coefficients[shift..].iter_mut().zip(lower) {
                 coefficient.sub_shifted(&Integer::product(&own, other), 0);
             }
         }
-        self.trim(self.length.min(divisor.degree()));
+        self.trim();
         self
     }
 
-    /// A positive or negative multiple of the quotient of a division by `divisor`, which is a divisor.
+    /// A multiple of the quotient of a division by `divisor`, which is a divisor over the rationals.
+    ///
+    /// Times its leading coefficient `l`, the polynomial is a multiple over the integers of that multiple of the divisor whose
+    /// leading coefficient is `l` too (Gauss's lemma).
     pub(super) fn quotient(mut self, divisor: &Self) -> Self {
-        let mut quotient = Self::default();
-        let Some((leading, lower)) = divisor.coefficients().split_last() else {
-            return quotient;
+        let (Some(leading), Some(other)) = (self.coefficients.last(), divisor.coefficients.last())
+        else {
+            return Self::default();
         };
-        for top in (divisor.degree()..self.length).rev() {
-            let shift = top - divisor.degree();
-            let own = std::mem::take(&mut self.coefficients[top]);
-            let rest = self.coefficients[..top].iter_mut();
-            let found = quotient.coefficients[shift..].iter_mut();
-            rest.chain(found).for_each(|c| c.mul_assign(leading));
-            for (coefficient, other) in self.coefficients[shift..].iter_mut().zip(lower) {
+        let (leading, other) = (leading.magnitude(), other.magnitude());
+        let mut divisor = divisor.clone();
+        for coefficient in &mut divisor.coefficients {
+            coefficient.mul_assign(&leading);
+            coefficient.divide_exactly(&other);
+        }
+        self.coefficients
+            .iter_mut()
+            .for_each(|c| c.mul_assign(&leading));
+        let degree = divisor.degree();
+        let mut quotient = SmallVec::new();
+        while self.coefficients.len() > degree
+            && let Some(mut own) = self.coefficients.pop()
+        {
+            own.divide_exactly(&leading);
+            if divisor.coefficients[degree].sign().is_lt() {
+                own.negate();
+            }
+            let shift = self.coefficients.len() - degree;
+            let rest = self.coefficients[shift..].iter_mut();
+            for (coefficient, other) in rest.zip(divisor.coefficients()) {
                 coefficient.sub_shifted(&Integer::product(&own, other), 0);
             }
-            quotient.coefficients[shift] = own;
+            quotient.push(own);
         }
-        quotient.trim(N);
-        quotient
+        quotient.reverse();
+        Self::of(quotient)
+    }
+
+    /// `2^shift` times the polynomial.
+    pub(super) fn shifted(&self, shift: u64) -> Self {
+        Self::of(
+            self.coefficients()
+                .iter()
+                .map(|c| c.shifted(shift))
+                .collect(),
+        )
+    }
+
+    /// Divides it by the largest power of two that divides all coefficients.
+    pub(super) fn reduce(&mut self) {
+        let used = self.coefficients.iter().filter(|c| !c.is_zero());
+        let zeros = used.map(Integer::trailing_zeros).min().unwrap_or(0);
+        if zeros > 0 {
+            let all = self.coefficients.iter_mut();
+            all.for_each(|coefficient| *coefficient = coefficient.shifted_down(zeros));
+        }
     }
 
     /// `a + b`.
     pub(super) fn sum(a: &Self, b: &Self) -> Self {
-        let mut sum = a.clone();
-        for (own, other) in sum.coefficients.iter_mut().zip(b.coefficients()) {
-            own.add_shifted(other, 0);
-        }
-        sum.trim(a.length.max(b.length));
-        sum
+        Self::combination(a, b, Integer::add_shifted)
     }
 
     /// `a - b`.
     pub(super) fn difference(a: &Self, b: &Self) -> Self {
-        let mut difference = a.clone();
-        for (own, other) in difference.coefficients.iter_mut().zip(b.coefficients()) {
-            own.sub_shifted(other, 0);
-        }
-        difference.trim(a.length.max(b.length));
-        difference
+        Self::combination(a, b, Integer::sub_shifted)
     }
 
-    /// `a b`, of a degree below `N`.
+    fn combination(a: &Self, b: &Self, combine: fn(&mut Integer, &Integer, u64)) -> Self {
+        let length = a.coefficients.len().max(b.coefficients.len());
+        let coefficient = |i: usize| {
+            let mut own = a.coefficient(i).clone();
+            combine(&mut own, b.coefficient(i), 0);
+            own
+        };
+        Self::of((0..length).map(coefficient).collect())
+    }
+
+    /// `a b`.
     pub(super) fn product(a: &Self, b: &Self) -> Self {
-        let mut product = Self::default();
-        for (i, x) in a.coefficients().iter().enumerate() {
-            for (own, y) in product.coefficients[i..].iter_mut().zip(b.coefficients()) {
-                own.add_shifted(&Integer::product(x, y), 0);
-            }
+        let (p, q) = (a.coefficients(), b.coefficients());
+        if p.is_empty() || q.is_empty() {
+            return Self::default();
         }
-        product.trim(N);
-        product
+        let coefficient = |i: usize| {
+            let first = i.saturating_sub(q.len() - 1);
+            let mut sum = Integer::ZERO;
+            for j in first..p.len().min(i + 1) {
+                sum.add_shifted(&Integer::product(&p[j], &q[i - j]), 0);
+            }
+            sum
+        };
+        Self::of((0..p.len() + q.len() - 1).map(coefficient).collect())
     }
 
     /// The derivative.
     pub(super) fn derivative(&self) -> Self {
-        let mut derivative = Self::default();
         let terms = self.coefficients().iter().zip(0..).skip(1);
-        for (own, (coefficient, i)) in derivative.coefficients.iter_mut().zip(terms) {
-            *own = coefficient.times(i);
-        }
-        derivative.trim(self.degree());
-        derivative
+        Self::of(terms.map(|(coefficient, i)| coefficient.times(i)).collect())
     }
 
     /// Divides every coefficient by a divisor of all of them, which is above 0.
     pub(super) fn divide_exactly(&mut self, divisor: &Integer) {
-        let used = self.coefficients[..self.length].iter_mut();
+        let used = self.coefficients.iter_mut();
         used.for_each(|coefficient| coefficient.divide_exactly(divisor));
     }
 

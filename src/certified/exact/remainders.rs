@@ -3,7 +3,8 @@
 //! `p, q, -rem(p, q), ...`: each is minus the remainder of the two before it, up to a positive factor. Without
 //! division the coefficients would grow exponentially. What one remainder was multiplied by is a factor
 //! of the next but one (Collins, "Subresultants and reduced polynomial remainder sequences", 1967), so that it
-//! is divided out; then they grow linearly. Where only the sign is left, it is not.
+//! is divided out; then they grow linearly. Where only the sign is left, it is not. Powers of two that divide a remainder
+//! are divided out as well, and so the factor loses its own.
 
 use super::integer::Integer;
 use super::poly::Poly;
@@ -37,9 +38,10 @@ impl<const N: usize> Remainders<N> {
         let mut remainder = std::mem::take(&mut self.last).remainder(&self.current);
         if remainder.degree() > 0 {
             remainder.divide_exactly(&self.factor);
+            remainder.reduce();
         }
         remainder.negate();
-        self.factor = power;
+        self.factor = power.shifted_down(power.trailing_zeros());
         remainder
     }
 }

@@ -3,7 +3,7 @@ use proptest::prelude::*;
 
 use super::*;
 
-fn poly(coefficients: &[i64]) -> Poly<7> {
+fn poly(coefficients: &[i64]) -> Poly<0> {
     let coefficients: Vec<_> = coefficients
         .iter()
         .map(|&c| Integer::from(i128::from(c)))
@@ -22,7 +22,7 @@ fn times(a: &[i64], b: &[i64]) -> Vec<i64> {
 }
 
 /// A rational value of which only the sign matters: the polynomial at `n / d`, times `d^6 > 0`.
-fn value(p: &Poly<7>, n: i64, d: i64) -> BigInt {
+fn value(p: &Poly<0>, n: i64, d: i64) -> BigInt {
     let big = |integer: &Integer| {
         let limbs = (0..64).map(|i| BigInt::from(integer.window(64 * i).0) << (64 * i));
         let magnitude: BigInt = limbs.sum();

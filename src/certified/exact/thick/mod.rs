@@ -15,8 +15,8 @@
 //! too, their nearest points still inside. So the first contact is at 0 or at a root of one of these
 //! polynomials ([`roots`]), of degree 2, 4 or 6.
 //!
-//! The radius is an integer in the unit of the coordinates and so never rounded. Here all integers are of any
-//! size: what `f64` leaves open is little.
+//! The radius is an integer, in a unit of its own, and so never rounded. Here all integers are of any size: what `f64`
+//! leaves open is little.
 
 mod edges;
 mod face;
@@ -27,7 +27,7 @@ mod vector;
 use std::cmp::Ordering;
 
 use super::moment::Moment;
-use super::near::{Point, scaled, sub};
+use super::near::{Point, in_unit, radius_in_unit, sub, unit};
 use super::poly;
 use crate::certified::motion::Positions;
 use crate::contact::Flags;
@@ -40,11 +40,11 @@ use vector::Vector;
 use super::dyadic::Dyadic;
 use super::integer::Integer;
 
-/// Polynomials of degree at most 6.
-type Poly = poly::Poly<7>;
+/// Polynomials of degree at most 6, on the heap: these move a lot.
+type Poly = poly::Poly<0>;
 
 /// Times at which such a polynomial is 0.
-type Time<'a> = Moment<'a, 7>;
+type Time<'a> = Moment<'a, 0>;
 
 /// The first contact at a distance. A place has `W` numbers: `u` and `v`, or the weights of B, C and D.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,8 +65,8 @@ pub(in crate::certified) fn approach_of_edges(
     positions: &Positions,
     radii: [f64; 2],
 ) -> Option<Approach<2>> {
-    let (points, square) = integers(positions, radii);
-    first_approach(&Edges::new(&points), &square)
+    let (points, reach) = integers(positions, radii);
+    first_approach(&Edges::new(&points), &reach)
 }
 
 /// The same of a vertex A and a face BCD.
@@ -74,8 +74,8 @@ pub(in crate::certified) fn approach_of_face(
     positions: &Positions,
     radii: [f64; 2],
 ) -> Option<Approach<3>> {
-    let (points, square) = integers(positions, radii);
-    first_approach(&Face::new(&points), &square)
+    let (points, reach) = integers(positions, radii);
+    first_approach(&Face::new(&points), &reach)
 }
 
 /// Two sides that may come near each other.
@@ -93,31 +93,45 @@ trait Sides<const W: usize> {
     fn flags(&self, time: &Time) -> Flags;
 }
 
-/// The positions at the start and their changes, and the square of the radius.
-fn integers(Positions { start, end }: &Positions, radii: [f64; 2]) -> ([Vector; 4], Integer) {
+/// The square of the radius: `square 2^shift` in the unit of the coordinates, squared.
+///
+/// The radius has a unit of its own: it may be so small that the coordinates in its unit would be hundreds of times as long.
+struct Reach {
+    square: Integer,
+    shift: i64,
+}
+
+/// The positions at the start and their changes, and the radius.
+fn integers(Positions { start, end }: &Positions, radii: [f64; 2]) -> ([Vector; 4], Reach) {
     let [[a, b, c, d], [e, f, g, h]] = [*start, *end];
-    let (points, radius) = scaled(&[a, b, c, d, e, f, g, h], radii);
+    let points = [a, b, c, d, e, f, g, h];
+    let (own, radius) = (unit(points.iter().flatten()), unit(radii.iter()));
+    let points = in_unit(&points, own);
     let (start, end) = points.split_at(4);
     let moving = |i: usize| -> Vector {
         let change: Point = sub(&end[i], &start[i]);
         [0, 1, 2].map(|axis: usize| Poly::new(&[start[i][axis].clone(), change[axis].clone()]))
     };
-    let square = Integer::product(&radius, &radius);
-    ([0, 1, 2, 3].map(moving), square)
+    let sum = radius_in_unit(radii, radius);
+    let reach = Reach {
+        square: Integer::product(&sum, &sum),
+        shift: 2 * i64::from(radius - own),
+    };
+    ([0, 1, 2, 3].map(moving), reach)
 }
 
-fn first_approach<const W: usize>(sides: &impl Sides<W>, square: &Integer) -> Option<Approach<W>> {
+fn first_approach<const W: usize>(sides: &impl Sides<W>, reach: &Reach) -> Option<Approach<W>> {
     let pairs = sides.pairs();
     let start = Time::At(Dyadic::zero());
     let is_near =
-        |pair: &Pair<W>, time: &Time| pair.holds(time) && pair.excess_sign(square, time).is_le();
+        |pair: &Pair<W>, time: &Time| pair.holds(time) && pair.excess_sign(reach, time).is_le();
     let roots: Vec<Roots>;
     let (time, toi) = if pairs.iter().any(|pair| is_near(pair, &start)) {
         (start, [0.0; 2])
     } else {
         roots = pairs
             .iter()
-            .map(|pair| Roots::new(pair.excess(square)))
+            .map(|pair| Roots::new(pair.excess(reach)))
             .collect();
         first_root(&pairs, &roots)?
     };

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use super::vector::{Vector, cross, dot, sub};
-use super::{Poly, Time};
+use super::{Poly, Reach, Time};
 use crate::certified::exact::dyadic::Dyadic;
 use crate::certified::exact::integer::Integer;
 
@@ -86,14 +86,16 @@ impl<const W: usize> Pair<W> {
         }
     }
 
-    /// `numerator - square denominator`: 0 where what they span is at the distance.
-    pub(super) fn excess(&self, square: &Integer) -> Poly {
-        let scaled = Poly::product(&Poly::new(&[square.magnitude()]), &self.denominator);
-        Poly::difference(&self.numerator, &scaled)
+    /// A positive multiple of `numerator - square denominator`: 0 where what they span is at the distance.
+    pub(super) fn excess(&self, Reach { square, shift }: &Reach) -> Poly {
+        let up = |by: i64| by.max(0).unsigned_abs();
+        let own = self.numerator.shifted(up(-shift));
+        let square = Poly::new(&[square.shifted(up(*shift))]);
+        Poly::difference(&own, &Poly::product(&square, &self.denominator))
     }
 
-    pub(super) fn excess_sign(&self, square: &Integer, time: &Time) -> Ordering {
-        time.sign_of(&self.excess(square))
+    pub(super) fn excess_sign(&self, reach: &Reach, time: &Time) -> Ordering {
+        time.sign_of(&self.excess(reach))
     }
 
     /// Whether the nearest points of what they span are on the features at a time.

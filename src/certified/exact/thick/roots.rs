@@ -44,7 +44,7 @@ impl Roots {
         if let Some(cells) = isolate(&poly, FEW_HALVINGS) {
             return Roots { poly, cells };
         }
-        // Now they part in the end (two circles theorem).
+        // Now they part in the end (two circles theorem), if not by then.
         let poly = square_free(poly);
         let cells = isolate(&poly, u64::MAX).unwrap_or_default();
         Roots { poly, cells }
@@ -66,6 +66,7 @@ impl Roots {
 /// a part. Not by recursion: with a radius of 1e-161 two roots are as near as that.
 fn isolate(poly: &Poly, halvings: u64) -> Option<SmallVec<[Cell; 2]>> {
     let bernstein = bernstein(poly);
+    let mut derivative = None;
     let mut cells = SmallVec::new();
     // What is still to be looked at, the last one first.
     let mut parts = vec![Part::Open(Piece::unit(&bernstein))];
@@ -80,6 +81,13 @@ fn isolate(poly: &Poly, halvings: u64) -> Option<SmallVec<[Cell; 2]>> {
                     cells.push(Cell::Between { low, high, before });
                 }
                 _ if piece.depth() == halvings => return None,
+                2 if piece.depth() >= FEW_HALVINGS && piece.turns() == 1 => {
+                    cells.extend(two_or_none(
+                        poly,
+                        derivative.get_or_insert_with(|| poly.derivative()),
+                        &piece,
+                    ));
+                }
                 _ => {
                     let (left, right) = piece.halves();
                     let middle = right.starts_at_root().then(|| Part::Root(right.low()));
@@ -94,6 +102,48 @@ fn isolate(poly: &Poly, halvings: u64) -> Option<SmallVec<[Cell; 2]>> {
         cells.push(Cell::At(Dyadic::one()));
     }
     Some(cells)
+}
+
+/// The roots in a piece that has two or none, and in which the derivative has one root.
+///
+/// If there are two, that root is between them, and the polynomial has the other sign there; if not, it has one sign in the
+/// whole piece. Its root and that of the derivative are not the same, so that narrowing to the latter, which takes few
+/// steps however near the two roots are, tells in the end.
+fn two_or_none(poly: &Poly, derivative: &Poly, piece: &Piece) -> SmallVec<[Cell; 2]> {
+    let (low, high) = piece.ends();
+    let sign = piece.first_sign();
+    let between = |low: &Dyadic, high: &Dyadic, before| Cell::Between {
+        low: low.clone(),
+        high: high.clone(),
+        before,
+    };
+    let mut turn = Bracket::new(derivative, low.clone(), high.clone(), sign.reverse());
+    loop {
+        let met = turn.refine();
+        let ends = match &met {
+            Some(at) => [at, at],
+            None => turn.ends(),
+        };
+        for (at, is_before) in ends.into_iter().zip([true, false]) {
+            if at.compare(&low).is_le() || at.compare(&high).is_ge() {
+                continue;
+            }
+            let here = poly.sign_at(at);
+            if here == sign.reverse() {
+                return [between(&low, at, sign), between(at, &high, here)].into();
+            }
+            if here.is_eq() {
+                let root = Cell::At(at.clone());
+                return match is_before {
+                    true => [root, between(at, &high, sign.reverse())].into(),
+                    false => [between(&low, at, sign), root].into(),
+                };
+            }
+        }
+        if met.is_some() || turn.plain_sign_of(poly).is_some() {
+            return SmallVec::new();
+        }
+    }
 }
 
 /// A part of the step.
