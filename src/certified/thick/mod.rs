@@ -118,7 +118,19 @@ pub(super) fn decide<K: Kind>(
         observe(Stage::Direction);
         return None;
     }
-    if let Some(contact) = decide_by_planes::<K>(&positions, &moving, radius, proved) {
+    decide_open::<K>(&positions, &moving, radius, proved, observe)
+}
+
+/// What the first two stages leave open; not inlined, so that these stay small.
+#[inline(never)]
+fn decide_open<K: Kind>(
+    positions: &impl Fn() -> Positions,
+    moving: &Moving<f64x2>,
+    radius: Radius,
+    proved: f64,
+    observe: &mut impl FnMut(Stage),
+) -> Option<K::Hit> {
+    if let Some(contact) = decide_by_planes::<K>(positions, moving, radius, proved) {
         observe(Stage::Planes);
         return contact.map(|contact| K::hit(&contact));
     }
@@ -127,7 +139,6 @@ pub(super) fn decide<K: Kind>(
 }
 
 /// The contact, if any; `None` if something is not certain.
-#[inline(never)]
 fn decide_by_planes<K: Kind>(
     positions: &impl Fn() -> Positions,
     moving: &Moving<f64x2>,
