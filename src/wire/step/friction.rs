@@ -1,15 +1,22 @@
 //! Contacts and friction: projected Gauss-Seidel on 3x3 blocks, in the space of the factor.
 //!
 //! Contact impulses `lambda` change the contact velocities by `S lambda` with the Schur complement
-//! `S = C K^-1 C^T = Y^T D^-1 Y`, `L Y = C^T`. `S` is never formed: the sum `z = D^-1 Y lambda` is kept, and
+//! `S = C K^-1 C^T = Y^T D^-1 Y`, `L Y = C^T`. Sweeps do not need `S`: the sum `z = D^-1 Y lambda` is kept, and
 //! a block reads and writes the few entries of `z` on the path of its points to the root of the
-//! elimination tree. So a sweep costs in proportion to the number of contacts.
+//! elimination tree. So a sweep costs in proportion to the number of contacts. Some dozens of contacts that
+//! a few sweeps do not settle go on with `S` itself ([`Delassus`]): there a sweep is faster, and what
+//! sweeps come to can be foretold ([`anderson`]).
 
-use nalgebra::{Matrix3, Vector2};
+use std::ops::RangeInclusive;
+
+use nalgebra::Matrix3;
 use smallvec::SmallVec;
 
+use super::anderson;
 use super::carrier::{Carrier, Columns};
 use super::contact::{Contact, Place};
+use super::coulomb::solve_block;
+use super::delassus::Delassus;
 use super::rows::Spook;
 use super::system::{System, frame};
 use crate::wire::Vector;
@@ -17,20 +24,27 @@ use crate::wire::model::World;
 use crate::wire::settings::Settings;
 use crate::wire::solve::SparseColumns;
 
+/// How many contacts have their Schur complement formed if they do not settle in [`FIRST_SWEEPS`]. Fewer cost little
+/// either way; with more, a sweep with it costs more than one without.
+const FORMED: RangeInclusive<usize> = 8..=256;
+
+/// Sweeps that are tried before the Schur complement is formed.
+const FIRST_SWEEPS: usize = 10;
+
 /// One contact as a block of three rows: normal and two tangents.
-struct Block {
+pub(super) struct Block {
     /// Normal and tangents.
     frame: Matrix3<f64>,
     terms: SmallVec<[(Carrier, f64); 4]>,
-    sparse: SparseColumns,
-    pivots: Vec<f64>,
+    pub(super) sparse: SparseColumns,
+    pub(super) pivots: Vec<f64>,
     /// `Y^T D^-1 Y`, with the regularisation of the normal row.
-    mobility: Matrix3<f64>,
+    pub(super) mobility: Matrix3<f64>,
     sigma: f64,
     /// Velocity without contact impulses, less what is asked for.
-    bias: Vector,
-    friction: f64,
-    impulse: Vector,
+    pub(super) bias: Vector,
+    pub(super) friction: f64,
+    pub(super) impulse: Vector,
 }
 
 /// What the sweeps came to.
@@ -47,6 +61,9 @@ pub(super) struct Swept {
 }
 
 /// Contact impulses for the system as factored, from a start on. `free` is the solution without contacts.
+///
+/// Sweeps with a formed Schur complement come three to ten times as close to the solution; three fifths of the sweeps are
+/// enough for them.
 pub(super) fn sweep(
     world: &World,
     system: &System,
@@ -54,14 +71,22 @@ pub(super) fn sweep(
     free: &[f64],
     start: &[Vector],
 ) -> Swept {
+    let settings = &world.settings;
     let mut blocks = Blocks::new(world, system, contacts, free, start);
     let mut swept = Swept::default();
-    while swept.sweeps < world.settings.sweeps {
-        swept.residual = blocks.relax();
-        swept.sweeps += 1;
-        if swept.residual <= world.settings.contact_tolerance {
-            break;
+    if FORMED.contains(&contacts.len()) {
+        let sweeps = settings.sweeps * 3 / 5;
+        let settings = Settings {
+            sweeps,
+            ..settings.clone()
+        };
+        swept.repeat(&settings, FIRST_SWEEPS, || blocks.relax());
+        if !swept.is_done(&settings) {
+            let delassus = Delassus::new(&blocks.list);
+            anderson::sweep(delassus, &mut blocks.list, &settings, &mut swept);
         }
+    } else {
+        swept.repeat(settings, usize::MAX, || blocks.relax());
     }
     for block in &blocks.list {
         let impulse = block.frame.tr_mul(&block.impulse);
@@ -85,6 +110,32 @@ pub(super) fn lack(
     impulses: &[Vector],
 ) -> f64 {
     Blocks::new(world, system, contacts, free, impulses).relax()
+}
+
+impl Swept {
+    /// Whether the contacts have settled, or there are no more sweeps.
+    pub(super) fn is_done(&self, settings: &Settings) -> bool {
+        self.is_settled(settings) || self.sweeps >= settings.sweeps
+    }
+
+    /// Whether the last sweep changed no more than is tolerated.
+    pub(super) fn is_settled(&self, settings: &Settings) -> bool {
+        self.sweeps > 0 && self.residual <= settings.contact_tolerance
+    }
+
+    /// Sweeps until it is done, at most `most` times.
+    pub(super) fn repeat(
+        &mut self,
+        settings: &Settings,
+        most: usize,
+        mut sweep: impl FnMut() -> f64,
+    ) {
+        let end = self.sweeps.saturating_add(most);
+        while self.sweeps < end && !self.is_done(settings) {
+            self.residual = sweep();
+            self.sweeps += 1;
+        }
+    }
 }
 
 /// All contacts, and what their impulses sum up to.
@@ -182,12 +233,19 @@ impl Block {
 
     /// Solves the block with all others held; returns by how much its velocity changes.
     fn relax(&mut self, z: &mut [f64]) -> f64 {
-        let others = self.excess(z) - self.mobility * self.impulse;
+        let change = self.solve(&self.excess(z));
+        self.push(&change, z);
+        (self.mobility * change).amax()
+    }
+
+    /// Solves the block with all others held, from its velocity less what is asked for; by how much its impulse
+    /// changes.
+    pub(super) fn solve(&mut self, excess: &Vector) -> Vector {
+        let others = excess - self.mobility * self.impulse;
         let impulse = solve_block(&self.mobility, &others, self.friction, &self.impulse);
         let change = impulse - self.impulse;
         self.impulse = impulse;
-        self.push(&change, z);
-        (self.mobility * change).amax()
+        change
     }
 }
 
@@ -240,48 +298,5 @@ fn velocity_of(world: &World, place: &Place) -> Vector {
     }
 }
 
-/// Impulse of one contact by Coulomb's law: `u = mobility impulse + others`; apart (`u_n >= 0`) without
-/// impulse, or `u_n = 0` and the tangential impulse within the cone, against the sliding on its border.
-fn solve_block(mobility: &Matrix3<f64>, others: &Vector, friction: f64, start: &Vector) -> Vector {
-    // The tangential rows are not regularised: without mobility there, nothing can move the places.
-    let immovable = mobility[(1, 1)] <= 0.0;
-    if others.x >= 0.0 || immovable {
-        return Vector::zeros();
-    }
-    if let Some(factor) = mobility.cholesky() {
-        let stick = -factor.solve(others);
-        if stick.x >= 0.0 && stick.yz().norm() <= friction * stick.x {
-            return stick;
-        }
-    }
-    slide(mobility, others, friction, start)
-}
-
-/// The sliding solution: normal impulse and projection of the tangential one in turn. Only a scalar step
-/// keeps the fixed point that in which the impulse is opposite to the sliding.
-fn slide(mobility: &Matrix3<f64>, others: &Vector, friction: f64, start: &Vector) -> Vector {
-    const ITERATIONS: usize = 20;
-    let step = 1.0 / (mobility[(1, 1)] + mobility[(2, 2)]);
-    let mut impulse = *start;
-    for _ in 0..ITERATIONS {
-        let without = others.x + mobility[(0, 1)] * impulse.y + mobility[(0, 2)] * impulse.z;
-        impulse.x = (-without / mobility[(0, 0)]).max(0.0);
-        let sliding = (mobility * impulse + others).yz();
-        let tangential = to_disk(impulse.yz() - sliding * step, friction * impulse.x);
-        let change = (tangential - impulse.yz()).amax();
-        (impulse.y, impulse.z) = (tangential.x, tangential.y);
-        if change <= 1e-15 * impulse.x {
-            break;
-        }
-    }
-    impulse
-}
-
-fn to_disk(vector: Vector2<f64>, radius: f64) -> Vector2<f64> {
-    let length = vector.norm();
-    if length > radius {
-        vector * (radius / length)
-    } else {
-        vector
-    }
-}
+#[cfg(test)]
+mod tests;

@@ -1,8 +1,11 @@
 //! One step: SPOOK with contacts.
 
 mod advance;
+mod anderson;
 mod carrier;
 pub(super) mod contact;
+mod coulomb;
+mod delassus;
 mod error;
 mod friction;
 pub(super) mod motion;
