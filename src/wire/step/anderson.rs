@@ -136,7 +136,10 @@ impl History {
         }
         let right = self.differences.iter();
         let right = right.map(|difference| product(difference, sample));
-        let shares = solve(matrix, right.collect());
+        let shares: Vec<f64> = solve(matrix, right.collect());
+        if shares.iter().any(|share| !share.is_finite()) {
+            return;
+        }
         for (difference, share) in self.differences.iter().zip(shares) {
             for (value, difference) in sample.iter_mut().zip(difference) {
                 *value -= share * difference;
