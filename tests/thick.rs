@@ -212,6 +212,39 @@ fn thick_certified_finds_figure_4_7_at_the_exact_time() {
     assert!(answers(&just_less).0.iter().all(Option::is_none));
 }
 
+/// Ends of two edges meet, one of which is so long beside the radius that rounding outweighs how fast the distance falls. A
+/// find of the fuzzer: with the sign of that speed wrong, its root was taken for one ahead.
+#[test]
+fn thick_certified_where_rounding_outweighs_the_speed_agrees() {
+    let mut by_planes = 0;
+    for length in (0..28).step_by(3).map(|k| 10.0 * 2f64.powi(k)) {
+        // The find is at 10 * 2^12 and this radius.
+        for radius in (-12..=24).map(|k| 5.96034489661084e-14 * 2f64.powi(k)) {
+            let points = [
+                [0.0, 0.0, 0.0],
+                [0.0, 0.0, 0.0],
+                [0.0, 0.0, 8.0],
+                [0.0, 1.0, 1.0],
+                [0.0, length, 0.0],
+                [0.0, 2.0, 2.0],
+                [0.0, 0.0, 0.0],
+                [0.0, 0.0, 0.0],
+            ];
+            let [a, b, c, d, e, f, g, h] = points.map(Point::from);
+            let query = Query::new(
+                QueryKind::EdgeEdge,
+                [a, b, c, d],
+                [e, f, g, h],
+                [radius, 0.0],
+            );
+            let judged = judge(&query.expect("finite"));
+            assert!(judged.is_ok(), "{length} {radius:e}: {judged:?}");
+            by_planes += usize::from(judged == Ok(Stage::Planes));
+        }
+    }
+    assert!(by_planes > 0);
+}
+
 #[test]
 fn thick_batch_is_certified_one_by_one() {
     let (mut edges, mut faces) = (Batch::new(), FaceBatch::new());

@@ -90,7 +90,7 @@ impl<E: Ends> Moving<E> {
             }
         };
         let (first, second) = (slope(0), slope(1));
-        if !(while_ < 0.125 && first.size() < LARGEST && second.size() < LARGEST) {
+        if !((0.0..0.125).contains(&while_) && first.size() < LARGEST && second.size() < LARGEST) {
             return None;
         }
         let normal = cross(&along[0], &along[1]);

@@ -80,7 +80,8 @@ pub(super) fn settle<S: Shape>(
         let while_ = 2.0 * delta + 8.0 * U;
         // The velocity is at most twice the size.
         let least = slope - slope_error - 4.5 * size2 * while_;
-        if !(x > 0.0 && least > 0.0 && bend < 0.0625) {
+        // The root is ahead, so that `least` is below the slope. Where rounding outweighs the slope it may have any sign.
+        if !(x > 0.0 && slope > 0.0 && least > 0.0 && bend < 0.0625) {
             return None;
         }
         let nearness = moving.nearness(&here, while_)?;
