@@ -16,10 +16,10 @@ use std::process::Command;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use tunnelproof::certified::{self, Verdict};
-use tunnelproof::contact::Flags;
 use tunnelproof::query::Query;
 use tunnelproof_reference::answer::{Enclosure, Parameters};
 use tunnelproof_reference::shadow::Shadow;
+use tunnelproof_reference::subject::{Answer, Certified, Subject};
 use tunnelproof_reference::{difference, field};
 
 use vector_files::reader::{
@@ -262,78 +262,53 @@ fn vectors_that_are_changed_are_found_wrong() {
     }
 }
 
-/// What the certified path says of either kind: bounds of the time, kind, side, case, flags, places and their error.
-struct Said {
-    toi: Bounds,
-    kind: &'static str,
-    side: i8,
-    case: &'static str,
-    flags: (bool, bool),
-    first: [f64; 2],
-    second: Option<[f64; 2]>,
-    error: f64,
-}
-
-fn certified(query: &Query) -> Option<Said> {
-    let flags = |flags: Flags| (flags.temporarily_parallel, flags.temporarily_point);
-    let bounds = |below, above| Bounds { below, above };
-    match query {
-        Query::EdgeEdge(query) => {
-            let Verdict::Hit(hit) = certified::decide(query) else {
-                return None;
-            };
-            let place = |place: certified::Parameters| [place.u, place.v];
-            Some(Said {
-                toi: bounds(hit.toi, hit.toi_above),
-                kind: hit.kind.name(),
-                side: hit.side,
-                case: hit.case.name(),
-                flags: flags(hit.flags),
-                first: place(hit.first),
-                second: hit.second.map(place),
-                error: hit.parameter_error,
-            })
-        }
-        Query::VertexFace(query) => {
-            let hit = certified::decide_vertex_face(query)?;
-            Some(Said {
-                toi: bounds(hit.toi, hit.toi_above),
-                kind: hit.kind.name(),
-                side: hit.side,
-                case: hit.case.name(),
-                flags: flags(hit.flags),
-                first: [hit.weights[1], hit.weights[2]],
-                second: None,
-                error: hit.weight_error,
-            })
-        }
-    }
-}
-
 #[test]
 fn vectors_are_answered_by_the_certified_path() {
     for vector in vectors() {
         let (id, result) = (&vector.id, &vector.result);
-        let Some(said) = certified(&vector.query()) else {
+        let answer = Certified.answer(&vector.query());
+        let Ok(Answer::Certified(verdict)) = answer else {
+            panic!("{id}: {answer:?}");
+        };
+        let Verdict::Hit(hit) = verdict else {
             assert!(!result.hit, "{id} is missed");
             continue;
         };
         assert!(result.hit, "{id} is no hit");
-        assert_eq!(Some(said.toi), result.toi, "{id}");
-        assert_eq!(said.case, result.case, "{id}");
-        assert_eq!(Some(said.kind), result.kind_of_contact.as_deref(), "{id}");
-        assert_eq!(Some(said.side), result.side, "{id}");
-        let flags = (result.temporarily_parallel, result.temporarily_point);
-        assert_eq!((Some(said.flags.0), Some(said.flags.1)), flags, "{id}");
-        let is_near = |value: f64, exact: Bounds| {
-            value >= exact.below - said.error && value <= exact.above + said.error
+        let toi = Bounds {
+            below: hit.toi,
+            above: hit.toi_above,
         };
-        let agrees = |[u, v]: [f64; 2], exact: Place| is_near(u, exact.u) && is_near(v, exact.v);
-        let (u, v) = (result.u.unwrap(), result.v.unwrap());
-        assert!(agrees(said.first, Place { u, v }), "{id}");
-        match (said.second, result.overlap) {
+        assert_eq!(Some(toi), result.toi, "{id}");
+        assert_eq!(hit.case.name(), result.case, "{id}");
+        assert_eq!(
+            Some(hit.kind.name()),
+            result.kind_of_contact.as_deref(),
+            "{id}"
+        );
+        assert_eq!(Some(hit.side), result.side, "{id}");
+        let flags = (
+            Some(hit.flags.temporarily_parallel),
+            Some(hit.flags.temporarily_point),
+        );
+        assert_eq!(
+            flags,
+            (result.temporarily_parallel, result.temporarily_point),
+            "{id}"
+        );
+        let is_near = |value: f64, exact: Bounds| {
+            value >= exact.below - hit.parameter_error && value <= exact.above + hit.parameter_error
+        };
+        let agrees = |ours: certified::Parameters, u: Bounds, v: Bounds| {
+            is_near(ours.u, u) && is_near(ours.v, v)
+        };
+        assert!(
+            agrees(hit.first, result.u.unwrap(), result.v.unwrap()),
+            "{id}"
+        );
+        match (hit.second, result.overlap) {
             (None, None) => {}
-            (Some(ours), Some(exact)) => assert!(agrees(ours, exact), "{id}"),
+            (Some(ours), Some(exact)) => assert!(agrees(ours, exact.u, exact.v), "{id}"),
             _ => panic!("{id}: an overlap against a point"),
         }
     }
