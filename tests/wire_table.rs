@@ -34,6 +34,8 @@ cases! {
     chain_hangs_in_a_catenary: "catenary",
     cantilever_bends_as_a_beam: "cantilever",
     capstan_holds_the_ratio_of_tensions: "capstan",
+    load_is_drawn_over_a_drum_by_its_weight_times_the_bound: "load drawn over a drum",
+    loads_over_a_drum_fall_as_on_atwoods_machine: "Atwood's machine",
     incline_holds_up_to_the_coefficient_of_friction: "incline",
     crossing_wires_rest_on_each_other: "crossing wires at rest",
     twisted_wires_lift_and_turn_their_load: "four wires twisted",

@@ -23,7 +23,8 @@ impl Energy {
 }
 
 impl World {
-    /// The energies of all that forces move. Nodes that are fixed do not count, those on dynamic bodies do.
+    /// The energies of all that forces move. Nodes that are fixed do not count, those on dynamic bodies do, and so does
+    /// what slides over contact nodes.
     pub fn energy(&self) -> Energy {
         let gravity = &self.settings.gravity;
         let mut energy = Energy::default();
@@ -38,6 +39,7 @@ impl World {
             energy.kinetic += mass * node.velocity.norm_squared() / 2.0;
             energy.potential -= mass * node.position.coords.dot(gravity);
         }
+        energy.kinetic += self.wires.iter().map(sliding).sum::<f64>();
         energy.elastic = self.wires.iter().map(elastic).sum();
         energy
     }
@@ -81,6 +83,15 @@ impl World {
         });
         nodes.filter(move |(_, node)| moves(node))
     }
+}
+
+/// Of the wire that slides over contact nodes, beside what it has by their motion.
+fn sliding(wire: &Wire) -> f64 {
+    let nodes = wire.nodes.iter().enumerate();
+    let slides = nodes.filter(|(_, node)| node.slide != 0.0);
+    slides
+        .map(|(i, node)| wire.node_mass(i) * node.slide * node.slide / 2.0)
+        .sum()
 }
 
 /// `g^2 / (2 eps)` of every row: stretch, which a chain has only where it is longer than unstretched, and

@@ -22,7 +22,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod capstan;
 mod collide;
 mod energy;
 mod model;
@@ -37,7 +36,6 @@ mod step;
 #[cfg(feature = "scenes")]
 pub(crate) use model::check;
 
-pub use capstan::Slide;
 pub use collide::{
     CollisionError, CollisionRecord, Collisions, Crossing, Held, Mode, Outcome, PairAnswer,
     PairFilter, PairRecord, SegmentId, Site,
@@ -50,7 +48,7 @@ pub use model::{
 pub use record::{BodyRecord, ContactRecord, Phases, Pose, SolverRecord, StepRecord, WireRecord};
 pub use resolution::{Remesh, RemeshGuard, RemeshKind};
 pub use settings::Settings;
-pub use step::{Contact, Place, Reason, StepError};
+pub use step::{Contact, Place, Reason, Slide, StepError};
 
 /// A vector in space: m, m/s, N or N s.
 pub type Vector = nalgebra::Vector3<f64>;

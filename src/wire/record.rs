@@ -2,10 +2,9 @@
 
 use nalgebra::UnitQuaternion;
 
-use super::capstan::Slide;
 use super::model::{NodeKind, World};
 use super::resolution::Remesh;
-use super::{CollisionRecord, Contact, Energy, Vector};
+use super::{CollisionRecord, Contact, Energy, Slide, Vector};
 use crate::query::Point;
 
 /// Everything that happened in one step.
@@ -24,9 +23,9 @@ pub struct StepRecord {
     pub contacts: Vec<ContactRecord>,
     /// The collisions between wires; empty unless the step looked for them.
     pub collisions: CollisionRecord,
-    /// Wires that slid over contact nodes, after the motion.
+    /// Wires that slid over contact nodes in the motion, and those that left one after it.
     pub slides: Vec<Slide>,
-    /// Changes of resolution, after the slides.
+    /// Changes of resolution, after the motion.
     pub remeshes: Vec<Remesh>,
     /// Energies after the motion.
     pub energy: Energy,
@@ -102,6 +101,9 @@ pub struct SolverRecord {
     /// Change of a contact's velocity in the last sweep at most, in m/s; above the tolerance of the
     /// settings if the sweeps were not enough.
     pub contact_residual: f64,
+    /// By how much the friction at a contact node was bounded otherwise than the tensions beside it bound it, as a share
+    /// of the largest; above 1e-9 only if rounds were not enough.
+    pub slide_residual: f64,
 }
 
 /// Wall-clock time in s by phase.
@@ -120,7 +122,7 @@ pub struct Phases {
     pub collision: f64,
     /// Moving everything.
     pub commit: f64,
-    /// Sliding and changes of resolution.
+    /// Nodes that leave their bodies, and changes of resolution.
     pub resolution: f64,
 }
 

@@ -103,7 +103,8 @@ fn merge(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
         let length = wire.rest_length(node - 1).min(wire.rest_length(node));
         let wanted = wanted(world, at, [node - 1, node], guard);
         let short = length < wanted * (1.0 - ROUNDING);
-        if this.kind == NodeKind::Free && this.settled <= world.steps && short {
+        let settled = this.settled <= world.steps || is_slid_over(wire, node);
+        if this.kind == NodeKind::Free && settled && short {
             let nodes = [node - 1, node, node + 1].map(|i| wire.nodes[i]);
             let change = remesh(at, RemeshKind::Merge, &nodes);
             if guard.permits(world, &change) {
@@ -114,6 +115,11 @@ fn merge(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
         }
         node += 1;
     }
+}
+
+/// Whether the wire slides over a neighbour, towards it, so that it cannot wait.
+fn is_slid_over(wire: &Wire, node: usize) -> bool {
+    wire.nodes[node - 1].slide > 0.0 || wire.nodes[node + 1].slide < 0.0
 }
 
 fn split(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mut Vec<Remesh>) {
@@ -175,6 +181,7 @@ fn between(ends: &[Node; 2], settled: u64) -> Node {
         velocity: (ends[0].velocity + ends[1].velocity) / 2.0,
         arc: (ends[0].arc + ends[1].arc) / 2.0,
         kind: NodeKind::Free,
+        slide: 0.0,
         settled,
     }
 }

@@ -1,92 +1,17 @@
-//! What touches: capstan, incline, crossing wires.
+//! What touches: incline, crossing wires.
 
 use std::error::Error;
-use std::f64::consts::PI;
 
 use nalgebra::UnitQuaternion;
 
-use super::{Case, Comparison, at, settle, weightless};
+use super::{Case, Comparison, at, settle};
 use crate::query::Point;
 use crate::wire::{
-    BodyId, BodyPlan, Contact, Drive, Material, Phase, Place, Settings, Shape, Stop, Vector,
-    WireId, WirePlan, World,
+    BodyId, BodyPlan, Contact, Material, Place, Settings, Shape, Stop, Vector, WireId, WirePlan,
+    World,
 };
 
 type Outcome = Result<Vec<Comparison>, Box<dyn Error>>;
-
-pub(super) const CAPSTAN: Case = Case {
-    name: "capstan",
-    formula: "T2/T1 = ((1 + f tan(D/2)) / (1 - f tan(D/2)))^n; e^(f theta)",
-    run: capstan,
-};
-
-/// A chain half around a fixed cylinder, over 12 nodes that turn it by 15 degrees each, pulled until it
-/// slides.
-fn capstan() -> Outcome {
-    const NODES: u32 = 12;
-    let (friction, turn, radius) = (0.3, PI / f64::from(NODES), 0.5);
-    let direction = |angle: f64| Vector::new(libm::cos(angle), 0.0, libm::sin(angle));
-    let mut world = World::new(weightless(1.0 / 60.0))?;
-    let half_height = 1.0;
-    let shape = Shape::Cylinder {
-        radius,
-        half_height,
-    };
-    let axis = UnitQuaternion::rotation_between(&Vector::z(), &Vector::y());
-    let mut drum = BodyPlan::fixed(shape, Point::origin());
-    drum.orientation = axis.ok_or("z and y are not opposite")?;
-    let body = world.add_body(drum)?;
-    let to_drum = world.body(body)?.orientation().inverse();
-    let contact = |i: u32| {
-        let normal = to_drum * direction(f64::from(i) * turn);
-        Stop::Contact {
-            body,
-            local: normal * radius,
-            normal,
-            friction,
-        }
-    };
-    // Each leg turns by a whole node against the chord next to it.
-    let leg = |corner: u32, before: f64| {
-        let angle = f64::from(corner) * turn;
-        let along = direction(angle + before * turn / 2.0 + PI / 2.0);
-        (
-            Point::from(direction(angle) * radius + along * before * 2.0),
-            along * before,
-        )
-    };
-    let ((start, _), (end, away)) = (leg(0, -1.0), leg(NODES - 1, 1.0));
-    let pull = |from: f64, speed: f64| Phase {
-        from,
-        velocity: away * speed,
-        angular_velocity: Vector::zeros(),
-    };
-    let puller = BodyPlan {
-        drive: Drive::Kinematic(vec![pull(0.0, 0.01), pull(2.0, 0.0)]),
-        ..BodyPlan::fixed(Shape::Sphere { radius: 0.1 }, end)
-    };
-    let puller = world.add_body(puller)?;
-    let mut route = vec![Stop::Pinned(start)];
-    route.extend((0..NODES).map(contact));
-    let local = Vector::zeros();
-    route.push(Stop::Eye {
-        body: puller,
-        local,
-    });
-    world.add_wire(&WirePlan::new(Material::steel(0.02).chain(), 10.0, route))?;
-    while world.time() < 4.0 {
-        world.step(&[])?;
-    }
-    let segments = world.wires()[0].segments();
-    let measured = segments[segments.len() - 1].tension / segments[0].tension;
-    let half = friction * libm::tan(turn / 2.0);
-    let by_nodes = ((1.0 + half) / (1.0 - half)).powi(12);
-    let by_angle = libm::exp(friction * PI);
-    Ok(vec![
-        Comparison::new("ratio of tensions, by nodes", by_nodes, measured, 0.005),
-        Comparison::new("ratio of tensions, by angle", by_angle, measured, 0.02),
-    ])
-}
 
 pub(super) const INCLINE: Case = Case {
     name: "incline",

@@ -4,6 +4,7 @@
 //! tolerance.
 
 mod contact;
+mod drum;
 mod motion;
 mod statics;
 
@@ -58,14 +59,16 @@ impl Comparison {
 }
 
 /// All cases.
-pub const CASES: [Case; 13] = [
+pub const CASES: [Case; 15] = [
     motion::FREE_FALL,
     statics::STRETCH,
     motion::PENDULUM,
     motion::STRING,
     statics::CATENARY,
     statics::CANTILEVER,
-    contact::CAPSTAN,
+    drum::CAPSTAN,
+    drum::HOIST,
+    drum::ATWOOD,
     contact::INCLINE,
     contact::CROSSING,
     motion::TWIST,

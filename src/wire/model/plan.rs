@@ -154,6 +154,7 @@ fn free(position: Point, velocity: Vector) -> Node {
         velocity,
         arc: 0.0,
         kind: NodeKind::Free,
+        slide: 0.0,
         settled: 0,
     }
 }

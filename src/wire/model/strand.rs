@@ -64,6 +64,8 @@ pub struct Node {
     pub arc: f64,
     /// What carries it.
     pub kind: NodeKind,
+    /// How fast its arc length grows because wire slides over it, in m/s; 0 unless it is a contact node.
+    pub slide: f64,
     /// The step before which the resolution is not changed here.
     pub(in crate::wire) settled: u64,
 }

@@ -1,15 +1,15 @@
-//! The step of a world: solve, commit, slide, change the resolution.
+//! The step of a world: solve, commit, change the resolution.
 
 use std::time::Instant;
 
 use super::Contact;
+use super::capstan;
 use super::contact::{Warm, check};
 use super::error::{Reason, StepError};
-use super::motion::{Motion, Shares};
+use super::motion::{Motion, Shares, Sliding};
 use super::settle::Candidate;
 use super::system::System;
 use super::watch::{Given, Judgement, Watch};
-use crate::wire::capstan;
 use crate::wire::model::World;
 use crate::wire::model::strand::MEMORY;
 use crate::wire::record::{Phases, StepRecord};
@@ -63,11 +63,11 @@ impl World {
         record.contacts = self.contact_records(watch.contacts(), &candidate.swept.impulses);
         record.solver = candidate.solver.clone();
         self.warm = Warm::new(watch.contacts(), &candidate.swept.impulses);
-        self.commit(&system, &candidate, motion);
+        let slid = self.commit(&system, &candidate, motion);
         self.structure = system.into_structure();
         record.after(self);
         phases.commit = clock.lap();
-        record.slides = capstan::slide(self);
+        record.slides = capstan::slides(self, &slid);
         record.remeshes = resolution::adapt(self, watch);
         phases.resolution = clock.lap();
         record.phases = phases;
@@ -88,6 +88,7 @@ impl World {
             if !motion.is_finite() {
                 return Err(Reason::NotFinite);
             }
+            capstan::check(self, &motion)?;
             let mut clock = Clock::start();
             let judgement = watch.judge(self, &motion, &candidate.swept.impulses)?;
             phases.collision += clock.lap();
@@ -99,8 +100,8 @@ impl World {
         }
     }
 
-    fn commit(&mut self, system: &System, candidate: &Candidate, motion: Motion) {
-        motion.apply(self);
+    fn commit(&mut self, system: &System, candidate: &Candidate, motion: Motion) -> Vec<Sliding> {
+        let slid = motion.apply(self);
         let slot = self.steps as usize % MEMORY;
         let segments = self.wires.iter_mut().flat_map(|wire| &mut wire.segments);
         for (segment, row) in segments.zip(&system.rows) {
@@ -109,6 +110,7 @@ impl World {
             segment.memory[slot] = segment.tension;
         }
         self.steps += 1;
+        slid
     }
 }
 

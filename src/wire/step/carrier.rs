@@ -64,7 +64,7 @@ impl Carrier {
 /// The numbering of the unknowns: velocities and multipliers in order of elimination.
 ///
 /// Each wire's free nodes go by nested dissection, each followed by the rows that it can eliminate;
-/// then come the bodies, and last the rows without a free node.
+/// then come the bodies, then what slides over contact nodes, and last the rows without a free node.
 #[derive(Clone, Debug)]
 pub(super) struct Layout {
     /// How many unknowns there are.
@@ -79,6 +79,8 @@ pub(super) struct Layout {
     pub(super) stretch: Vec<usize>,
     /// The first multiplier of each node's bend rows.
     pub(super) bend: Vec<Option<usize>>,
+    /// The speed of sliding over each contact node. The multiplier of its friction is the next unknown.
+    pub(super) slides: Vec<Option<usize>>,
 }
 
 const UNSET: usize = usize::MAX;
@@ -115,6 +117,7 @@ impl Layout {
         let mut nodes = Vec::new();
         let mut first_node = Vec::new();
         let mut bend = Vec::new();
+        let mut slides = Vec::new();
         for wire in &world.wires {
             first_node.push(nodes.len());
             for (i, node) in wire.nodes.iter().enumerate() {
@@ -124,12 +127,15 @@ impl Layout {
                 });
                 let ends = i == 0 || i + 1 == wire.nodes.len();
                 bend.push((!ends && !wire.material.is_chain()).then_some(UNSET));
+                let slides_over = matches!(node.kind, NodeKind::Contact { .. });
+                slides.push(slides_over.then_some(UNSET));
             }
         }
         Layout {
             size: 0,
             stretch: vec![UNSET; nodes.len() - first_node.len()],
             bend,
+            slides,
             nodes,
             first_node,
             bodies: vec![None; world.bodies.len()],
@@ -156,8 +162,13 @@ impl Layout {
         }
     }
 
-    /// Numbers the rows that no free node took, and ties the nodes of bodies to them.
+    /// Numbers what slides and the rows that no free node took, and ties the nodes of bodies to them.
     fn rest(&mut self, world: &World) {
+        for at in 0..self.slides.len() {
+            if self.slides[at].is_some() {
+                self.slides[at] = Some(self.take(2));
+            }
+        }
         for segment in 0..self.stretch.len() {
             if self.stretch[segment] == UNSET {
                 self.stretch[segment] = self.take(1);

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::wire::collide::CollisionError;
-use crate::wire::model::ModelError;
+use crate::wire::model::{ModelError, WireId};
 
 /// A step that was not done. The world is as it was before.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,7 +39,14 @@ pub enum Reason {
     },
     /// The solution leads to a position, orientation or velocity that is NaN or infinite.
     NotFinite,
-    /// It was not found which segments of chains pull.
+    /// Hardly anything of a segment beside a contact node would be left: all would have slid over the node.
+    Swallowed {
+        /// The wire.
+        wire: WireId,
+        /// The segment.
+        segment: usize,
+    },
+    /// It was not found which segments of chains pull, or which wires slide over contact nodes.
     Slack {
         /// How many guesses were tried.
         tries: usize,
@@ -70,9 +77,14 @@ impl fmt::Display for StepError {
             Reason::NotFinite => f.write_str(
                 "something would end at a position or velocity that is not a finite number",
             ),
+            Reason::Swallowed { wire, segment } => write!(
+                f,
+                "segment {segment} of wire {} would slide over its contact nodes as a whole",
+                wire.0
+            ),
             Reason::Slack { tries } => write!(
                 f,
-                "it was not found within {tries} tries which segments of chains pull"
+                "it was not found within {tries} tries which segments of chains pull and which wires slide"
             ),
             Reason::Collision(error) => write!(f, "wires cannot be kept apart: {error}"),
         }

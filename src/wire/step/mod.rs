@@ -2,12 +2,14 @@
 
 mod advance;
 mod anderson;
+mod capstan;
 mod carrier;
 pub(super) mod contact;
 mod coulomb;
 mod delassus;
 mod error;
 mod friction;
+mod law;
 pub(super) mod motion;
 mod rows;
 mod settle;
@@ -16,5 +18,6 @@ mod spin;
 pub(super) mod system;
 pub(super) mod watch;
 
+pub use capstan::Slide;
 pub use contact::{Contact, Place};
 pub use error::{Reason, StepError};

@@ -13,6 +13,16 @@ pub(in crate::wire) struct Motion {
     bodies: Vec<BodyMotion>,
     /// Position and velocity of each node, by wire.
     pub(in crate::wire) wires: Vec<Vec<(Point, Vector)>>,
+    /// Every contact node.
+    pub(super) slides: Vec<Sliding>,
+}
+
+/// How fast a wire slides over a contact node.
+pub(super) struct Sliding {
+    pub(super) wire: usize,
+    pub(super) node: usize,
+    /// How fast the node's arc length grows, in m/s.
+    pub(super) speed: f64,
 }
 
 struct BodyMotion {
@@ -47,6 +57,7 @@ impl World {
         let mut moved = Motion {
             bodies: Vec::with_capacity(self.bodies.len()),
             wires: Vec::with_capacity(self.wires.len()),
+            slides: Vec::new(),
         };
         for ((body, first), &share) in self.bodies.iter().zip(&layout.bodies).zip(&shares.bodies) {
             let (velocity, spin) = match *first {
@@ -83,6 +94,14 @@ impl World {
             });
             moved.wires.push(nodes.collect());
         }
+        for (wire, (&first, &share)) in layout.first_node.iter().zip(&shares.wires).enumerate() {
+            for node in 0..self.wires[wire].nodes.len() {
+                if let Some(column) = layout.slides[first + node] {
+                    let speed = x[column] * share;
+                    moved.slides.push(Sliding { wire, node, speed });
+                }
+            }
+        }
         moved
     }
 }
@@ -101,6 +120,7 @@ impl Motion {
         nodes
             .map(|(position, velocity)| (&position.coords, velocity))
             .all(|(position, velocity)| is_finite(position) && is_finite(velocity))
+            && self.slides.iter().all(|slid| slid.speed.is_finite())
             && self.bodies.iter().all(|body| {
                 let turned = body.orientation.coords.iter().all(|x| x.is_finite());
                 let vectors = [
@@ -112,8 +132,15 @@ impl Motion {
             })
     }
 
-    /// Moves a world.
-    pub(super) fn apply(self, world: &mut World) {
+    /// How fast the arc length of a node grows, in m/s.
+    pub(super) fn speed(&self, wire: usize, node: usize) -> f64 {
+        let mut slides = self.slides.iter();
+        let slid = slides.find(|slid| (slid.wire, slid.node) == (wire, node));
+        slid.map_or(0.0, |slid| slid.speed)
+    }
+
+    /// Moves a world. Returns how wires slid.
+    pub(super) fn apply(self, world: &mut World) -> Vec<Sliding> {
         for (body, to) in world.bodies.iter_mut().zip(self.bodies) {
             (body.position, body.orientation) = (to.position, to.orientation);
             (body.velocity, body.angular_velocity) = (to.velocity, to.angular_velocity);
@@ -123,5 +150,11 @@ impl Motion {
                 (node.position, node.velocity) = to;
             }
         }
+        for Sliding { wire, node, speed } in &self.slides {
+            let node = &mut world.wires[*wire].nodes[*node];
+            node.slide = *speed;
+            node.arc += speed * world.settings.step;
+        }
+        self.slides
     }
 }

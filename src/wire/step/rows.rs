@@ -3,7 +3,9 @@
 use nalgebra::Matrix3;
 use smallvec::{SmallVec, smallvec};
 
+use super::capstan;
 use super::carrier::{Carrier, Layout};
+use super::law::{Law, Piece};
 use crate::wire::Vector;
 use crate::wire::model::{Wire, World};
 use crate::wire::settings::Settings;
@@ -15,14 +17,16 @@ pub(super) struct Row {
     pub(super) multiplier: usize,
     /// Carriers, and the direction along which each one's velocity counts.
     pub(super) terms: SmallVec<[(Carrier, Vector); 3]>,
+    /// Unknown speeds of sliding, and what they count.
+    pub(super) slides: SmallVec<[(usize, f64); 2]>,
     /// Regularisation in 1/kg.
     pub(super) sigma: f64,
     /// What the row asks for, in m/s or 1/s, prescribed velocities included on the left.
     pub(super) target: f64,
-    /// The multiplier is not above 0: a pull, never a push.
-    pub(super) pulls_only: bool,
-    /// The row counts. One that does not has multiplier 0.
-    pub(super) active: bool,
+    /// How the multiplier follows from the excess.
+    pub(super) law: Law,
+    /// The piece of the law that is solved with.
+    pub(super) piece: Piece,
 }
 
 impl Row {
@@ -30,6 +34,9 @@ impl Row {
     pub(super) fn each_column(&self, mut take: impl FnMut(usize, f64)) {
         for (carrier, direction) in &self.terms {
             carrier.each_column(direction, &mut take);
+        }
+        for &(column, value) in &self.slides {
+            take(column, value);
         }
     }
 
@@ -44,9 +51,11 @@ impl Row {
     /// `G v` for a solution.
     pub(super) fn velocity(&self, x: &[f64]) -> f64 {
         let terms = self.terms.iter();
-        terms.fold(0.0, |sum, (carrier, direction)| {
+        let of_points = terms.fold(0.0, |sum, (carrier, direction)| {
             sum + carrier.velocity(x).dot(direction)
-        })
+        });
+        let slides = self.slides.iter();
+        slides.fold(of_points, |sum, &(column, value)| sum + value * x[column])
     }
 
     /// `G v - target` for a solution.
@@ -58,13 +67,35 @@ impl Row {
     pub(super) fn speed(&self, x: &[f64]) -> f64 {
         let of = |carrier: &Carrier| carrier.velocity(x).amax();
         let terms = self.terms.iter().map(|(carrier, _)| of(carrier));
-        terms.fold(self.target.abs(), f64::max)
+        let slides = self.slides.iter().map(|&(column, _)| x[column].abs());
+        terms.chain(slides).fold(self.target.abs(), f64::max)
     }
 
-    /// Whether it can count at all: a segment without length has no direction.
-    pub(super) fn has_direction(&self) -> bool {
-        let mut terms = self.terms.iter();
-        terms.any(|(_, along)| along.norm_squared() > 0.0)
+    /// Whether its piece is found by the solution.
+    pub(super) fn may_change(&self) -> bool {
+        match self.law {
+            Law::Free => false,
+            // A segment without length has no direction.
+            Law::Pulls => {
+                let mut terms = self.terms.iter();
+                terms.any(|(_, along)| along.norm_squared() > 0.0)
+            }
+            Law::Grips { .. } => true,
+        }
+    }
+
+    /// Whether it is friction that lets no wire slide.
+    pub(super) fn sticks(&self) -> bool {
+        let grips = matches!(self.law, Law::Grips { .. });
+        grips && self.piece.active && self.piece.start == 0.0
+    }
+
+    /// The multiplier that is in no unknown but held.
+    pub(super) fn each_held(&self, mut take: impl FnMut(usize, f64)) {
+        let held = self.piece.held;
+        if held != 0.0 {
+            self.each_column(|column, value| take(column, value * held));
+        }
     }
 }
 
@@ -105,17 +136,21 @@ pub(super) fn unit(vector: &Vector) -> (Vector, f64) {
     }
 }
 
-/// All rows: first those of stretch, one for each segment in order, then those of bend.
+/// All rows: first those of stretch, one for each segment in order, then those of bend, last those of sliding.
 pub(super) fn rows(world: &World, layout: &Layout) -> Vec<Row> {
     let mut rows = Vec::with_capacity(layout.stretch.len() + 3 * layout.bend.len());
     for (wire, &first) in world.wires.iter().zip(&layout.first_node) {
         for segment in 0..wire.segments.len() {
             let multiplier = layout.stretch[rows.len()];
-            let ends = [
-                layout.nodes[first + segment],
-                layout.nodes[first + segment + 1],
-            ];
-            rows.push(stretch(wire, segment, ends, multiplier, &world.settings));
+            let ends = [first + segment, first + segment + 1];
+            let carriers = ends.map(|node| layout.nodes[node]);
+            let mut row = stretch(wire, segment, carriers, multiplier, &world.settings);
+            // Arc length that moves over its nodes changes what the segment is unstretched.
+            let slides = ends.into_iter().zip([1.0, -1.0]);
+            row.slides = slides
+                .filter_map(|(node, value)| layout.slides[node].map(|column| (column, value)))
+                .collect();
+            rows.push(row);
         }
     }
     for (wire, &first) in world.wires.iter().zip(&layout.first_node) {
@@ -127,6 +162,7 @@ pub(super) fn rows(world: &World, layout: &Layout) -> Vec<Row> {
             }
         }
     }
+    rows.extend(capstan::grips(world, layout));
     rows
 }
 
@@ -145,15 +181,22 @@ fn stretch(
     let compliance = rest / material.stretch_stiffness();
     let spook = Spook::new(compliance, material.stretch_damping, settings.step);
     let nodes = &wire.nodes[segment..segment + 2];
-    let speed = (nodes[1].velocity - nodes[0].velocity).dot(&t);
+    let sliding = nodes[1].slide - nodes[0].slide;
+    let speed = (nodes[1].velocity - nodes[0].velocity).dot(&t) - sliding;
     let slack = wire.segments[segment].tension <= 0.0 && length < rest;
+    let counts = length > 0.0 && !(material.is_chain() && slack);
     Row {
         multiplier,
         terms: smallvec![(start, -t), (end, t)],
+        slides: SmallVec::new(),
         sigma: spook.sigma,
         target: spook.target(length - rest, speed),
-        pulls_only: material.is_chain(),
-        active: length > 0.0 && !(material.is_chain() && slack),
+        law: if material.is_chain() {
+            Law::Pulls
+        } else {
+            Law::Free
+        },
+        piece: if counts { Piece::FULL } else { Piece::NONE },
     }
 }
 
@@ -187,10 +230,11 @@ fn bend(
         Row {
             multiplier: multiplier + axis,
             terms: smallvec![term(0), term(1), term(2)],
+            slides: SmallVec::new(),
             sigma: spook.sigma,
             target: spook.target((t2 - t1)[axis], turning[axis]),
-            pulls_only: false,
-            active,
+            law: Law::Free,
+            piece: if active { Piece::FULL } else { Piece::NONE },
         }
     })
 }

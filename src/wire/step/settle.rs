@@ -1,7 +1,8 @@
-//! The solution of a step: velocities, multipliers, contact impulses, and which segments of chains pull.
+//! The solution of a step: velocities, multipliers, contact impulses, which segments of chains pull, and which wires slide.
 
 use super::Contact;
 use super::advance::Clock;
+use super::capstan::{bounds_lack, stop_slip};
 use super::error::Reason;
 use super::friction::{Swept, lack, sweep};
 use super::slack::{contradict, pull};
@@ -21,10 +22,10 @@ pub(super) struct Candidate {
 }
 
 impl World {
-    /// Solves for velocities, multipliers and contact impulses; finds out which segments of chains
-    /// pull, starting from those that did in the last step.
+    /// Solves for velocities, multipliers and contact impulses; finds out which segments of chains pull and which wires
+    /// slide over contact nodes, starting from those that did in the last step.
     ///
-    /// Contacts are swept while the same segments pull; then it is found which pull under these impulses, until
+    /// Contacts are swept while the same segments pull; then it is found which pull and slide under these impulses, until
     /// that changes nothing. Friction may let it change for ever: after [`ROUNDS`] the impulses are held, and what
     /// contacts lack then is in the record.
     pub(super) fn settle(
@@ -64,6 +65,8 @@ impl World {
             break;
         }
         candidate.solver.tries = tries;
+        candidate.solver.slide_residual = bounds_lack(&system.rows, &candidate.x);
+        stop_slip(&system.rows, &mut candidate.x);
         Ok(candidate)
     }
 
@@ -89,6 +92,7 @@ impl World {
             tries: 1,
             sweeps: swept.sweeps,
             contact_residual: swept.residual,
+            slide_residual: 0.0,
         };
         Ok(Candidate { x, swept, solver })
     }

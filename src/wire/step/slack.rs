@@ -1,11 +1,17 @@
-//! Which segments of chains pull.
+//! Which segments of chains pull, and over which contact nodes wires slide.
 //!
 //! A chain's row `G v >= target` has the multiplier `(G v - target) / Sigma` where it is violated, and none else.
 //! So for given impulses of contacts the velocities of a step are where
 //! `v . M~ v / 2 - v . (M v + h f) + sum (G v - target)^2 / (2 Sigma)` is least, with the rows of chains
 //! counted only where they are above their target. This function is strictly convex and quadratic in pieces: Newton's
-//! method with an exact line search finds its minimum in finitely many steps (Sun, Math. Program. 76, 1997).
+//! method with an exact line search finds its minimum in finitely many steps (Sun, Math. Program. 76, 1997). So it is
+//! with every [`Law`](super::law::Law) in place of that square.
+//!
+//! The friction at a contact node is bounded by the tensions beside it ([`capstan`]). It is found for bounds that stand, then these for
+//! the tensions that follow, and so on until the bounds stay: each change moves the others by the share
+//! `f tan(D/2)` of itself, which is below 1 where wire slides at all.
 
+use super::capstan;
 use super::error::Reason;
 use super::rows::Row;
 use super::system::System;
@@ -14,7 +20,11 @@ use crate::wire::solve::bisect;
 /// Newton steps that are tried before a step is given up; some dozens are usual for the longest chains.
 const TRIES: usize = 1000;
 
-/// A solution for given impulses in which exactly those rows of chains count that pull.
+/// How often bounds of friction follow tensions. Each time the difference falls to a share of itself; a dozen is usual
+/// for a dozen nodes.
+const BOUNDS: usize = 100;
+
+/// A solution for given impulses in which every row has the piece of its law that holds there.
 pub(super) struct Pulled {
     pub(super) x: Vec<f64>,
     /// Its backward error.
@@ -23,27 +33,22 @@ pub(super) struct Pulled {
     pub(super) tries: usize,
 }
 
-/// Whether rows that pull only contradict the guess of which do: one that counts and pushes, or one that does
-/// not and is longer after the step than it may be. Rounding of velocities is no contradiction.
+/// Whether rows contradict the guess of their pieces: one of a chain that counts and pushes, or one that does
+/// not and is longer after the step than it may be; friction whose bound is not that of the tensions. Rounding of
+/// velocities is no contradiction.
 pub(super) fn contradict(rows: &[Row], x: &[f64]) -> bool {
-    const ROUNDING: f64 = 1e-12;
-    let chains = || {
-        rows.iter()
-            .filter(|row| row.pulls_only && row.has_direction())
-    };
-    let fastest = chains().fold(0.0, |a: f64, row| a.max(row.speed(x)));
-    let accepted = ROUNDING * fastest;
-    chains().any(|row| {
-        let excess = row.excess(x);
-        if row.active {
-            excess < -accepted
-        } else {
-            excess > accepted
-        }
-    })
+    leaves_piece(rows, x) || capstan::bounds_differ(rows, x)
 }
 
-/// Finds the rows of chains that pull under impulses on velocities, from the velocities of `x` on.
+fn leaves_piece(rows: &[Row], x: &[f64]) -> bool {
+    const ROUNDING: f64 = 1e-12;
+    let changing = || rows.iter().filter(|row| row.may_change());
+    let fastest = changing().fold(0.0, |a: f64, row| a.max(row.speed(x)));
+    let accepted = ROUNDING * fastest;
+    changing().any(|row| row.piece.is_left(row.excess(x), accepted))
+}
+
+/// Finds the pieces of all rows under impulses on velocities, from the velocities of `x` on.
 ///
 /// # Errors
 ///
@@ -53,20 +58,32 @@ pub(super) fn pull(
     impulses: &[(usize, f64)],
     mut x: Vec<f64>,
 ) -> Result<Pulled, Reason> {
-    for tries in 1..=TRIES {
-        for row in system.rows.iter_mut().filter(|row| row.pulls_only) {
-            row.active = row.has_direction() && row.excess(&x) > 0.0;
+    let (mut tries, mut updates) = (0, 0);
+    for _ in 0..TRIES {
+        let mut changed = false;
+        for row in system.rows.iter_mut().filter(|row| row.may_change()) {
+            let piece = row.law.piece(row.excess(&x), row.sigma);
+            changed |= (piece.active, piece.start) != (row.piece.active, row.piece.start);
+            row.piece = piece;
         }
-        system.factor()?;
+        if changed {
+            system.factor()?;
+            tries += 1;
+        }
         let (newton, residual) = system.solve(impulses)?;
-        if !contradict(&system.rows, &newton) {
-            let x = newton;
+        if leaves_piece(&system.rows, &newton) {
+            let share = line_search(system, &x, &newton);
+            for (x, newton) in x.iter_mut().zip(&newton) {
+                *x += share * (newton - *x);
+            }
+            continue;
+        }
+        x = newton;
+        updates += 1;
+        if updates > BOUNDS || !capstan::bounds_differ(&system.rows, &x) {
             return Ok(Pulled { x, residual, tries });
         }
-        let share = line_search(system, &x, &newton);
-        for (x, newton) in x.iter_mut().zip(&newton) {
-            *x += share * (newton - *x);
-        }
+        capstan::update_bounds(&mut system.rows, &x);
     }
     Err(Reason::Slack { tries: TRIES })
 }
@@ -78,18 +95,19 @@ fn line_search(system: &System, x: &[f64], newton: &[f64]) -> f64 {
     let mut changes = Vec::new();
     for row in &system.rows {
         let ends = [row.excess(x), row.excess(newton)];
-        let counts = if row.active { 1.0 } else { 0.0 };
+        let counts = if row.piece.active { 1.0 } else { 0.0 };
         way[row.multiplier] = counts * (ends[1] - ends[0]) / row.sigma;
-        if row.pulls_only && row.has_direction() {
-            changes.push((ends, counts, row.sigma));
+        if row.may_change() {
+            changes.push((ends, row));
         }
     }
     let curvature = system.curvature(&way);
     let slope = |share: f64| {
-        let terms = changes.iter().map(|([start, end], counts, sigma)| {
+        let terms = changes.iter().map(|([start, end], row)| {
             let rise = end - start;
             let excess = start + share * rise;
-            rise / sigma * (excess.max(0.0) - counts * excess)
+            let law = row.law.piece(excess, row.sigma).load(excess, row.sigma);
+            rise / row.sigma * (law - row.piece.load(excess, row.sigma))
         });
         (share - 1.0) * curvature + terms.sum::<f64>()
     };

@@ -4,6 +4,7 @@ use nalgebra::Matrix3;
 
 use super::carrier::{Carrier, Columns, Layout};
 use super::error::Reason;
+use super::law::Piece;
 use super::rows::{Row, rows, unit};
 use super::spin::spin_freely;
 use crate::wire::Vector;
@@ -22,7 +23,7 @@ pub(in crate::wire) struct Structure {
     ldl: Ldl,
 }
 
-/// The equations of motion and the rows of all wires, ready to be factored.
+/// The equations of motion, of nodes, bodies and what slides over contact nodes, and the rows of all wires, ready to be factored.
 pub(super) struct System {
     pub(super) layout: Layout,
     pub(super) rows: Vec<Row>,
@@ -66,6 +67,10 @@ impl System {
             for (i, node) in wire.nodes.iter().enumerate() {
                 let mass = wire.node_mass(i);
                 let velocity = node.velocity + fall;
+                if let Some(column) = self.layout.slides[first + i] {
+                    self.triplets.add(column, column, mass);
+                    self.right[column] += mass * node.slide;
+                }
                 let carrier = self.layout.nodes[first + i];
                 if let Carrier::Free(first) = carrier {
                     for axis in 0..3 {
@@ -144,12 +149,13 @@ impl System {
         self.triplets.value.truncate(self.mass_entries);
         for row in &self.rows {
             // A row that is not active keeps its place in the structure: -1 x multiplier = 0.
-            let weight = if row.active { 1.0 } else { 0.0 };
+            let Piece { active, start, .. } = row.piece;
+            let weight = if active { 1.0 } else { 0.0 };
             let triplets = &mut self.triplets;
             row.each_column(|column, value| triplets.add(column, row.multiplier, weight * value));
-            let sigma = if row.active { row.sigma } else { 1.0 };
+            let sigma = if active { row.sigma } else { 1.0 };
             self.triplets.add(row.multiplier, row.multiplier, -sigma);
-            self.right[row.multiplier] = weight * (row.target - row.given());
+            self.right[row.multiplier] = weight * (row.target + start - row.given());
         }
         let stands = |s: &Structure| s.index == self.triplets.index;
         let structure = self.structure.take().filter(stands);
@@ -171,6 +177,9 @@ impl System {
             return Ok((Vec::new(), 0.0));
         };
         let mut right = self.right.clone();
+        for row in &self.rows {
+            row.each_held(|column, impulse| right[column] -= impulse);
+        }
         for &(column, impulse) in impulses {
             right[column] += impulse;
         }

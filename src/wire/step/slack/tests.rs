@@ -5,6 +5,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::*;
 use crate::query::Point;
+use crate::wire::step::law::Piece;
 use crate::wire::{Material, Settings, Stop, Vector, WirePlan, World};
 
 fn vector(rng: &mut ChaCha8Rng, size: f64) -> Vector {
@@ -39,7 +40,7 @@ fn by_guessing(system: &mut System) -> Vec<f64> {
     let mut found = Vec::new();
     for guess in 0..1_u32 << system.rows.len() {
         for (bit, row) in system.rows.iter_mut().enumerate() {
-            row.active = guess >> bit & 1 == 1;
+            row.piece = [Piece::NONE, Piece::FULL][guess as usize >> bit & 1];
         }
         system.factor().unwrap();
         let (x, _) = system.solve(&[]).unwrap();

@@ -1,0 +1,220 @@
+//! Contact nodes: where a wire turns over a body, and sticks, slides or leaves.
+//!
+//! A contact node rides a point of a body. Wire slides over it at a speed that is an unknown of the step like any velocity: arc length
+//! moves from the segment on one side to that on the other, and what moves is the node's mass. Friction takes up any
+//! sliding, as far as the capstan bound of a node that turns the wire by an angle `D` goes:
+//! `T2/T1 <= (1 + f tan(D/2)) / (1 - f tan(D/2))`, which tends to `e^(f D)` for small `D`. That is Coulomb's law,
+//! `|T2 - T1| <= f tan(D/2) (T1 + T2)`.
+
+use smallvec::{SmallVec, smallvec};
+
+use super::carrier::Layout;
+use super::error::Reason;
+use super::law::Law;
+use super::motion::{Motion, Sliding};
+use super::rows::Row;
+use crate::wire::Vector;
+use crate::wire::model::{NodeKind, Wire, WireId, World};
+
+/// A wire that slid over a contact node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Slide {
+    /// The wire.
+    pub wire: WireId,
+    /// The node's number after the motion.
+    pub node: usize,
+    /// How far the node's arc length went, in m; 0 for a node that left its body.
+    pub distance: f64,
+    /// Whether the node left its body and is free now.
+    pub left: bool,
+}
+
+/// What a wire that sticks slips nonetheless, as a share of the speed that its friction could take from the node in one
+/// step. It is left out of the motion.
+const SLIP: f64 = 1e-9;
+
+/// The rows of friction of all contact nodes: `w = 0` for the speed of sliding `w`, as far as friction goes.
+pub(super) fn grips(world: &World, layout: &Layout) -> Vec<Row> {
+    let mut rows = Vec::new();
+    for (at, wire) in world.wires.iter().enumerate() {
+        let first = layout.first_node[at];
+        for node in contact_nodes(wire) {
+            let Some(column) = layout.slides[first + node] else {
+                continue;
+            };
+            let segment = first - at + node;
+            let share = friction_share(wire, node);
+            let tensions = [node - 1, node].map(|beside| wire.segments[beside].tension);
+            let mut law = Law::Grips {
+                share,
+                tensions: [segment - 1, segment].map(|beside| layout.stretch[beside]),
+                bound: 0.0,
+                reach: reach(wire, node, world),
+            };
+            law.bind(tensions.map(|tension| tension * world.settings.step));
+            let sigma = SLIP / wire.node_mass(node);
+            rows.push(Row {
+                multiplier: column + 1,
+                terms: SmallVec::new(),
+                slides: smallvec![(column, 1.0)],
+                sigma,
+                target: 0.0,
+                piece: law.piece(wire.nodes[node].slide, sigma),
+                law,
+            });
+        }
+    }
+    rows
+}
+
+/// `f tan(D/2)`.
+fn friction_share(wire: &Wire, node: usize) -> f64 {
+    let NodeKind::Contact { friction, .. } = wire.nodes[node].kind else {
+        return 0.0;
+    };
+    let [before, after] = directions(wire, node);
+    // tan(D/2) = sin D / (1 + cos D)
+    let half = before.cross(&after).norm() / (1.0 + before.dot(&after));
+    // A wire that turns back upon itself.
+    if half.is_finite() {
+        friction * half
+    } else {
+        f64::INFINITY
+    }
+}
+
+/// How fast a node's arc length may fall and grow: as far as is set for one step, and to half of the segment that
+/// gets shorter, of which something has to be left. Between two contact nodes of one body a segment cannot get much
+/// shorter than it is long.
+fn reach(wire: &Wire, node: usize, world: &World) -> [f64; 2] {
+    let body = |node: usize| match wire.nodes[node].kind {
+        NodeKind::Contact { body, .. } => Some(body),
+        _ => None,
+    };
+    let sides = [(node - 1, node - 1), (node + 1, node)];
+    sides.map(|(neighbour, segment)| {
+        let limit = world.settings.slide_limit;
+        let rest = wire.rest_length(segment);
+        let most = if body(neighbour) == body(node) {
+            limit
+        } else {
+            limit
+                .min(rest / 2.0)
+                .min(rest - wire.resolution.length / 16.0)
+        };
+        most.max(0.0) / world.settings.step
+    })
+}
+
+/// Sets the bounds of friction to what follows from a solution.
+pub(super) fn update_bounds(rows: &mut [Row], x: &[f64]) {
+    for row in rows {
+        if let Law::Grips { tensions, .. } = row.law {
+            row.law.bind(tensions.map(|multiplier| x[multiplier]));
+        }
+    }
+}
+
+/// Whether a bound of friction is not that which follows from a solution.
+pub(super) fn bounds_differ(rows: &[Row], x: &[f64]) -> bool {
+    const TOLERANCE: f64 = 1e-9;
+    bounds_lack(rows, x) > TOLERANCE
+}
+
+/// By how much a bound of friction differs at most from what follows from a solution, as a share of the largest.
+pub(super) fn bounds_lack(rows: &[Row], x: &[f64]) -> f64 {
+    let bounds = rows.iter().filter_map(|row| row.law.bounds(x));
+    let finite = bounds.filter(|[_, due]| due.is_finite());
+    let (lack, largest) = finite.fold((0.0_f64, 0.0_f64), |(lack, largest), [bound, due]| {
+        (lack.max((bound - due).abs()), largest.max(due).max(bound))
+    });
+    if lack > 0.0 { lack / largest } else { 0.0 }
+}
+
+/// A wire that sticks does not creep: where a solution slips, its speed is 0.
+pub(super) fn stop_slip(rows: &[Row], x: &mut [f64]) {
+    for row in rows.iter().filter(|row| row.sticks()) {
+        for &(column, _) in &row.slides {
+            x[column] = 0.0;
+        }
+    }
+}
+
+/// That every segment beside a contact node keeps some of its wire in a motion.
+pub(super) fn check(world: &World, motion: &Motion) -> Result<(), Reason> {
+    for slid in &motion.slides {
+        let (wire, at) = (&world.wires[slid.wire], slid.wire);
+        for segment in [slid.node - 1, slid.node] {
+            let rest = wire.rest_length(segment);
+            let grown = motion.speed(at, segment + 1) - motion.speed(at, segment);
+            if rest + grown * world.settings.step < rest / 16.0 {
+                let wire = WireId(at);
+                return Err(Reason::Swallowed { wire, segment });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The slides of a motion that was made, and the nodes that the wire pulls off their bodies, which it frees.
+pub(super) fn slides(world: &mut World, slid: &[Sliding]) -> Vec<Slide> {
+    let mut slides = Vec::new();
+    for Sliding { wire, node, speed } in slid {
+        if *speed != 0.0 {
+            slides.push(Slide {
+                wire: WireId(*wire),
+                node: *node,
+                distance: speed * world.settings.step,
+                left: false,
+            });
+        }
+    }
+    for at in 0..world.wires.len() {
+        for node in contact_nodes(&world.wires[at]) {
+            if is_pulled_off(world, at, node) {
+                leave(&mut world.wires[at], node);
+                slides.push(Slide {
+                    wire: WireId(at),
+                    node,
+                    distance: 0.0,
+                    left: true,
+                });
+            }
+        }
+    }
+    slides
+}
+
+/// The wire turns away from the body: its pull on the node has a component out of it.
+fn is_pulled_off(world: &World, wire: usize, node: usize) -> bool {
+    let wire = &world.wires[wire];
+    let NodeKind::Contact { body, normal, .. } = wire.nodes[node].kind else {
+        return false;
+    };
+    let [before, after] = directions(wire, node);
+    (after - before).dot(&world.bodies[body.0].arm(&normal)) > 0.0
+}
+
+/// Frees a node. It goes on with its wire, which slides against the direction in which arc length grows.
+fn leave(wire: &mut Wire, node: usize) {
+    let [before, after] = directions(wire, node);
+    let node = &mut wire.nodes[node];
+    node.kind = NodeKind::Free;
+    node.velocity -= (before + after) / 2.0 * std::mem::take(&mut node.slide);
+}
+
+fn contact_nodes(wire: &Wire) -> Vec<usize> {
+    let is_contact = |&node: &usize| matches!(wire.nodes[node].kind, NodeKind::Contact { .. });
+    (0..wire.nodes.len()).filter(is_contact).collect()
+}
+
+fn directions(wire: &Wire, node: usize) -> [Vector; 2] {
+    [node - 1, node].map(|segment| {
+        let span = wire.span(segment);
+        span / span.norm().max(f64::MIN_POSITIVE)
+    })
+}
+
+#[cfg(test)]
+mod tests;

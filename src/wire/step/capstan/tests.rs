@@ -1,0 +1,157 @@
+use super::*;
+use crate::query::Point;
+use crate::wire::{BodyId, BodyPlan, Drive, Material, Phase, Settings, Shape, Stop, WirePlan};
+
+const FRICTION: f64 = 0.3;
+
+/// A fixed ball with its top in the origin, and a contact node there.
+fn ball(world: &mut World, friction: f64) -> Stop {
+    let plan = BodyPlan::fixed(Shape::Sphere { radius: 1.0 }, Point::new(0.0, 0.0, -1.0));
+    Stop::Contact {
+        body: world.add_body(plan).unwrap(),
+        local: Vector::z(),
+        normal: Vector::z(),
+        friction,
+    }
+}
+
+/// A chain without weight over a node, its ends `down` below it at both sides; one end is drawn at a speed, and after
+/// 5 s back.
+fn over_a_node(friction: f64, down: f64, speed: f64) -> World {
+    let mut world = World::new(Settings {
+        gravity: Vector::zeros(),
+        ..Settings::default()
+    })
+    .unwrap();
+    let node = ball(&mut world, friction);
+    let end = Point::new(2.0, 0.0, -down);
+    let along = end.coords.normalize() * speed;
+    let puller = drawn(&mut world, end, &[(0.0, along), (5.0, -along)]);
+    let route = vec![Stop::Pinned(Point::new(-2.0, 0.0, -down)), node, puller];
+    let plan = WirePlan::new(Material::steel(0.02).chain(), 10.0, route);
+    world.add_wire(&plan).unwrap();
+    world
+}
+
+/// An eye on a body that is drawn at velocities, each from a time on.
+fn drawn(world: &mut World, at: Point, velocities: &[(f64, Vector)]) -> Stop {
+    let phases = velocities.iter().map(|&(from, velocity)| Phase {
+        from,
+        velocity,
+        angular_velocity: Vector::zeros(),
+    });
+    let plan = BodyPlan {
+        drive: Drive::Kinematic(phases.collect()),
+        ..BodyPlan::fixed(Shape::Sphere { radius: 0.1 }, at)
+    };
+    eye(world.add_body(plan).unwrap())
+}
+
+fn eye(body: BodyId) -> Stop {
+    let local = Vector::zeros();
+    Stop::Eye { body, local }
+}
+
+#[test]
+fn friction_share_is_the_node_formula_and_tends_to_the_exponential() {
+    for (degrees, tolerance) in [(15.0_f64, 1e-3), (1.0, 1e-5)] {
+        let angle = degrees.to_radians();
+        let (sin, cos) = (libm::sin(angle / 2.0), libm::cos(angle / 2.0));
+        let world = over_a_node(FRICTION, 2.0 * sin / cos, 0.0);
+        let wire = &world.wires[0];
+        let share = friction_share(wire, 1);
+        assert!((share - FRICTION * (angle / 2.0).tan()).abs() < 1e-14);
+        let bound = (1.0 + share) / (1.0 - share);
+        assert!((bound / (FRICTION * angle).exp() - 1.0).abs() < tolerance);
+    }
+}
+
+/// What friction takes from the pull of the segment before a contact node, from the balance of its mass, and
+/// its bound, both in N. `before` is the wire before the step.
+fn friction(wire: &Wire, before: &Wire, node: usize, step: f64) -> [f64; 2] {
+    let [first, second] = [node - 1, node].map(|i| wire.segments[i].tension);
+    let gained = before.node_mass(node) * (wire.nodes[node].slide - before.nodes[node].slide);
+    let bound = friction_share(before, node) * (first + second);
+    [first - second - gained / step, bound]
+}
+
+/// Checks Coulomb's law at a node after a step: within the bound where it sticks, all of it against the sliding elsewhere.
+fn check_law(wire: &Wire, before: &Wire, node: usize, step: f64) {
+    let [friction, bound] = friction(wire, before, node, step);
+    let rounding = 1e-8 * bound + 1e-9;
+    let slide = wire.nodes[node].slide;
+    if slide == 0.0 {
+        assert!(friction.abs() <= bound + rounding, "{friction} {bound}");
+    } else {
+        let against = friction * slide.signum();
+        assert!((against - bound).abs() <= rounding, "{friction} {bound}");
+    }
+}
+
+#[test]
+fn wire_sticks_within_its_friction_and_slides_against_all_of_it() {
+    let mut world = over_a_node(FRICTION, 1.0, 1e-4);
+    let mut seen = [0; 3];
+    for _ in 0..600 {
+        let before = world.wires[0].clone();
+        let record = world.step(&[]).unwrap();
+        let wire = &world.wires[0];
+        check_law(wire, &before, 1, world.settings.step);
+        let distance = match record.slides.as_slice() {
+            [] => 0.0,
+            [slide] => slide.distance,
+            _ => panic!("{:?}", record.slides),
+        };
+        let arcs = [0.0, distance, 0.0];
+        for ((node, before), slid) in wire.nodes.iter().zip(&before.nodes).zip(arcs) {
+            assert_eq!(node.arc, before.arc + slid);
+        }
+        let kind = [distance < 0.0, distance == 0.0, distance > 0.0];
+        seen[kind.iter().position(|is| *is).unwrap()] += 1;
+    }
+    println!("{seen:?}");
+    assert!(seen.iter().all(|&count| count > 50), "{seen:?}");
+}
+
+#[test]
+fn wire_that_may_not_slide_sticks_and_one_step_slides_at_most_the_limit() {
+    let mut sticky = over_a_node(1e6, 1.0, 1e-4);
+    let mut slippery = over_a_node(0.0, 1.0, 1e-2);
+    slippery.settings.slide_limit = 1e-5;
+    for _ in 0..10 {
+        assert!(sticky.step(&[]).unwrap().slides.is_empty());
+        let slides = slippery.step(&[]).unwrap().slides;
+        // What is beyond gives way by as little as what sticks.
+        assert!((slides[0].distance + 1e-5).abs() < 1e-8, "{slides:?}");
+    }
+}
+
+#[test]
+fn wire_is_drawn_over_a_node_until_hardly_anything_is_left() {
+    let mut world = over_a_node(FRICTION, 1.0, 1.0);
+    // The end at the other side lets go.
+    world.wires[0].nodes[0].kind = NodeKind::Free;
+    while world.time() < 5.0 {
+        world.step(&[]).unwrap();
+    }
+    let left = world.wires[0].rest_length(0) / world.wires[0].resolution.length;
+    assert!((left * 16.0 - 1.0).abs() < 1e-3, "{left}");
+}
+
+#[test]
+fn contact_node_leaves_where_the_wire_turns_away_from_the_body_and_goes_on_with_its_wire() {
+    let mut world = over_a_node(FRICTION, -1.0, 0.0);
+    let slides = world.step(&[]).unwrap().slides;
+    assert!(slides.len() == 1 && slides[0].left);
+    assert_eq!(world.wires[0].nodes[1].kind, NodeKind::Free);
+    let mut stays = over_a_node(FRICTION, 1.0, 0.0);
+    assert!(stays.step(&[]).unwrap().slides.is_empty());
+    let wire = &mut world.wires[0];
+    wire.nodes[1].slide = -2.0;
+    let [before, after] = directions(wire, 1);
+    leave(wire, 1);
+    assert_eq!(
+        (wire.nodes[1].slide, wire.nodes[1].velocity),
+        (0.0, before + after)
+    );
+}
