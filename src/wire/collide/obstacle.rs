@@ -58,6 +58,11 @@ impl Obstacles {
         }
     }
 
+    /// Wall-clock time in s of its broad phase so far.
+    pub(super) fn broad_seconds(&self) -> f64 {
+        self.boxes.seconds
+    }
+
     /// The contacts of the step that starts now, and how many pairs were tested for them.
     pub(super) fn contacts(
         &mut self,

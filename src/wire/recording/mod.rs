@@ -48,7 +48,7 @@ pub use reader::Recording;
 pub use writer::Recorder;
 
 /// The version of the layout that is written, and the only one that is read.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 #[cfg(test)]
 mod tests;
