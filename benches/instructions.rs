@@ -22,6 +22,8 @@ use tunnelproof::narrow::NarrowPhase;
 use tunnelproof::query::EdgeEdge;
 use tunnelproof::thesis::Thesis;
 
+#[path = "data/crossed.rs"]
+mod crossed;
 mod data;
 mod scenes;
 #[path = "data/span.rs"]
@@ -49,8 +51,8 @@ fn main() {
                 steps.parse().unwrap(),
             );
         }
-        ["wire", segments, steps] => {
-            return step_wire(segments.parse().unwrap(), steps.parse().unwrap());
+        ["wire", scene, segments, steps] => {
+            return step_wire(scene, segments.parse().unwrap(), steps.parse().unwrap());
         }
         _ => {}
     }
@@ -121,13 +123,17 @@ fn broad_phases() {
 
 fn wires() {
     println!("\ninstructions of the wire stepper per segment and step");
+    println!("{:>17}{:>17}{:>17}", "", "swing", "contacts");
     for segments in span::SEGMENTS {
-        let steps = |steps: usize| {
-            let (segments, steps) = (segments.to_string(), steps.to_string());
-            instructions(&["wire", &segments, &steps])
-        };
-        let each = (steps(STEPS) - steps(0)) / (STEPS * segments) as u64;
-        println!("{segments:>8} segments{each:>17}");
+        let cells = ["swing", "contacts"].map(|scene| {
+            let steps = |steps: usize| {
+                let (segments, steps) = (segments.to_string(), steps.to_string());
+                instructions(&["wire", scene, &segments, &steps])
+            };
+            let each = (steps(STEPS) - steps(0)) / (STEPS * segments) as u64;
+            format!("{each:>17}")
+        });
+        println!("{segments:>8} segments{}", cells.concat());
     }
 }
 
@@ -208,10 +214,14 @@ fn last_step(scene: scenes::Scene, method: (&str, Method, bool), steps: usize) -
     (0..steps).map(|_| run.step()).last().unwrap_or(0)
 }
 
-fn step_wire(segments: usize, steps: usize) {
-    let mut world = span::world(segments);
+fn step_wire(scene: &str, segments: usize, steps: usize) {
+    if scene == "swing" {
+        let mut world = span::world(segments);
+        return (0..steps).for_each(|_| consume(world.step(&[]).unwrap()));
+    }
+    let (mut world, mut collisions) = crossed::world(segments);
     for _ in 0..steps {
-        consume(world.step(&[]).unwrap());
+        consume(world.step_colliding(&mut collisions, &[]).unwrap());
     }
 }
 

@@ -189,7 +189,7 @@ impl Summary {
     fn add(&mut self, record: &StepRecord) {
         self.steps += 1;
         self.time = record.time;
-        self.wall_collision += record.phases.collision;
+        self.wall_collision += record.phases.broad + record.phases.narrow;
         let found = &record.collisions;
         self.named += found.named;
         self.excluded += found.excluded;

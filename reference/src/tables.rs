@@ -8,8 +8,10 @@ use crate::audit::{Audit, Report};
 use crate::certify::table::grouped;
 use crate::simulate::{Narrow, Run, Summary};
 
+mod rows;
 mod starts;
 
+pub use rows::rows;
 pub use starts::starts;
 
 #[cfg(test)]

@@ -4,4 +4,6 @@
 pub mod analytic;
 pub mod figures;
 #[cfg(feature = "scenes")]
+pub mod rows;
+#[cfg(feature = "scenes")]
 pub mod scenes;

@@ -118,8 +118,10 @@ pub struct Phases {
     pub solve: f64,
     /// Contacts and friction.
     pub contacts: f64,
-    /// Collision detection between wires.
-    pub collision: f64,
+    /// Boxes of what may collide, and which of them meet.
+    pub broad: f64,
+    /// The rest of collision detection: pairs whose boxes meet, and what becomes of their contacts.
+    pub narrow: f64,
     /// Moving everything.
     pub commit: f64,
     /// Nodes that leave their bodies, and changes of resolution.

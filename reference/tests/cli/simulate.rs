@@ -1,4 +1,4 @@
-//! `simulate` and `audit` as a user runs them.
+//! `simulate`, `audit` and `table` as a user runs them.
 
 use std::path::Path;
 
@@ -132,4 +132,31 @@ fn schema_accepts_the_scenes_and_refuses_unknown_fields() {
         missing["wires"][0].as_object_mut().unwrap().remove("route");
         assert!(!schema.is_valid(&missing));
     }
+}
+
+#[test]
+fn table_has_the_rows_of_every_scene_and_all_hold() {
+    let output = tunnelproof(&["table", "rows"]);
+    let said = stdout(&output);
+    assert!(output.status.success(), "{said}{}", stderr(&output));
+    for (name, _) in EMBEDDED {
+        let head = said.lines().find(|line| line.starts_with(name));
+        assert!(
+            head.is_some_and(|head| head.ends_with("accepted")),
+            "{said}"
+        );
+    }
+    let row = |what: &str| {
+        let row = said.lines().find(|line| line.starts_with(what)).unwrap();
+        row[what.len()..].split_whitespace().collect::<Vec<_>>()
+    };
+    assert_eq!(row("thesis mode: tunnels"), ["2", "2", "2"]);
+    let collided = row("the wires collide, s");
+    assert_eq!(
+        (collided[0], &collided[2..]),
+        ("8.85", &["8.35", "to", "9.35"][..])
+    );
+    let output = tunnelproof(&["table", "rows", "--duration", "1"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(stderr(&output), "--duration: rows are of whole scenes\n");
 }

@@ -1,11 +1,14 @@
 //! The boxes of a numbered list of things in a broad phase.
 
 use crate::broad::{Aabb, BroadError, BroadPhase, ItemId, Method, Pair};
+use crate::wire::step::advance::Clock;
 
 /// Thing `k` of the list is item `k`.
 pub(super) struct Boxes {
     broad: BroadPhase,
     items: Vec<ItemId>,
+    /// Wall-clock time in s of all calls.
+    pub(super) seconds: f64,
 }
 
 impl Boxes {
@@ -13,6 +16,7 @@ impl Boxes {
         Boxes {
             broad: BroadPhase::new(method),
             items: Vec::new(),
+            seconds: 0.0,
         }
     }
 
@@ -21,6 +25,7 @@ impl Boxes {
         &mut self,
         boxes: impl ExactSizeIterator<Item = Result<Aabb, BroadError>>,
     ) -> Result<&[ItemId], BroadError> {
+        let mut clock = Clock::start();
         while self.items.len() > boxes.len() {
             if let Some(item) = self.items.pop() {
                 self.broad.remove(item)?;
@@ -32,12 +37,16 @@ impl Boxes {
                 None => self.items.push(self.broad.insert(aabb?)),
             }
         }
+        self.seconds += clock.lap();
         Ok(&self.items)
     }
 
     /// Pairs of things whose boxes meet and that `keep` does not refuse, by their numbers.
     pub(super) fn pairs(&mut self, mut keep: impl FnMut([usize; 2]) -> bool) -> &[Pair] {
         let numbers = |pair: Pair| [pair.first().index(), pair.second().index()];
-        self.broad.pairs(|pair| keep(numbers(pair)))
+        let mut clock = Clock::start();
+        let pairs = self.broad.pairs(|pair| keep(numbers(pair)));
+        self.seconds += clock.lap();
+        pairs
     }
 }

@@ -53,6 +53,11 @@ impl Pipeline {
         }
     }
 
+    /// Wall-clock time in s of its broad phase so far.
+    pub(super) fn broad_seconds(&self) -> f64 {
+        self.boxes.seconds
+    }
+
     /// The pairs that meet while `world` makes a motion, and those that end close.
     pub(super) fn detect(
         &mut self,

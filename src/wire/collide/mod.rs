@@ -51,14 +51,13 @@ pub use error::CollisionError;
 pub use record::{CollisionRecord, Crossing, Held, Outcome, PairAnswer, PairRecord};
 pub use segment::{SegmentId, Site};
 
-use std::time::Instant;
-
 use crate::broad::Method;
 use crate::certified::Certified;
 use crate::narrow::NarrowPhase;
 use crate::wire::StepRecord;
 use crate::wire::model::check::not_negative;
 use crate::wire::model::{ModelError, World};
+use crate::wire::step::advance::Clock;
 use crate::wire::step::{Contact, StepError};
 use detect::Pipeline;
 use guard::Guard;
@@ -143,6 +142,15 @@ impl<'n> Collisions<'n> {
     pub fn mode(&self) -> Mode {
         self.mode
     }
+
+    /// Wall-clock time in s of all broad phases so far.
+    fn broad_seconds(&self) -> f64 {
+        let obstacles = self
+            .obstacles
+            .as_ref()
+            .map_or(0.0, Obstacles::broad_seconds);
+        self.pipeline.broad_seconds() + obstacles
+    }
 }
 
 impl World {
@@ -162,15 +170,18 @@ impl World {
         collisions: &mut Collisions<'_>,
         given: &[Contact],
     ) -> Result<StepRecord, StepError> {
-        let start = Instant::now();
+        let before = collisions.broad_seconds();
+        let mut clock = Clock::start();
         let mut guard = Guard::new(collisions, self, given).map_err(|error| StepError {
             step: self.steps,
             reason: error.into(),
         })?;
-        let found = start.elapsed().as_secs_f64();
+        let found = clock.lap();
         let mut record = self.advance(&mut guard)?;
-        record.phases.collision += found;
+        clock.lap();
         record.collisions = guard.finish(self, &record.contacts);
+        record.phases.broad = collisions.broad_seconds() - before;
+        record.phases.narrow += found + clock.lap() - record.phases.broad;
         Ok(record)
     }
 }

@@ -58,6 +58,11 @@ impl Obstacles {
         }
     }
 
+    /// Wall-clock time in s of its broad phase so far.
+    pub(super) fn broad_seconds(&self) -> f64 {
+        self.boxes.seconds
+    }
+
     /// The contacts of the step that starts now, and how many pairs were tested for them.
     pub(super) fn contacts(
         &mut self,
@@ -101,21 +106,15 @@ impl Obstacles {
 
     /// Gives each contact the key of the nearest one of the last step between the same things.
     fn name(&mut self, contacts: &mut [Contact]) {
-        let mut old: BTreeMap<[usize; 3], Vec<Contact>> = BTreeMap::new();
+        let mut known = Known::default();
         for contact in self.last.drain(..) {
-            old.entry(things(&contact)).or_default().push(contact);
+            known.add(contact);
         }
         for contact in contacts.iter_mut() {
-            let known = old.entry(things(contact)).or_default();
-            let distance = |at: &usize| along(&known[*at].a, &contact.a);
-            let nearest = (0..known.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-            contact.key = match nearest {
-                Some(at) => known.swap_remove(at).key,
-                None => {
-                    self.given += 1;
-                    KEYS + self.given
-                }
-            };
+            contact.key = known.take_nearest(contact).unwrap_or_else(|| {
+                self.given += 1;
+                KEYS + self.given
+            });
         }
         self.last = contacts.to_vec();
     }
@@ -137,6 +136,45 @@ impl Obstacles {
     pub(super) fn pushes_between(&self, wire: WireId, from: f64, to: f64) -> bool {
         let inside = |&(other, arc): &(WireId, f64)| other == wire && arc > from && arc < to;
         self.pushed.iter().any(inside)
+    }
+}
+
+/// Contacts whose keys may be taken, by what they are between.
+#[derive(Default)]
+struct Known {
+    /// Those on wires: arc length as bits, which ascend as it does, then a number, and the key.
+    on_wires: BTreeMap<[usize; 3], BTreeMap<(u64, usize), u64>>,
+    between_bodies: BTreeMap<[usize; 3], Vec<Contact>>,
+}
+
+impl Known {
+    fn add(&mut self, contact: Contact) {
+        let things = things(&contact);
+        if let Place::Wire { arc, .. } = contact.a {
+            let keys = self.on_wires.entry(things).or_default();
+            keys.insert((arc.to_bits(), keys.len()), contact.key);
+        } else {
+            let contacts = self.between_bodies.entry(things).or_default();
+            contacts.push(contact);
+        }
+    }
+
+    /// Takes the key of the contact that is nearest to this one.
+    fn take_nearest(&mut self, contact: &Contact) -> Option<u64> {
+        let Place::Wire { arc, .. } = contact.a else {
+            let contacts = self.between_bodies.get_mut(&things(contact))?;
+            let distance = |at: &usize| along(&contacts[*at].a, &contact.a);
+            let all = 0..contacts.len();
+            let nearest = all.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+            return Some(contacts.swap_remove(nearest).key);
+        };
+        let keys = self.on_wires.get_mut(&things(contact))?;
+        let here = (arc.to_bits(), 0);
+        let around = [keys.range(..here).next_back(), keys.range(here..).next()];
+        let places = around.into_iter().flatten().map(|(place, _)| *place);
+        let distance = |(bits, _): &(u64, usize)| (f64::from_bits(*bits) - arc).abs();
+        let nearest = places.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        keys.remove(&nearest)
     }
 }
 

@@ -14,19 +14,6 @@ fn basic_collision() -> World {
     scene.world().unwrap()
 }
 
-fn outcomes(record: &StepRecord) -> impl Iterator<Item = Outcome> {
-    record.collisions.crossings.iter().map(|c| c.outcome)
-}
-
-/// Lowest point of the falling wire where the others are, at the end of scene 1, and its largest speed.
-fn rest(world: &World) -> (f64, f64) {
-    let nodes = world.wires()[2].nodes();
-    let speed = nodes.iter().map(|node| node.velocity.norm());
-    let over = nodes.iter().filter(|node| node.position.x.abs() <= 0.75);
-    let height = over.map(|node| node.position.z).fold(f64::MAX, f64::min);
-    (height, speed.fold(0.0, f64::max))
-}
-
 fn weightless() -> World {
     let gravity = Vector::zeros();
     World::new(Settings {
@@ -39,41 +26,6 @@ fn weightless() -> World {
 fn straight(from: [f64; 3], to: [f64; 3], stop: fn(Point) -> Stop) -> WirePlan {
     let route = [from, to].map(|point| stop(point.into()));
     WirePlan::new(Material::steel(0.02), 0.25, route.to_vec())
-}
-
-#[test]
-fn basic_collision_in_guard_mode_crosses_nothing_and_comes_to_rest_on_both() {
-    let mut world = basic_collision();
-    let mut collisions = Collisions::default();
-    let mut force = Vector::zeros();
-    for step in 0..300 {
-        let record = world.step_colliding(&mut collisions, &[]).unwrap();
-        assert!(outcomes(&record).all(|outcome| outcome == Outcome::Prevented));
-        assert!(record.collisions.held.is_empty(), "{step}");
-        // B of each contact is the falling wire, which was added last.
-        force = record.contacts.iter().map(|contact| -contact.force).sum();
-    }
-    let (height, speed) = rest(&world);
-    assert!(height > 0.03, "{height}");
-    assert!(speed < 0.05, "{speed}");
-    let weight = 193.48;
-    assert!((force.z - weight).abs() < 0.01 * weight, "{force}");
-}
-
-#[test]
-fn basic_collision_in_thesis_mode_tunnels_twice_and_is_pushed_back_twice() {
-    let mut world = basic_collision();
-    let mut collisions = Collisions::new(Mode::Thesis, Method::default(), &Certified);
-    let mut all = Vec::new();
-    for _ in 0..300 {
-        let record = world.step_colliding(&mut collisions, &[]).unwrap();
-        all.extend(outcomes(&record));
-    }
-    use Outcome::{Returned, Tunnelled};
-    assert_eq!(all, [Tunnelled, Tunnelled, Returned, Returned]);
-    let (height, speed) = rest(&world);
-    assert!(height > 0.03, "{height}");
-    assert!(speed < 0.05, "{speed}");
 }
 
 #[test]
@@ -119,7 +71,7 @@ fn wire_does_not_pass_through_itself() {
     let mut prevented = 0;
     for _ in 0..3 {
         let record = world.step_colliding(&mut collisions, &[]).unwrap();
-        prevented += outcomes(&record).count();
+        prevented += record.collisions.crossings.len();
         let [from, to] = [3, 4].map(|node| world.wires()[0].nodes()[node].position);
         let over = from.lerp(&to, from.y / (from.y - to.y));
         assert!(over.z > 0.039, "{over}");

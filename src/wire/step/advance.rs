@@ -91,7 +91,7 @@ impl World {
             capstan::check(self, &motion)?;
             let mut clock = Clock::start();
             let judgement = watch.judge(self, &motion, &candidate.swept.impulses)?;
-            phases.collision += clock.lap();
+            phases.narrow += clock.lap();
             match judgement {
                 Judgement::Accept => return Ok((candidate, motion)),
                 Judgement::Solve => candidate = self.settle(system, watch.contacts(), phases)?,
@@ -115,15 +115,15 @@ impl World {
 }
 
 /// Measures phases.
-pub(super) struct Clock(Instant);
+pub(in crate::wire) struct Clock(Instant);
 
 impl Clock {
-    pub(super) fn start() -> Self {
+    pub(in crate::wire) fn start() -> Self {
         Clock(Instant::now())
     }
 
     /// Seconds since the start or the last lap.
-    pub(super) fn lap(&mut self) -> f64 {
+    pub(in crate::wire) fn lap(&mut self) -> f64 {
         let now = Instant::now();
         let seconds = now.duration_since(self.0).as_secs_f64();
         self.0 = now;

@@ -1,6 +1,6 @@
 //! One step: SPOOK with contacts.
 
-mod advance;
+pub(super) mod advance;
 mod anderson;
 mod capstan;
 mod carrier;

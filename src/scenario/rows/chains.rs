@@ -1,0 +1,69 @@
+//! Scene 4: a box drags its chain across another one on a deck.
+
+use super::{First, Row, Rows, SceneRows, between_wires, pushing, run_guarded};
+
+pub(super) const ROWS: SceneRows = SceneRows {
+    scene: NAME,
+    run: rows,
+};
+
+const NAME: &str = "chains-on-deck";
+
+/// When the brown box pulls its chain taut, in s.
+const FIRST_PULL: [f64; 2] = [4.2, 5.0];
+const SECOND_PULL: [f64; 2] = [7.0, 8.3];
+
+fn rows() -> Rows {
+    let (mut touched, mut near) = (First::never(), First::never());
+    let mut tensions = Vec::new();
+    let crossed = run_guarded(NAME, |_, record| {
+        let arcs = pushing(record, between_wires);
+        if !arcs.is_empty() {
+            touched.note(record);
+        }
+        // Where the chains hang down from their boxes.
+        if arcs.iter().any(|[a, b]| a.max(*b) < 0.9) {
+            near.note(record);
+        }
+        let all = record.wires[1].tensions.iter();
+        tensions.push((record.time, all.fold(0.0, |a: f64, b| a.max(*b))));
+    })?;
+    let largest = |[from, to]: [f64; 2]| {
+        let inside = |(time, _): &&(f64, f64)| *time > from && *time <= to;
+        let inside = tensions.iter().filter(inside);
+        inside.fold(0.0, |a: f64, (_, tension)| a.max(*tension))
+    };
+    let slack = |what, thesis, during, pull| {
+        let ratio = largest(during) / largest(pull);
+        Row::between(what, thesis, ratio, [0.0, 0.1])
+    };
+    Ok(vec![
+        crossed,
+        Row::near("the chains touch, s", 2.1, touched.0, 0.5),
+        Row::near("the chains touch near both boxes, s", 3.08, near.0, 0.3),
+        slack(
+            "tension before 3 s, of that from 4.2 s to 5 s",
+            "not yet taut",
+            [1.0, 3.0],
+            FIRST_PULL,
+        ),
+        slack(
+            "tension from 5.3 s to 6.5 s, of that from 4.2 s to 5 s",
+            "released",
+            [5.3, 6.5],
+            FIRST_PULL,
+        ),
+        slack(
+            "tension from 5.3 s to 6.5 s, of that from 7 s to 8.3 s",
+            "released, then new",
+            [5.3, 6.5],
+            SECOND_PULL,
+        ),
+        slack(
+            "tension after the halt, of that from 7 s to 8.3 s",
+            "released",
+            [8.6, 9.0],
+            SECOND_PULL,
+        ),
+    ])
+}
