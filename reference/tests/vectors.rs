@@ -16,7 +16,6 @@ use std::process::Command;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use tunnelproof::certified::{self, Verdict};
-use tunnelproof::query::Query;
 use tunnelproof_reference::answer::{Enclosure, Parameters};
 use tunnelproof_reference::shadow::Shadow;
 use tunnelproof_reference::subject::{Answer, Certified, Subject};
