@@ -253,7 +253,7 @@ fn guard_commits_no_motion_in_which_midlines_meet() {
 /// infinity.
 #[test]
 fn guard_does_every_step_of_scenes_that_were_hard() {
-    for seed in [72, 1066, 3243, 9114] {
+    for seed in [72, 1066, 3243, 6060, 6644, 9114] {
         let mut tally = Tally::default();
         let method = [Method::SweepAndPrune, Method::HierarchicalGrid][seed as usize % 2];
         let mut collisions = Collisions::new(Mode::Guard, method, &Certified);

@@ -22,7 +22,7 @@ pub struct Settings {
     /// Approach speed in m/s above which a penetrating contact keeps nothing of its velocity
     /// (restitution 0); usual value 0.01.
     pub impact_speed: f64,
-    /// Most sweeps over the contacts in one solve, whichever segments of chains pull; usual value 200.
+    /// Most sweeps over the contacts in one solve; usual value 200.
     pub sweeps: usize,
     /// Velocity in m/s by which no contact may change in the last sweep; usual value 1e-8.
     pub contact_tolerance: f64,

@@ -9,7 +9,7 @@
 
 use std::ops::RangeInclusive;
 
-use nalgebra::{Cholesky, Matrix3, U3};
+use nalgebra::Matrix3;
 use smallvec::SmallVec;
 
 use super::anderson;
@@ -40,7 +40,6 @@ pub(super) struct Block {
     pub(super) pivots: Vec<f64>,
     /// `Y^T D^-1 Y`, with the regularisation of the normal row.
     pub(super) mobility: Matrix3<f64>,
-    factor: Option<Cholesky<f64, U3>>,
     sigma: f64,
     /// Velocity without contact impulses, less what is asked for.
     pub(super) bias: Vector,
@@ -61,84 +60,44 @@ pub(super) struct Swept {
     pub(super) residual: f64,
 }
 
-/// Contacts on the way to where they settle, for the system as factored.
-pub(super) struct Sweeping {
-    blocks: Blocks,
-    /// Those of the world, with as many sweeps as these contacts have.
-    settings: Settings,
-    /// Sweeps done and the last change; no impulses.
-    count: Swept,
-}
-
-impl Sweeping {
-    /// From impulses and a count of sweeps on. `free` is the solution without contacts.
-    ///
-    /// Sweeps with a formed Schur complement come three to ten times as close to the solution; three fifths of the sweeps
-    /// are enough for them.
-    pub(super) fn new(
-        world: &World,
-        system: &System,
-        contacts: &[Contact],
-        free: &[f64],
-        start: &Swept,
-    ) -> Self {
-        let mut settings = world.settings.clone();
-        if FORMED.contains(&contacts.len()) {
-            settings.sweeps = settings.sweeps * 3 / 5;
-        }
-        Sweeping {
-            blocks: Blocks::new(world, system, contacts, free, &start.impulses),
-            settings,
-            count: Swept {
-                sweeps: start.sweeps,
-                residual: f64::INFINITY,
-                ..Swept::default()
-            },
-        }
-    }
-
-    /// Whether the contacts have settled, or there are no more sweeps.
-    pub(super) fn is_done(&self) -> bool {
-        self.count.is_done(&self.settings)
-    }
-
-    /// Whether there are sweeps left.
-    pub(super) fn may_sweep(&self) -> bool {
-        self.count.sweeps < self.settings.sweeps
-    }
-
-    /// A few sweeps.
-    pub(super) fn begin(&mut self) {
-        let sweep = || self.blocks.relax();
-        self.count.repeat(&self.settings, FIRST_SWEEPS, sweep);
-    }
-
-    /// Sweeps until it is done.
-    pub(super) fn finish(&mut self) {
-        let blocks = &mut self.blocks;
-        if !self.count.is_done(&self.settings) && FORMED.contains(&blocks.list.len()) {
+/// Contact impulses for the system as factored, from a start on. `free` is the solution without contacts.
+///
+/// Sweeps with a formed Schur complement come three to ten times as close to the solution; three fifths of the sweeps are
+/// enough for them.
+pub(super) fn sweep(
+    world: &World,
+    system: &System,
+    contacts: &[Contact],
+    free: &[f64],
+    start: &[Vector],
+) -> Swept {
+    let settings = &world.settings;
+    let mut blocks = Blocks::new(world, system, contacts, free, start);
+    let mut swept = Swept::default();
+    if FORMED.contains(&contacts.len()) {
+        let sweeps = settings.sweeps * 3 / 5;
+        let settings = Settings {
+            sweeps,
+            ..settings.clone()
+        };
+        swept.repeat(&settings, FIRST_SWEEPS, || blocks.relax());
+        if !swept.is_done(&settings) {
             let delassus = Delassus::new(&blocks.list);
-            anderson::sweep(delassus, &mut blocks.list, &self.settings, &mut self.count);
-        } else {
-            let sweep = || blocks.relax();
-            self.count.repeat(&self.settings, usize::MAX, sweep);
+            anderson::sweep(delassus, &mut blocks.list, &settings, &mut swept);
         }
+    } else {
+        swept.repeat(settings, usize::MAX, || blocks.relax());
     }
-
-    /// The impulses so far.
-    pub(super) fn swept(&self) -> Swept {
-        let mut swept = self.count.clone();
-        for block in &self.blocks.list {
-            let impulse = block.frame.tr_mul(&block.impulse);
-            for (carrier, share) in &block.terms {
-                let mut columns = Columns::new();
-                carrier.columns(&(impulse * *share), &mut columns);
-                swept.columns.extend(columns);
-            }
-            swept.impulses.push(impulse);
+    for block in &blocks.list {
+        let impulse = block.frame.tr_mul(&block.impulse);
+        for (carrier, share) in &block.terms {
+            let mut columns = Columns::new();
+            carrier.columns(&(impulse * *share), &mut columns);
+            swept.columns.extend(columns);
         }
-        swept
+        swept.impulses.push(impulse);
     }
+    swept
 }
 
 /// By how much one more sweep would change the velocity of a contact at most, in m/s, if these impulses are held for
@@ -248,7 +207,6 @@ impl Block {
             terms,
             sparse,
             pivots,
-            factor: mobility.cholesky(),
             mobility,
             sigma,
         }
@@ -284,8 +242,7 @@ impl Block {
     /// changes.
     pub(super) fn solve(&mut self, excess: &Vector) -> Vector {
         let others = excess - self.mobility * self.impulse;
-        let (mobility, factor) = (&self.mobility, self.factor.as_ref());
-        let impulse = solve_block(mobility, factor, &others, self.friction, &self.impulse);
+        let impulse = solve_block(&self.mobility, &others, self.friction, &self.impulse);
         let change = impulse - self.impulse;
         self.impulse = impulse;
         change

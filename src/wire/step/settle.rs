@@ -4,9 +4,10 @@ use super::Contact;
 use super::advance::Clock;
 use super::capstan::{bounds_lack, stop_slip};
 use super::error::Reason;
-use super::friction::{Sweeping, Swept, lack};
+use super::friction::{Swept, lack, sweep};
 use super::slack::{contradict, pull};
 use super::system::System;
+use crate::wire::Vector;
 use crate::wire::model::World;
 use crate::wire::record::{Phases, SolverRecord};
 
@@ -17,8 +18,6 @@ const ROUNDS: usize = 20;
 pub(super) struct Candidate {
     pub(super) x: Vec<f64>,
     pub(super) swept: Swept,
-    /// There are contacts, and sweeps left for them.
-    may_sweep: bool,
     pub(super) solver: SolverRecord,
 }
 
@@ -27,8 +26,8 @@ impl World {
     /// slide over contact nodes, starting from those that did in the last step.
     ///
     /// Contacts are swept while the same segments pull; then it is found which pull and slide under these impulses, until
-    /// that changes nothing. Friction may let it change for ever: after [`ROUNDS`], or when there are no more sweeps, the
-    /// impulses are held, and what contacts lack then is in the record.
+    /// that changes nothing. Friction may let it change for ever: after [`ROUNDS`] the impulses are held, and what
+    /// contacts lack then is in the record.
     pub(super) fn settle(
         &self,
         system: &mut System,
@@ -38,14 +37,10 @@ impl World {
         let mut clock = Clock::start();
         system.factor()?;
         phases.factor += clock.lap();
-        let impulses = contacts
+        let start = contacts
             .iter()
             .map(|contact| self.warm.impulse(contact.key));
-        let start = Swept {
-            impulses: impulses.collect(),
-            ..Swept::default()
-        };
-        let mut candidate = self.solve(system, contacts, &start, phases)?;
+        let mut candidate = self.solve(system, contacts, &start.collect::<Vec<_>>(), phases)?;
         let mut tries = 1;
         for round in 1..=ROUNDS {
             if !contradict(&system.rows, &candidate.x) {
@@ -55,8 +50,9 @@ impl World {
             let pulled = pull(system, &candidate.swept.columns, candidate.x)?;
             phases.factor += clock.lap();
             tries += pulled.tries;
-            if round < ROUNDS && candidate.may_sweep {
-                candidate = self.solve(system, contacts, &candidate.swept, phases)?;
+            if round < ROUNDS && !contacts.is_empty() {
+                let impulses = candidate.swept.impulses;
+                candidate = self.solve(system, contacts, &impulses, phases)?;
                 continue;
             }
             (candidate.x, candidate.solver.residual) = (pulled.x, pulled.residual);
@@ -74,30 +70,21 @@ impl World {
         Ok(candidate)
     }
 
-    /// The solution with the rows as they were factored, with contact impulses from a start on. If after a few sweeps
-    /// other segments of chains pull, the rest is not worth its while.
+    /// The solution with the rows as they were factored, with contact impulses from a start on.
     fn solve(
         &self,
         system: &System,
         contacts: &[Contact],
-        start: &Swept,
+        start: &[Vector],
         phases: &mut Phases,
     ) -> Result<Candidate, Reason> {
         let mut clock = Clock::start();
         let (mut x, mut residual) = system.solve(&[])?;
         phases.solve += clock.lap();
         let mut swept = Swept::default();
-        let mut may_sweep = false;
         if !contacts.is_empty() {
-            let mut sweeping = Sweeping::new(self, system, contacts, &x, start);
-            sweeping.begin();
-            (x, residual) = system.solve(&sweeping.swept().columns)?;
-            if !(sweeping.is_done() || contradict(&system.rows, &x)) {
-                sweeping.finish();
-                (x, residual) = system.solve(&sweeping.swept().columns)?;
-            }
-            may_sweep = sweeping.may_sweep();
-            swept = sweeping.swept();
+            swept = sweep(self, system, contacts, &x, start);
+            (x, residual) = system.solve(&swept.columns)?;
             phases.contacts += clock.lap();
         }
         let solver = SolverRecord {
@@ -107,11 +94,6 @@ impl World {
             contact_residual: swept.residual,
             slide_residual: 0.0,
         };
-        Ok(Candidate {
-            x,
-            swept,
-            may_sweep,
-            solver,
-        })
+        Ok(Candidate { x, swept, solver })
     }
 }
