@@ -11,7 +11,7 @@ pub(super) const ROWS: SceneRows = SceneRows {
 const NAME: &str = "basic-collision";
 
 /// Of the falling wire, in N.
-const WEIGHT: f64 = 193.5;
+const WEIGHT: f64 = 193.48;
 
 fn rows() -> Rows {
     let (mut tunnels, mut returns, mut thesis) = (0, 0, Rest::default());

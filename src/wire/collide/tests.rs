@@ -28,6 +28,21 @@ fn straight(from: [f64; 3], to: [f64; 3], stop: fn(Point) -> Stop) -> WirePlan {
     WirePlan::new(Material::steel(0.02), 0.25, route.to_vec())
 }
 
+/// `scenario::rows` has how many of each; here is their order.
+#[test]
+fn basic_collision_in_thesis_mode_tunnels_twice_and_is_pushed_back_twice() {
+    let mut world = basic_collision();
+    let mut collisions = Collisions::new(Mode::Thesis, Method::default(), &Certified);
+    let mut all = Vec::new();
+    for _ in 0..300 {
+        let record = world.step_colliding(&mut collisions, &[]).unwrap();
+        let crossings = record.collisions.crossings.iter();
+        all.extend(crossings.map(|crossing| crossing.outcome));
+    }
+    use Outcome::{Returned, Tunnelled};
+    assert_eq!(all, [Tunnelled, Tunnelled, Returned, Returned]);
+}
+
 #[test]
 fn broad_phases_lead_to_the_same_bits() {
     let run = |method| {

@@ -10,9 +10,9 @@ use smallvec::{SmallVec, smallvec};
 
 use super::carrier::Layout;
 use super::error::Reason;
-use super::law::Law;
+use super::law::{Law, friction};
 use super::motion::{Motion, Sliding};
-use super::rows::Row;
+use super::rows::{Row, unit};
 use crate::wire::Vector;
 use crate::wire::model::{NodeKind, Wire, WireId, World};
 
@@ -46,13 +46,12 @@ pub(super) fn grips(world: &World, layout: &Layout) -> Vec<Row> {
             let segment = first - at + node;
             let share = friction_share(wire, node);
             let tensions = [node - 1, node].map(|beside| wire.segments[beside].tension);
-            let mut law = Law::Grips {
+            let law = Law::Grips {
                 share,
                 tensions: [segment - 1, segment].map(|beside| layout.stretch[beside]),
-                bound: 0.0,
+                bound: friction(share, tensions.map(|tension| tension * world.settings.step)),
                 reach: reach(wire, node, world),
             };
-            law.bind(tensions.map(|tension| tension * world.settings.step));
             let sigma = SLIP / wire.node_mass(node);
             rows.push(Row {
                 multiplier: column + 1,
@@ -110,9 +109,7 @@ fn reach(wire: &Wire, node: usize, world: &World) -> [f64; 2] {
 /// Sets the bounds of friction to what follows from a solution.
 pub(super) fn update_bounds(rows: &mut [Row], x: &[f64]) {
     for row in rows {
-        if let Law::Grips { tensions, .. } = row.law {
-            row.law.bind(tensions.map(|multiplier| x[multiplier]));
-        }
+        row.law.follow(x);
     }
 }
 
@@ -210,10 +207,7 @@ fn contact_nodes(wire: &Wire) -> Vec<usize> {
 }
 
 fn directions(wire: &Wire, node: usize) -> [Vector; 2] {
-    [node - 1, node].map(|segment| {
-        let span = wire.span(segment);
-        span / span.norm().max(f64::MIN_POSITIVE)
-    })
+    [node - 1, node].map(|segment| unit(&wire.span(segment)).0)
 }
 
 #[cfg(test)]

@@ -67,31 +67,34 @@ impl Piece {
     }
 }
 
+/// The bound of friction that has this share of two pulls, in N s. With a share from 1 on the wire sticks whatever they are.
+pub(super) fn friction(share: f64, pulls: [f64; 2]) -> f64 {
+    if share < 1.0 {
+        share * (pulls[0].max(0.0) + pulls[1].max(0.0))
+    } else {
+        f64::INFINITY
+    }
+}
+
 impl Law {
-    /// Sets the bound of friction that follows from tensions, in N s. With a share from 1 on the wire sticks whatever
-    /// they are.
-    pub(super) fn bind(&mut self, pulls: [f64; 2]) {
-        if let Law::Grips { share, bound, .. } = self {
-            *bound = match *share < 1.0 {
-                true => *share * (pulls[0].max(0.0) + pulls[1].max(0.0)),
-                false => f64::INFINITY,
-            };
+    /// The bound of friction, and the one that follows from a solution.
+    pub(super) fn bounds(&self, x: &[f64]) -> Option<[f64; 2]> {
+        match *self {
+            Law::Grips {
+                share,
+                tensions,
+                bound,
+                ..
+            } => Some([bound, friction(share, tensions.map(|at| x[at]))]),
+            _ => None,
         }
     }
 
-    /// The bound of friction, and the one that follows from a solution.
-    pub(super) fn bounds(&self, x: &[f64]) -> Option<[f64; 2]> {
-        let Law::Grips {
-            bound, tensions, ..
-        } = *self
-        else {
-            return None;
-        };
-        let mut due = *self;
-        due.bind(tensions.map(|multiplier| x[multiplier]));
-        match due {
-            Law::Grips { bound: due, .. } => Some([bound, due]),
-            _ => None,
+    /// Sets the bound of friction to the one that follows from a solution.
+    pub(super) fn follow(&mut self, x: &[f64]) {
+        let bounds = self.bounds(x);
+        if let (Law::Grips { bound, .. }, Some([_, due])) = (self, bounds) {
+            *bound = due;
         }
     }
 
@@ -177,6 +180,18 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn friction_is_a_share_of_what_pulls_and_has_no_end_from_the_whole_on() {
+        assert_eq!(friction(0.25, [4.0, 2.0]), 1.5);
+        assert_eq!(friction(0.25, [4.0, -2.0]), 1.0);
+        for share in [1.0, f64::INFINITY] {
+            assert_eq!(friction(share, [0.0, 0.0]), f64::INFINITY);
+        }
+        let mut law = grips(0.0);
+        law.follow(&[30.0, 20.0]);
+        assert_eq!(law.bounds(&[10.0, 0.0]), Some([5.0, 1.0]));
     }
 
     #[test]

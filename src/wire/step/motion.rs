@@ -13,7 +13,7 @@ pub(in crate::wire) struct Motion {
     bodies: Vec<BodyMotion>,
     /// Position and velocity of each node, by wire.
     pub(in crate::wire) wires: Vec<Vec<(Point, Vector)>>,
-    /// Every contact node.
+    /// Every contact node, by wire and node.
     pub(super) slides: Vec<Sliding>,
 }
 
@@ -134,9 +134,9 @@ impl Motion {
 
     /// How fast the arc length of a node grows, in m/s.
     pub(super) fn speed(&self, wire: usize, node: usize) -> f64 {
-        let mut slides = self.slides.iter();
-        let slid = slides.find(|slid| (slid.wire, slid.node) == (wire, node));
-        slid.map_or(0.0, |slid| slid.speed)
+        let of = |slid: &Sliding| (slid.wire, slid.node);
+        let slid = self.slides.binary_search_by_key(&(wire, node), of);
+        slid.map_or(0.0, |at| self.slides[at].speed)
     }
 
     /// Moves a world. Returns how wires slid.
