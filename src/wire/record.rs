@@ -94,12 +94,13 @@ impl ContactRecord {
 pub struct SolverRecord {
     /// Backward error of the solution.
     pub residual: f64,
-    /// Factorisations: 1, and one more for every wrong guess of which segments of chains pull.
+    /// Factorisations: 1, and one more for every wrong guess of which segments of chains pull, or for every step of Newton's
+    /// method where contacts are in the system.
     pub tries: usize,
-    /// Sweeps over the contacts.
+    /// Sweeps over the contacts; 0 where they are in the system.
     pub sweeps: usize,
-    /// Change of a contact's velocity in the last sweep at most, in m/s; above the tolerance of the
-    /// settings if the sweeps were not enough.
+    /// By how much velocities of contacts are off at most, in m/s: the change in the last sweep, or what was not foretold.
+    /// Above the tolerance of the settings if that took too long.
     pub contact_residual: f64,
     /// By how much the friction at a contact node was bounded otherwise than the tensions beside it bound it, as a share
     /// of the largest; above 1e-9 only if rounds were not enough.
@@ -116,7 +117,7 @@ pub struct Phases {
     pub factor: f64,
     /// Solving it without contacts.
     pub solve: f64,
-    /// Contacts and friction.
+    /// Contacts and friction; where contacts are in the system, all of its solution.
     pub contacts: f64,
     /// Boxes of what may collide, and which of them meet.
     pub broad: f64,

@@ -22,9 +22,9 @@ pub struct Settings {
     /// Approach speed in m/s above which a penetrating contact keeps nothing of its velocity
     /// (restitution 0); usual value 0.01.
     pub impact_speed: f64,
-    /// Most sweeps over the contacts in one solve; usual value 200.
+    /// Most sweeps over contacts that are swept in one solve; usual value 200.
     pub sweeps: usize,
-    /// Velocity in m/s by which no contact may change in the last sweep; usual value 1e-8.
+    /// Velocity in m/s by which contacts may be off: by which none may change in the last sweep; usual value 1e-8.
     pub contact_tolerance: f64,
     /// Stability margin of a segment's length: `l_min >= h sqrt(T / mu) / margin`, below 1; usual
     /// value 0.8.

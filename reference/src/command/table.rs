@@ -32,7 +32,7 @@ enum Which {
     /// Which cases occur in each scene
     #[value(name = "4.1")]
     Cases,
-    /// Run time of continuous detection against discrete at the largest step that does not tunnel
+    /// Run time of continuous detection against discrete at the largest step that does not tunnel, from one start and from eleven
     #[value(name = "4.2")]
     Times,
     /// What the thesis says of each scene beside what comes out, and whether that is accepted
@@ -52,7 +52,7 @@ impl Table {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
         let text = match self.table {
             Which::Cases => cases(&scenes(self.duration)?)?,
-            Which::Times => times(&scenes(self.duration)?)?,
+            Which::Times => times(&scenes(self.duration)?, STARTS, perturb::USUAL)?,
             Which::Rows if self.duration.is_finite() => {
                 return Err(Failure::File {
                     path: "--duration".to_owned(),

@@ -48,6 +48,26 @@ fn largest_discrete_step_of_scene_1_does_not_tunnel_and_the_next_does() {
 }
 
 #[test]
+fn safe_discrete_step_is_the_largest_at_which_no_start_tunnels() {
+    let scene = &basic_collision(0.1)[0];
+    let safe = |longest, most| safe_discrete_step(scene, longest, 3, most).unwrap();
+    assert_eq!(safe(0.004, 1e-3), Some(0.004));
+    // Starts that lie apart by up to the wires' thickness need another step than the scene.
+    let step = safe(0.004, 0.02).unwrap();
+    assert!(step < 0.004, "{step}");
+    let tunnels = |step| {
+        let starts = (1..=3).map(|seed| perturbed(scene, seed, 0.02));
+        let runs = starts.map(|mut start| {
+            start.settings.step = step;
+            audited(&start, Narrow::Discrete, Mode::Thesis).unwrap()
+        });
+        runs.filter(|run| !run.report.is_clean()).count()
+    };
+    assert_eq!(tunnels(step), 0);
+    assert!(tunnels(step + 0.001) > 0);
+}
+
+#[test]
 fn table_of_starts_has_a_clean_row_for_each_start_of_scene_1() {
     let text = starts(&basic_collision(0.1), 3, 0.001).unwrap();
     let rows: Vec<_> = text.lines().skip(3).collect();

@@ -53,7 +53,8 @@ pub(super) fn to_cone(impulse: &Vector, friction: f64) -> Vector {
     Vector::new(normal, tangential.x, tangential.y)
 }
 
-fn to_disk(vector: Vector2<f64>, radius: f64) -> Vector2<f64> {
+/// The nearest of a disk.
+pub(super) fn to_disk(vector: Vector2<f64>, radius: f64) -> Vector2<f64> {
     let length = vector.norm();
     if length > radius {
         vector * (radius / length)

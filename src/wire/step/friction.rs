@@ -193,7 +193,7 @@ impl Block {
             mobility += row * row.transpose() / *pivot;
         }
         let speed = velocity_of(world, &contact.a) - velocity_of(world, &contact.b);
-        let (target, sigma) = normal_row(&world.settings, contact, speed.dot(&contact.normal));
+        let [target, sigma] = normal_row(&world.settings, contact, speed.dot(&contact.normal));
         mobility[(0, 0)] += sigma;
         let velocity: Vector = terms
             .iter()
@@ -270,9 +270,9 @@ fn columns(
 
 /// What the normal row asks for and its regularisation. Apart, `J v+ >= -g/h`; where the two penetrate,
 /// a SPOOK row, which forgets the velocity of an impact.
-fn normal_row(settings: &Settings, contact: &Contact, speed: f64) -> (f64, f64) {
+pub(super) fn normal_row(settings: &Settings, contact: &Contact, speed: f64) -> [f64; 2] {
     if contact.gap >= 0.0 {
-        return (-contact.gap / settings.step, 0.0);
+        return [-contact.gap / settings.step, 0.0];
     }
     let damping = settings.contact_damping * settings.step;
     let spook = Spook::new(settings.contact_compliance, damping, settings.step);
@@ -281,11 +281,11 @@ fn normal_row(settings: &Settings, contact: &Contact, speed: f64) -> (f64, f64) 
     } else {
         speed
     };
-    (spook.target(contact.gap, kept), spook.sigma)
+    [spook.target(contact.gap, kept), spook.sigma]
 }
 
 /// The velocity of a place before the step.
-fn velocity_of(world: &World, place: &Place) -> Vector {
+pub(super) fn velocity_of(world: &World, place: &Place) -> Vector {
     match *place {
         Place::World => Vector::zeros(),
         Place::Body { body, local } => world.bodies[body.0].velocity_at(&local),

@@ -2,6 +2,7 @@
 
 pub(super) mod advance;
 mod anderson;
+mod augmented;
 mod capstan;
 mod carrier;
 pub(super) mod contact;
@@ -9,6 +10,7 @@ mod coulomb;
 mod delassus;
 mod error;
 mod friction;
+mod implicit;
 mod law;
 pub(super) mod motion;
 mod rows;
@@ -16,6 +18,7 @@ mod settle;
 mod slack;
 mod spin;
 pub(super) mod system;
+mod touching;
 pub(super) mod watch;
 
 pub use capstan::Slide;

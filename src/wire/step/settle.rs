@@ -5,8 +5,10 @@ use super::advance::Clock;
 use super::capstan::{bounds_lack, stop_slip};
 use super::error::Reason;
 use super::friction::{Swept, lack, sweep};
+use super::implicit;
 use super::slack::{contradict, pull};
 use super::system::System;
+use super::touching;
 use crate::wire::Vector;
 use crate::wire::model::World;
 use crate::wire::record::{Phases, SolverRecord};
@@ -34,13 +36,21 @@ impl World {
         contacts: &[Contact],
         phases: &mut Phases,
     ) -> Result<Candidate, Reason> {
+        let start: Vec<Vector> = contacts
+            .iter()
+            .map(|contact| self.warm.impulse(contact.key))
+            .collect();
+        if implicit::suits(self, &system.layout, contacts) {
+            let found = self.settle_touching(system, contacts, &start, phases);
+            // What does not come to an end is swept.
+            if let Some(candidate) = found {
+                return Ok(candidate);
+            }
+        }
         let mut clock = Clock::start();
         system.factor()?;
         phases.factor += clock.lap();
-        let start = contacts
-            .iter()
-            .map(|contact| self.warm.impulse(contact.key));
-        let mut candidate = self.solve(system, contacts, &start.collect::<Vec<_>>(), phases)?;
+        let mut candidate = self.solve(system, contacts, &start, phases)?;
         let mut tries = 1;
         for round in 1..=ROUNDS {
             if !contradict(&system.rows, &candidate.x) {
@@ -68,6 +78,42 @@ impl World {
         candidate.solver.slide_residual = bounds_lack(&system.rows, &candidate.x);
         stop_slip(&system.rows, &mut candidate.x);
         Ok(candidate)
+    }
+
+    /// The same with the contacts in the system, from impulses that are foretold. None if that does not come to an end.
+    fn settle_touching(
+        &self,
+        system: &mut System,
+        contacts: &[Contact],
+        foretold: &[Vector],
+        phases: &mut Phases,
+    ) -> Option<Candidate> {
+        let mut clock = Clock::start();
+        system.take(self, contacts, foretold);
+        let found = touching::find(system, system.start(self), self.settings.contact_tolerance);
+        let touching = std::mem::take(&mut system.implicit);
+        phases.contacts += clock.lap();
+        let mut found = found.ok()?;
+        let solver = SolverRecord {
+            residual: found.residual,
+            tries: found.tries,
+            sweeps: 0,
+            contact_residual: found.lack,
+            slide_residual: bounds_lack(&system.rows, &found.x),
+        };
+        let impulses = touching
+            .iter()
+            .map(|contact| contact.world_impulse(&found.x));
+        let swept = Swept {
+            impulses: impulses.collect(),
+            ..Swept::default()
+        };
+        stop_slip(&system.rows, &mut found.x);
+        Some(Candidate {
+            x: found.x,
+            swept,
+            solver,
+        })
     }
 
     /// The solution with the rows as they were factored, with contact impulses from a start on.

@@ -40,7 +40,8 @@ pub(super) fn contradict(rows: &[Row], x: &[f64]) -> bool {
     leaves_piece(rows, x) || capstan::bounds_differ(rows, x)
 }
 
-fn leaves_piece(rows: &[Row], x: &[f64]) -> bool {
+/// Whether a solution is not where the pieces of the rows are their laws.
+pub(super) fn leaves_piece(rows: &[Row], x: &[f64]) -> bool {
     const ROUNDING: f64 = 1e-12;
     let changing = || rows.iter().filter(|row| row.may_change());
     let fastest = changing().fold(0.0, |a: f64, row| a.max(row.speed(x)));
@@ -60,22 +61,14 @@ pub(super) fn pull(
 ) -> Result<Pulled, Reason> {
     let (mut tries, mut updates) = (0, 0);
     for _ in 0..TRIES {
-        let mut changed = false;
-        for row in system.rows.iter_mut().filter(|row| row.may_change()) {
-            let piece = row.law.piece(row.excess(&x), row.sigma);
-            changed |= (piece.active, piece.start) != (row.piece.active, row.piece.start);
-            row.piece = piece;
-        }
-        if changed {
+        if take_pieces(&mut system.rows, &x) {
             system.factor()?;
             tries += 1;
         }
         let (newton, residual) = system.solve(impulses)?;
         if leaves_piece(&system.rows, &newton) {
-            let share = line_search(system, &x, &newton);
-            for (x, newton) in x.iter_mut().zip(&newton) {
-                *x += share * (newton - *x);
-            }
+            let share = line_search(system, &x, &newton, 0.0);
+            go(&mut x, &newton, share);
             continue;
         }
         x = newton;
@@ -88,8 +81,26 @@ pub(super) fn pull(
     Err(Reason::Slack { tries: TRIES })
 }
 
-/// The share of the way from `x` to the Newton point at which the function is least, at most 1.
-fn line_search(system: &System, x: &[f64], newton: &[f64]) -> f64 {
+/// Takes the pieces that hold at a solution; whether the system is another one with them.
+pub(super) fn take_pieces(rows: &mut [Row], x: &[f64]) -> bool {
+    let mut changed = false;
+    for row in rows.iter_mut().filter(|row| row.may_change()) {
+        let piece = row.law.piece(row.excess(x), row.sigma);
+        changed |= (piece.active, piece.start) != (row.piece.active, row.piece.start);
+        row.piece = piece;
+    }
+    changed
+}
+
+/// Goes a share of the way.
+pub(super) fn go(x: &mut [f64], newton: &[f64], share: f64) {
+    for (x, newton) in x.iter_mut().zip(newton) {
+        *x += share * (newton - *x);
+    }
+}
+
+/// The share of the way from `x` to the Newton point at which the function is least, at most 1, to a share of itself.
+pub(super) fn line_search(system: &System, x: &[f64], newton: &[f64], resolution: f64) -> f64 {
     // Quadratic as factored, the slope would rise from `-curvature` to 0 on the way.
     let mut way: Vec<f64> = newton.iter().zip(x).map(|(to, from)| to - from).collect();
     let mut changes = Vec::new();
@@ -101,6 +112,10 @@ fn line_search(system: &System, x: &[f64], newton: &[f64]) -> f64 {
             changes.push((ends, row));
         }
     }
+    let contacts = system.implicit.iter();
+    let contacts: Vec<_> = contacts
+        .map(|contact| contact.slope_between(x, newton))
+        .collect();
     let curvature = system.curvature(&way);
     let slope = |share: f64| {
         let terms = changes.iter().map(|([start, end], row)| {
@@ -109,12 +124,13 @@ fn line_search(system: &System, x: &[f64], newton: &[f64]) -> f64 {
             let law = row.law.piece(excess, row.sigma).load(excess, row.sigma);
             rise / row.sigma * (law - row.piece.load(excess, row.sigma))
         });
-        (share - 1.0) * curvature + terms.sum::<f64>()
+        let contacts = contacts.iter().map(|slope| slope(share));
+        (share - 1.0) * curvature + terms.sum::<f64>() + contacts.sum::<f64>()
     };
     if slope(1.0) <= 0.0 {
         return 1.0;
     }
-    bisect(1.0, |share| slope(share) < 0.0)
+    bisect(1.0, resolution, |share| slope(share) < 0.0)
 }
 
 #[cfg(test)]

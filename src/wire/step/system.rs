@@ -3,7 +3,9 @@
 use nalgebra::Matrix3;
 
 use super::carrier::{Carrier, Columns, Layout};
+use super::contact::Contact;
 use super::error::Reason;
+use super::implicit::Implicit;
 use super::law::Piece;
 use super::rows::{Row, rows, unit};
 use super::spin::spin_freely;
@@ -27,7 +29,9 @@ pub(in crate::wire) struct Structure {
 pub(super) struct System {
     pub(super) layout: Layout,
     pub(super) rows: Vec<Row>,
-    /// Entries: first those of masses, then those of rows.
+    /// Contacts that are solved with the rest.
+    pub(super) implicit: Vec<Implicit>,
+    /// Entries: first those of masses, then those of contacts and rows.
     triplets: Triplets,
     mass_entries: usize,
     /// Whether an unknown is a velocity.
@@ -49,6 +53,7 @@ impl System {
             structure,
             layout,
             rows,
+            implicit: Vec::new(),
         };
         for row in &system.rows {
             system.is_velocity[row.multiplier] = false;
@@ -143,10 +148,56 @@ impl System {
         }
     }
 
+    /// Takes contacts into the system, with the impulses that are foretold for them.
+    pub(super) fn take(&mut self, world: &World, contacts: &[Contact], impulses: &[Vector]) {
+        let mut masses = vec![0.0; self.layout.size];
+        let entries = self.triplets.index.iter().zip(&self.triplets.value);
+        for (&(i, j), value) in entries.take(self.mass_entries) {
+            if i == j {
+                masses[i as usize] += value;
+            }
+        }
+        let contacts = contacts.iter().zip(impulses);
+        let contacts = contacts.map(|(contact, impulse)| {
+            Implicit::new(world, &self.layout, &masses, contact, impulse)
+        });
+        self.implicit = contacts.collect();
+    }
+
+    /// The velocities before the step.
+    pub(super) fn start(&self, world: &World) -> Vec<f64> {
+        let mut x = vec![0.0; self.layout.size];
+        let mut take = |first: usize, velocity: &Vector| {
+            x[first..first + 3].copy_from_slice(velocity.as_slice());
+        };
+        for (body, first) in world.bodies.iter().zip(&self.layout.bodies) {
+            if let Some(first) = *first {
+                take(first, &body.velocity);
+                take(first + 3, &body.angular_velocity);
+            }
+        }
+        let nodes = world.wires.iter().flat_map(|wire| &wire.nodes);
+        for (node, carrier) in nodes.clone().zip(&self.layout.nodes) {
+            if let Carrier::Free(first) = *carrier {
+                take(first, &node.velocity);
+            }
+        }
+        for (node, column) in nodes.zip(&self.layout.slides) {
+            if let Some(column) = *column {
+                x[column] = node.slide;
+            }
+        }
+        x
+    }
+
     /// Factors the system with the rows that are active now.
     pub(super) fn factor(&mut self) -> Result<(), Reason> {
         self.triplets.index.truncate(self.mass_entries);
         self.triplets.value.truncate(self.mass_entries);
+        for contact in &self.implicit {
+            let triplets = &mut self.triplets;
+            contact.each_entry(|i, j, value| triplets.add(i, j, value));
+        }
         for row in &self.rows {
             // A row that is not active keeps its place in the structure: -1 x multiplier = 0.
             let Piece { active, start, .. } = row.piece;
@@ -176,13 +227,7 @@ impl System {
         let Some(structure) = &self.structure else {
             return Ok((Vec::new(), 0.0));
         };
-        let mut right = self.right.clone();
-        for row in &self.rows {
-            row.each_held(|column, impulse| right[column] -= impulse);
-        }
-        for &(column, impulse) in impulses {
-            right[column] += impulse;
-        }
+        let right = self.right_side(impulses);
         let mut x = right.clone();
         structure.ldl.solve(&mut x);
         let (mut correction, _) = structure.matrix.residual(&right, &x);
@@ -198,6 +243,29 @@ impl System {
             let limit = RESIDUAL;
             Err(Reason::Residual { error, limit })
         }
+    }
+
+    /// The solution without impulses on velocities, neither refined nor checked.
+    pub(super) fn estimate(&self) -> Vec<f64> {
+        let mut x = self.right_side(&[]);
+        if let Some(structure) = &self.structure {
+            structure.ldl.solve(&mut x);
+        }
+        x
+    }
+
+    fn right_side(&self, impulses: &[(usize, f64)]) -> Vec<f64> {
+        let mut right = self.right.clone();
+        for row in &self.rows {
+            row.each_held(|column, impulse| right[column] -= impulse);
+        }
+        for contact in &self.implicit {
+            contact.each_impulse(|column, impulse| right[column] += impulse);
+        }
+        for &(column, impulse) in impulses {
+            right[column] += impulse;
+        }
+        right
     }
 
     /// `v . (M~ v + G^T l)` of velocities and multipliers, with the rows as they were factored.

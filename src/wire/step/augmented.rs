@@ -1,0 +1,224 @@
+//! Coulomb's law as a function, near an impulse that is foretold (Alart, Curnier, CMAME 92, 1991).
+//!
+//! The law is no function: a contact that does not move may have any impulse of its cone. The method of multipliers has it one, near
+//! an impulse that is foretold, and for a bound of friction that is. Where what was foretold comes out, it is Coulomb's law;
+//! else what comes out is foretold next. Whatever is foretold, its negative is the gradient of a convex function of the velocity.
+
+use nalgebra::{Matrix2, Matrix3, Vector2};
+
+use super::coulomb::{to_cone, to_disk};
+use crate::wire::Vector;
+
+/// By how much a contact gives way at first to an impulse that was not foretold, as a share of its mobility. What gives way much is found
+/// in few steps; what gives way little lacks little.
+const SOFT: f64 = 1e-2;
+
+/// Which share of that is left each time that an impulse is foretold anew.
+const HARDER: f64 = 0.1;
+
+/// What is always left.
+const HARD: f64 = 1e-7;
+
+/// The impulse of one contact by its velocity `u`, both in the contact's frame: along the normal, then across.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Augmented {
+    /// What an impulse of this contact changes of its own velocity, in 1/kg. Only the order of magnitude counts.
+    mobility: f64,
+    /// Regularisation of the normal row, in 1/kg.
+    sigma: f64,
+    /// What is asked for of the normal velocity, in m/s.
+    target: f64,
+    friction: f64,
+    /// The impulse that is foretold, in N s.
+    foretold: Vector,
+    /// The largest friction, in N s.
+    bound: f64,
+    /// Whether it is foretold to slide.
+    slides: bool,
+    /// By how much it gives way to what is not foretold, in 1/kg.
+    soft: f64,
+}
+
+impl Augmented {
+    /// The law of a contact that is foretold to have an impulse.
+    pub(super) fn new(
+        mobility: f64,
+        [target, sigma]: [f64; 2],
+        friction: f64,
+        impulse: &Vector,
+    ) -> Self {
+        /// Rounding of an impulse that was on the border of its cone.
+        const BORDER: f64 = 1.0 - 1e-7;
+        let slides = impulse.yz().norm() >= BORDER * friction * impulse.x;
+        let impulse = to_cone(impulse, friction);
+        Augmented {
+            mobility,
+            sigma,
+            target,
+            friction,
+            foretold: impulse,
+            bound: friction * impulse.x,
+            slides,
+            soft: SOFT * mobility,
+        }
+    }
+
+    /// That of a contact which nothing can move: no impulse.
+    pub(super) fn none() -> Self {
+        Augmented::new(1.0, [f64::NEG_INFINITY, 0.0], 0.0, &Vector::zeros())
+    }
+
+    /// The impulse at a velocity: `((target - u_n + soft foretold_n) / (soft + sigma))+` and what of
+    /// `foretold_t - u_t / soft` is within the bound.
+    pub(super) fn impulse(&self, velocity: &Vector) -> Vector {
+        let normal = (self.push(velocity) / (self.sigma + self.soft)).max(0.0);
+        let tangential = to_disk(self.stuck(velocity), self.bound);
+        Vector::new(normal, tangential.x, tangential.y)
+    }
+
+    /// How fast the impulse falls with the velocity, in kg: symmetric, and positive semidefinite.
+    pub(super) fn slope(&self, velocity: &Vector) -> Matrix3<f64> {
+        let stuck = self.stuck(velocity);
+        let length = stuck.norm();
+        let across = if length <= self.bound {
+            Matrix2::identity()
+        } else {
+            let along = stuck / length;
+            (Matrix2::identity() - along * along.transpose()) * (self.bound / length)
+        };
+        let mut slope = Matrix3::zeros();
+        if self.push(velocity) > 0.0 {
+            slope[(0, 0)] = 1.0 / (self.sigma + self.soft);
+        }
+        let mut tangential = slope.fixed_view_mut::<2, 2>(1, 1);
+        tangential.copy_from(&(across / self.soft));
+        slope
+    }
+
+    /// A velocity at which what is foretold comes out, as near to another as it may be.
+    pub(super) fn expected(&self, near: &Vector) -> Vector {
+        let pushed = self.target - self.sigma * self.foretold.x;
+        let normal = if self.foretold.x > 0.0 {
+            pushed
+        } else {
+            near.x.max(pushed)
+        };
+        if self.slides {
+            Vector::new(normal, near.y, near.z)
+        } else {
+            Vector::new(normal, 0.0, 0.0)
+        }
+    }
+
+    /// By how much velocities are off because an impulse that comes out was not foretold, in m/s.
+    pub(super) fn lack(&self, velocity: &Vector, impulse: &Vector) -> f64 {
+        let given_way = (impulse - self.foretold).amax() * self.soft;
+        let bound = self.friction * impulse.x;
+        let unbound = if self.is_sliding(velocity) {
+            (bound - self.bound).abs()
+        } else {
+            impulse.yz().norm() - bound
+        };
+        given_way.max(unbound * self.mobility)
+    }
+
+    /// Foretells the impulse that came out at a velocity.
+    pub(super) fn follow(&mut self, velocity: &Vector, impulse: &Vector) {
+        self.slides = self.is_sliding(velocity);
+        self.foretold = Vector::new(impulse.x.max(0.0), impulse.y, impulse.z);
+        self.bound = self.friction * self.foretold.x;
+        self.soft = (self.soft * HARDER).max(self.mobility * HARD);
+    }
+
+    /// The mobility, for what is off by an impulse.
+    pub(super) fn mobility(&self) -> f64 {
+        self.mobility
+    }
+
+    /// Above 0 where it pushes, in m/s.
+    fn push(&self, velocity: &Vector) -> f64 {
+        self.target - velocity.x + self.soft * self.foretold.x
+    }
+
+    /// The friction if there were no bound.
+    fn stuck(&self, velocity: &Vector) -> Vector2<f64> {
+        self.foretold.yz() - velocity.yz() / self.soft
+    }
+
+    fn is_sliding(&self, velocity: &Vector) -> bool {
+        self.stuck(velocity).norm() > self.bound
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+
+    /// Laws that push or not, with more or less friction than is foretold.
+    fn laws(rng: &mut ChaCha8Rng) -> Augmented {
+        let impulse = Vector::from_fn(|_, _| rng.random_range(-1.0..1.0));
+        let row = [rng.random_range(-0.1..0.1), rng.random_range(0.0..0.1)];
+        Augmented::new(2.0, row, 0.5, &impulse)
+    }
+
+    #[test]
+    fn slope_is_that_of_the_impulse_and_never_rises() {
+        let rng = &mut ChaCha8Rng::seed_from_u64(1);
+        let mut kinds = [0; 3];
+        for _ in 0..1000 {
+            let law = laws(rng);
+            let fastest = [0.02, 0.002][rng.random_range(0..2)];
+            let velocity = Vector::from_fn(|_, _| rng.random_range(-fastest..fastest));
+            let slope = law.slope(&velocity);
+            kinds[usize::from(law.is_sliding(&velocity))] += 1;
+            kinds[2] += usize::from(law.impulse(&velocity).x > 0.0);
+            for axis in 0..3 {
+                let by = Vector::ith(axis, 1e-7);
+                let change = law.impulse(&(velocity - by)) - law.impulse(&(velocity + by));
+                let difference = (change / 2e-7 - slope.column(axis)).amax();
+                assert!(
+                    difference < 1e-4 * slope.amax().max(1.0),
+                    "{law:?} {velocity}"
+                );
+            }
+            assert_eq!(slope, slope.transpose());
+            let least = slope.symmetric_eigenvalues().min();
+            assert!(least >= -1e-12 * slope.amax());
+        }
+        assert!(kinds.iter().all(|count| *count > 100), "{kinds:?}");
+    }
+
+    #[test]
+    fn foretold_impulse_comes_out_at_the_expected_velocity_and_then_lacks_nothing() {
+        let rng = &mut ChaCha8Rng::seed_from_u64(2);
+        let mut sliding = 0;
+        for _ in 0..1000 {
+            let law = laws(rng);
+            let near = Vector::from_fn(|_, _| rng.random_range(-1.0..1.0));
+            // What slides goes against its friction.
+            let against = -law.foretold.yz() * rng.random_range(0.0..1.0);
+            let near = if law.slides {
+                Vector::new(near.x, against.x, against.y)
+            } else {
+                near
+            };
+            sliding += usize::from(law.slides && law.foretold.x > 0.0);
+            let expected = law.expected(&near);
+            let impulse = law.impulse(&expected);
+            assert!((impulse - law.foretold).amax() < 1e-12, "{law:?} {near}");
+            assert!(law.lack(&expected, &impulse) < 1e-12);
+        }
+        assert!(sliding > 100, "{sliding}");
+    }
+
+    #[test]
+    fn what_nothing_can_move_has_no_impulse() {
+        let law = Augmented::none();
+        for speed in [-1e9, 0.0, 1e9] {
+            assert_eq!(law.impulse(&Vector::repeat(speed)), Vector::zeros());
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! Contacts in the system itself: each with its law taken as linear, a stiffness and an impulse.
+//!
+//! A contact of a wire with what does not move ties two nodes that are tied anyway, so it hardly adds to the fill of the
+//! factor. There Newton's method, which finds what pulls and slides, finds what pushes, sticks and slips at once
+//! ([`touching`](super::touching)).
+
+use nalgebra::Matrix3;
+use smallvec::SmallVec;
+
+use super::augmented::Augmented;
+use super::carrier::{Carrier, Layout};
+use super::contact::{Contact, Place};
+use super::friction::{normal_row, velocity_of};
+use super::system::frame;
+use crate::wire::Vector;
+use crate::wire::model::World;
+
+/// Fewer contacts settle by few sweeps.
+const MANY: usize = 8;
+
+/// The most contacts between things that both move. Each adds to the fill.
+const COUPLED: usize = 16;
+
+/// Whether contacts are solved within the system.
+pub(super) fn suits(world: &World, layout: &Layout, contacts: &[Contact]) -> bool {
+    let moves = |place: &Place| {
+        let carriers = layout.place(world, place);
+        carriers
+            .iter()
+            .any(|(carrier, _)| !matches!(carrier, Carrier::Given(_)))
+    };
+    let coupled = |contact: &&Contact| moves(&contact.a) && moves(&contact.b);
+    contacts.len() >= MANY && contacts.iter().filter(coupled).count() <= COUPLED
+}
+
+/// One contact, its law taken as linear at one velocity. Velocities and impulses are those of place A against B, in the frame of
+/// the contact.
+#[derive(Clone, Debug)]
+pub(super) struct Implicit {
+    /// Normal and tangents.
+    frame: Matrix3<f64>,
+    /// The velocity along x, y, z that unknowns give it.
+    columns: SmallVec<[(usize, Vector); 12]>,
+    /// The velocity along x, y, z that is prescribed.
+    given: Vector,
+    law: Augmented,
+    /// Where the law is taken as linear.
+    velocity: Vector,
+    /// Its impulse there.
+    impulse: Vector,
+    /// How fast that falls there.
+    slope: Matrix3<f64>,
+}
+
+impl Implicit {
+    /// A contact that is foretold to have an impulse along x, y, z. `masses` is the diagonal of the mass matrix.
+    pub(super) fn new(
+        world: &World,
+        layout: &Layout,
+        masses: &[f64],
+        contact: &Contact,
+        impulse: &Vector,
+    ) -> Self {
+        let mut columns: SmallVec<[(usize, Vector); 12]> = SmallVec::new();
+        let mut given = Vector::zeros();
+        for (place, sign) in [(&contact.a, 1.0), (&contact.b, -1.0)] {
+            for (carrier, share) in layout.place(world, place) {
+                given += carrier.given() * (sign * share);
+                for axis in 0..3 {
+                    let direction = Vector::ith(axis, sign * share);
+                    carrier.each_column(&direction, |column, value| {
+                        match columns.iter_mut().find(|(other, _)| *other == column) {
+                            Some((_, along)) => along[axis] += value,
+                            None => columns.push((column, Vector::ith(axis, value))),
+                        }
+                    });
+                }
+            }
+        }
+        let mobilities = columns
+            .iter()
+            .map(|(column, along)| along.norm_squared() / masses[*column]);
+        let mobility = mobilities.sum::<f64>() / 3.0;
+        let frame = frame(&contact.normal);
+        let speed = velocity_of(world, &contact.a) - velocity_of(world, &contact.b);
+        let row = normal_row(&world.settings, contact, speed.dot(&contact.normal));
+        let law = if mobility > 0.0 {
+            Augmented::new(mobility, row, contact.friction, &(frame * impulse))
+        } else {
+            Augmented::none()
+        };
+        Implicit {
+            frame,
+            columns,
+            given,
+            law,
+            velocity: Vector::zeros(),
+            impulse: Vector::zeros(),
+            slope: Matrix3::zeros(),
+        }
+    }
+
+    /// Takes the law as linear where a solution leads, or where the foretold impulse comes out.
+    pub(super) fn linearise(&mut self, x: &[f64], foretold: bool) {
+        self.velocity = self.at(x);
+        if foretold {
+            self.velocity = self.law.expected(&self.velocity);
+        }
+        self.impulse = self.law.impulse(&self.velocity);
+        self.slope = self.law.slope(&self.velocity);
+    }
+
+    /// Calls back for each entry that it adds to the mass matrix, on and above the diagonal.
+    pub(super) fn each_entry(&self, mut take: impl FnMut(usize, usize, f64)) {
+        let slope = self.frame.tr_mul(&(self.slope * self.frame));
+        for (i, along) in &self.columns {
+            let force = slope * along;
+            for (j, along) in self.columns.iter().filter(|(j, _)| i <= j) {
+                take(*i, *j, force.dot(along));
+            }
+        }
+    }
+
+    /// Calls back for each impulse that it has if no unknown moves.
+    pub(super) fn each_impulse(&self, mut take: impl FnMut(usize, f64)) {
+        let impulse = self.linear(&(self.frame * self.given));
+        let impulse = self.frame.tr_mul(&impulse);
+        for (column, along) in &self.columns {
+            take(*column, along.dot(&impulse));
+        }
+    }
+
+    /// Impulse on place A along x, y, z at a solution, in N s; a push, never a pull.
+    pub(super) fn world_impulse(&self, x: &[f64]) -> Vector {
+        let mut impulse = self.linear(&self.at(x));
+        impulse.x = impulse.x.max(0.0);
+        self.frame.tr_mul(&impulse)
+    }
+
+    /// By how much velocities are off because the law is not linear, in m/s.
+    pub(super) fn bend(&self, x: &[f64]) -> f64 {
+        let velocity = self.at(x);
+        (self.law.impulse(&velocity) - self.linear(&velocity)).amax() * self.law.mobility()
+    }
+
+    /// By how much velocities are off because another impulse was foretold, in m/s.
+    pub(super) fn lack(&self, x: &[f64]) -> f64 {
+        let velocity = self.at(x);
+        self.law.lack(&velocity, &self.linear(&velocity))
+    }
+
+    /// Foretells what a solution came to.
+    pub(super) fn follow(&mut self, x: &[f64]) {
+        let velocity = self.at(x);
+        let impulse = self.linear(&velocity);
+        self.law.follow(&velocity, &impulse);
+    }
+
+    /// On the way between two solutions: the power of the linear law's impulse less that of the law, by the share of the way.
+    pub(super) fn slope_between(&self, x: &[f64], newton: &[f64]) -> impl Fn(f64) -> f64 {
+        let start = self.at(x);
+        let rise = self.at(newton) - start;
+        move |share| {
+            let velocity = start + rise * share;
+            rise.dot(&(self.linear(&velocity) - self.law.impulse(&velocity)))
+        }
+    }
+
+    /// The velocity at a solution.
+    fn at(&self, x: &[f64]) -> Vector {
+        let columns = self.columns.iter();
+        let along = columns.fold(self.given, |sum, (column, along)| sum + along * x[*column]);
+        self.frame * along
+    }
+
+    /// The impulse at a velocity, by the law taken as linear.
+    fn linear(&self, velocity: &Vector) -> Vector {
+        self.impulse + self.slope * (self.velocity - velocity)
+    }
+}
