@@ -26,7 +26,7 @@ pub(in crate::wire) struct Ldl {
 }
 
 /// Three sparse columns with a common pattern.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(in crate::wire) struct SparseColumns {
     /// Rows that may differ from 0, ascending.
     pub(in crate::wire) rows: Vec<u32>,
@@ -208,9 +208,9 @@ impl Ldl {
         rows
     }
 
-    /// The pivot of a row.
-    pub(in crate::wire) fn pivot(&self, row: u32) -> f64 {
-        self.diagonal[row as usize]
+    /// The pivots, row by row.
+    pub(in crate::wire) fn pivots(&self) -> &[f64] {
+        &self.diagonal
     }
 
     fn column(&self, k: usize) -> impl Iterator<Item = (usize, f64)> {

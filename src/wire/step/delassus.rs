@@ -3,7 +3,7 @@
 //! Contact velocities `u = S lambda + b` are kept up to date: a block that changes adds its three columns to them, and
 //! one that does not costs nothing. It bears the name of E. Delassus (1917).
 
-use super::friction::Block;
+use super::friction::{Block, Blocks};
 use crate::wire::Vector;
 
 /// `u = S lambda + b` of all contacts.
@@ -16,36 +16,35 @@ pub(super) struct Delassus {
 
 impl Delassus {
     /// For the impulses that the blocks have.
-    pub(super) fn new(blocks: &[Block]) -> Self {
-        let biases = blocks
+    pub(super) fn new(blocks: &Blocks) -> Self {
+        let list = &blocks.list;
+        let biases = list
             .iter()
             .flat_map(|block| [block.bias.x, block.bias.y, block.bias.z]);
         let mut delassus = Delassus {
-            matrix: vec![0.0; 9 * blocks.len() * blocks.len()],
+            matrix: vec![0.0; 9 * list.len() * list.len()],
             excess: biases.collect(),
         };
         delassus.fill(blocks);
-        for (at, block) in blocks.iter().enumerate() {
+        for (at, block) in list.iter().enumerate() {
             delassus.push(at, &block.impulse);
         }
         delassus
     }
 
     /// `Y^T D^-1 Y`, row by row of the factor: every two blocks that have it on their paths.
-    fn fill(&mut self, blocks: &[Block]) {
-        let n = 3 * blocks.len();
-        let mut visits: Vec<(u32, usize, usize)> = Vec::new();
-        for (at, block) in blocks.iter().enumerate() {
-            let rows = block.sparse.rows.iter().enumerate();
-            visits.extend(rows.map(|(place, &row)| (row, at, place)));
+    fn fill(&mut self, blocks: &Blocks) {
+        let n = 3 * blocks.list.len();
+        let mut visits = Vec::new();
+        for (at, block) in blocks.list.iter().enumerate() {
+            let path = blocks.path(block);
+            visits.extend(path.map(|(row, three, pivot)| (row, at, three, pivot)));
         }
-        visits.sort_unstable();
+        visits.sort_unstable_by_key(|&(row, at, ..)| (row, at));
         for visits in visits.chunk_by(|(row, ..), (other, ..)| row == other) {
-            for (k, &(_, a, place)) in visits.iter().enumerate() {
-                let pivot = blocks[a].pivots[place];
-                let scaled = blocks[a].sparse.values[place].map(|value| value / pivot);
-                for &(_, b, place) in &visits[..k] {
-                    let other = &blocks[b].sparse.values[place];
+            for (k, &(_, a, three, pivot)) in visits.iter().enumerate() {
+                let scaled = three.map(|value| value / pivot);
+                for &(_, b, other, _) in &visits[..k] {
                     for (column, scaled) in scaled.iter().enumerate() {
                         let start = (3 * a + column) * n + 3 * b;
                         for (sum, value) in self.matrix[start..start + 3].iter_mut().zip(other) {
@@ -55,7 +54,7 @@ impl Delassus {
                 }
             }
         }
-        self.mirror(blocks);
+        self.mirror(&blocks.list);
     }
 
     /// What is above the diagonal goes below, too; on it are the mobilities of the blocks.

@@ -7,7 +7,7 @@
 //! a few sweeps do not settle go on with `S` itself ([`Delassus`]): there a sweep is faster, and what
 //! sweeps come to can be foretold ([`anderson`]).
 
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 
 use nalgebra::Matrix3;
 use smallvec::SmallVec;
@@ -36,8 +36,8 @@ pub(super) struct Block {
     /// Normal and tangents.
     frame: Matrix3<f64>,
     terms: SmallVec<[(Carrier, f64); 4]>,
-    pub(super) sparse: SparseColumns,
-    pub(super) pivots: Vec<f64>,
+    /// Where its path is.
+    path: Range<usize>,
     /// `Y^T D^-1 Y`, with the regularisation of the normal row.
     pub(super) mobility: Matrix3<f64>,
     sigma: f64,
@@ -82,7 +82,7 @@ pub(super) fn sweep(
         };
         swept.repeat(&settings, FIRST_SWEEPS, || blocks.relax());
         if !swept.is_done(&settings) {
-            let delassus = Delassus::new(&blocks.list);
+            let delassus = Delassus::new(&blocks);
             anderson::sweep(delassus, &mut blocks.list, &settings, &mut swept);
         }
     } else {
@@ -139,35 +139,95 @@ impl Swept {
 }
 
 /// All contacts, and what their impulses sum up to.
-struct Blocks {
-    list: Vec<Block>,
+pub(super) struct Blocks {
+    pub(super) list: Vec<Block>,
+    paths: Paths,
+    factor: Vec<Entry>,
+}
+
+/// The ways of contacts to the root of the elimination tree, one after the other, as sweeps go through them: rows, and what
+/// `Y` has there.
+#[derive(Default)]
+struct Paths {
+    rows: Vec<u32>,
+    values: Vec<[f64; 3]>,
+}
+
+/// What sweeps need of a row of the factor, side by side.
+#[derive(Clone, Copy)]
+struct Entry {
     /// `D^-1 Y lambda`.
-    z: Vec<f64>,
+    z: f64,
+    /// `D`.
+    pivot: f64,
 }
 
 impl Blocks {
-    fn new(
+    pub(super) fn new(
         world: &World,
         system: &System,
         contacts: &[Contact],
         free: &[f64],
         impulses: &[Vector],
     ) -> Self {
-        let mut z = vec![0.0; free.len()];
-        let list = contacts.iter().zip(impulses).map(|(contact, impulse)| {
-            let block = Block::new(world, system, contact, free, impulse);
-            block.push(&block.impulse, &mut z);
-            block
-        });
-        let list = list.collect();
-        Blocks { list, z }
+        let pivots = system.pivots().iter();
+        let mut blocks = Blocks {
+            list: Vec::with_capacity(contacts.len()),
+            paths: Paths::default(),
+            factor: pivots.map(|&pivot| Entry { z: 0.0, pivot }).collect(),
+        };
+        for (contact, impulse) in contacts.iter().zip(impulses) {
+            let block = Block::new(world, system, contact, free, impulse, &mut blocks);
+            push(
+                &blocks.paths,
+                &block.path,
+                &block.impulse,
+                &mut blocks.factor,
+            );
+            blocks.list.push(block);
+        }
+        blocks
+    }
+
+    /// Rows, values and pivots on the path of a block.
+    pub(super) fn path(&self, block: &Block) -> impl Iterator<Item = (u32, [f64; 3], f64)> {
+        let rows = self.paths.rows[block.path.clone()].iter();
+        let values = &self.paths.values[block.path.clone()];
+        rows.zip(values)
+            .map(|(&row, &three)| (row, three, self.factor[row as usize].pivot))
     }
 
     /// One sweep; by how much the velocity of a contact changes at most, in m/s.
     fn relax(&mut self) -> f64 {
-        let changes = self.list.iter_mut().map(|block| block.relax(&mut self.z));
-        changes.fold(0.0, f64::max)
+        let mut largest = 0.0_f64;
+        for block in &mut self.list {
+            let change = block.solve(&excess(&self.paths, block, &self.factor));
+            push(&self.paths, &block.path, &change, &mut self.factor);
+            largest = largest.max((block.mobility * change).amax());
+        }
+        largest
     }
+}
+
+/// Adds `D^-1 Y impulse` to `z`.
+fn push(paths: &Paths, path: &Range<usize>, impulse: &Vector, factor: &mut [Entry]) {
+    let rows = &paths.rows[path.clone()];
+    for (&row, three) in rows.iter().zip(&paths.values[path.clone()]) {
+        let sum = three[0] * impulse.x + three[1] * impulse.y + three[2] * impulse.z;
+        let entry = &mut factor[row as usize];
+        entry.z += sum / entry.pivot;
+    }
+}
+
+/// Velocity of a block less what is asked for, at the impulses so far.
+fn excess(paths: &Paths, block: &Block, factor: &[Entry]) -> Vector {
+    let mut sum = block.bias;
+    sum.x += block.sigma * block.impulse.x;
+    let rows = &paths.rows[block.path.clone()];
+    for (&row, three) in rows.iter().zip(&paths.values[block.path.clone()]) {
+        sum += Vector::from_row_slice(three) * factor[row as usize].z;
+    }
+    sum
 }
 
 impl Block {
@@ -177,6 +237,7 @@ impl Block {
         contact: &Contact,
         free: &[f64],
         impulse: &Vector,
+        Blocks { paths, factor, .. }: &mut Blocks,
     ) -> Self {
         let frame = frame(&contact.normal);
         let place = |place: &Place, sign: f64| {
@@ -186,12 +247,15 @@ impl Block {
         let terms: SmallVec<[(Carrier, f64); 4]> = place(&contact.a, 1.0)
             .chain(place(&contact.b, -1.0))
             .collect();
-        let (sparse, pivots) = system.forward(&columns(&frame, &terms));
+        let SparseColumns { rows, values } = system.forward(&columns(&frame, &terms));
         let mut mobility = Matrix3::zeros();
-        for (three, pivot) in sparse.values.iter().zip(&pivots) {
+        for (&at, three) in rows.iter().zip(&values) {
             let row = Vector::from_row_slice(three);
-            mobility += row * row.transpose() / *pivot;
+            mobility += row * row.transpose() / factor[at as usize].pivot;
         }
+        let start = paths.rows.len();
+        paths.rows.extend(rows);
+        paths.values.extend(values);
         let speed = velocity_of(world, &contact.a) - velocity_of(world, &contact.b);
         let [target, sigma] = normal_row(&world.settings, contact, speed.dot(&contact.normal));
         mobility[(0, 0)] += sigma;
@@ -205,37 +269,10 @@ impl Block {
             friction: contact.friction,
             frame,
             terms,
-            sparse,
-            pivots,
+            path: start..paths.rows.len(),
             mobility,
             sigma,
         }
-    }
-
-    /// Adds `D^-1 Y impulse` to `z`.
-    fn push(&self, impulse: &Vector, z: &mut [f64]) {
-        let entries = self.sparse.rows.iter().zip(&self.sparse.values);
-        for ((&row, three), pivot) in entries.zip(&self.pivots) {
-            let sum = three[0] * impulse.x + three[1] * impulse.y + three[2] * impulse.z;
-            z[row as usize] += sum / pivot;
-        }
-    }
-
-    /// Velocity less what is asked for, at the impulses so far.
-    fn excess(&self, z: &[f64]) -> Vector {
-        let mut sum = self.bias;
-        sum.x += self.sigma * self.impulse.x;
-        for (&row, three) in self.sparse.rows.iter().zip(&self.sparse.values) {
-            sum += Vector::from_row_slice(three) * z[row as usize];
-        }
-        sum
-    }
-
-    /// Solves the block with all others held; returns by how much its velocity changes.
-    fn relax(&mut self, z: &mut [f64]) -> f64 {
-        let change = self.solve(&self.excess(z));
-        self.push(&change, z);
-        (self.mobility * change).amax()
     }
 
     /// Solves the block with all others held, from its velocity less what is asked for; by how much its impulse

@@ -279,19 +279,19 @@ impl System {
         velocities.map(|((y, negative), _)| -y * negative).sum()
     }
 
-    /// `L Y = C` for the rows of one contact, and the pivots of the rows of `Y`.
-    pub(super) fn forward(&self, columns: &[(usize, [f64; 3])]) -> (SparseColumns, Vec<f64>) {
-        let Some(structure) = &self.structure else {
-            let (rows, values) = (Vec::new(), Vec::new());
-            return (SparseColumns { rows, values }, Vec::new());
-        };
-        let sparse = structure.ldl.forward(columns);
-        let pivots = sparse
-            .rows
-            .iter()
-            .map(|&row| structure.ldl.pivot(row))
-            .collect();
-        (sparse, pivots)
+    /// `L Y = C` for the rows of one contact.
+    pub(super) fn forward(&self, columns: &[(usize, [f64; 3])]) -> SparseColumns {
+        match &self.structure {
+            Some(structure) => structure.ldl.forward(columns),
+            None => SparseColumns::default(),
+        }
+    }
+
+    /// `D`, row by row.
+    pub(super) fn pivots(&self) -> &[f64] {
+        self.structure
+            .as_ref()
+            .map_or(&[], |structure| structure.ldl.pivots())
     }
 
     /// The largest residual relative to the largest magnitude that was summed up: equations of motion among

@@ -82,7 +82,7 @@ fn grown(ldl: &Ldl, x: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; x.len()];
     for k in 0..x.len() {
         let column = ldl.column(k).map(|(row, l)| l.abs() * x[row].abs());
-        let weight = (x[k].abs() + column.sum::<f64>()) * ldl.pivot(k as u32).abs();
+        let weight = (x[k].abs() + column.sum::<f64>()) * ldl.pivots()[k].abs();
         sums[k] += weight;
         for (row, l) in ldl.column(k) {
             sums[row] += l.abs() * weight;
