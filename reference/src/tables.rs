@@ -7,7 +7,6 @@ use tunnelproof::wire::{Mode, StepRecord, World};
 
 use crate::audit::{Audit, Report};
 use crate::certify::table::grouped;
-use crate::perturb::perturbed;
 use crate::simulate::{Narrow, Run, Summary};
 
 mod rows;
@@ -31,6 +30,13 @@ pub struct Audited {
     pub summary: Summary,
     /// What was found.
     pub report: Report,
+}
+
+impl Audited {
+    /// Whether it came to its end and nothing passed.
+    fn holds(&self) -> bool {
+        self.report.is_clean() && self.summary.stopped.is_none()
+    }
 }
 
 /// Runs a scene and audits it.
@@ -207,7 +213,7 @@ pub fn largest_discrete_step(scene: &Scene) -> Result<Option<(f64, Audited)>, Sc
         let mut scene = scene.clone();
         scene.settings.step = f64::from(milliseconds) / 1000.0;
         let run = audited(&scene, Narrow::Discrete, Mode::Thesis)?;
-        if !run.report.is_clean() || run.summary.stopped.is_some() {
+        if !run.holds() {
             break;
         }
         largest = Some((scene.settings.step, run));
@@ -216,7 +222,7 @@ pub fn largest_discrete_step(scene: &Scene) -> Result<Option<(f64, Audited)>, Sc
 }
 
 /// The largest step in whole milliseconds, at most so many seconds, at which no wires pass through each other with discrete detection,
-/// neither from the scene as it is nor from so many starts moved by up to `most` metres ([`perturbed`], seeds from 1). What holds
+/// neither from the scene as it is nor from so many starts moved by up to `most` metres ([`perturbed`](crate::perturb::perturbed), seeds from 1). What holds
 /// from one start may hold by luck.
 ///
 /// # Errors
@@ -229,13 +235,9 @@ pub fn safe_discrete_step(
     most: f64,
 ) -> Result<Option<f64>, SceneError> {
     let tunnels = |seed: u64, step: f64| {
-        let mut moved = match seed {
-            0 => scene.clone(),
-            seed => perturbed(scene, seed, most),
-        };
-        moved.settings.step = step;
-        let run = audited(&moved, Narrow::Discrete, Mode::Thesis)?;
-        Ok(!run.report.is_clean() || run.summary.stopped.is_some())
+        let mut start = starts::start(scene, seed, most);
+        start.settings.step = step;
+        Ok(!audited(&start, Narrow::Discrete, Mode::Thesis)?.holds())
     };
     let longest = (longest * 1000.0).round() as u32;
     for milliseconds in (1..=longest).rev() {

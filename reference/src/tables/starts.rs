@@ -9,6 +9,14 @@ use crate::certify::table::grouped;
 use crate::perturb::perturbed;
 use crate::simulate::Narrow;
 
+/// A scene as it is for seed 0, else moved by up to `most` metres.
+pub(super) fn start(scene: &Scene, seed: u64, most: f64) -> Scene {
+    match seed {
+        0 => scene.clone(),
+        seed => perturbed(scene, seed, most),
+    }
+}
+
 /// The scenes as they are and at so many starts moved by up to `most` metres ([`perturbed`], seeds from 1), in guard
 /// mode by the certified path: what was prevented, what passed unnoticed, what was reported and is not exact, and what
 /// stands on the wrong side at the end.
@@ -22,13 +30,9 @@ pub fn starts(scenes: &[Scene], count: u64, most: f64) -> Result<String, SceneEr
     );
     let names = ["steps", "prevented", "missed", "not exact", "standing"];
     for scene in scenes {
-        let runs = (0..=count).into_par_iter().map(|seed| {
-            let moved = match seed {
-                0 => scene.clone(),
-                seed => perturbed(scene, seed, most),
-            };
-            audited(&moved, Narrow::Certified, Mode::Guard)
-        });
+        let runs = (0..=count)
+            .into_par_iter()
+            .map(|seed| audited(&start(scene, seed, most), Narrow::Certified, Mode::Guard));
         let runs = runs.collect::<Result<Vec<_>, _>>()?;
         text += "\n";
         text += &row(&scene.title, names.map(str::to_owned));

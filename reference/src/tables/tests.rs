@@ -1,4 +1,5 @@
 use super::*;
+use crate::perturb::perturbed;
 
 fn basic_collision(duration: f64) -> Vec<Scene> {
     let mut scenes = scenes(duration).unwrap();

@@ -110,6 +110,11 @@ impl Augmented {
         }
     }
 
+    /// By how much velocities are off if an impulse is taken for the law's, in m/s.
+    pub(super) fn bend(&self, velocity: &Vector, impulse: &Vector) -> f64 {
+        (self.impulse(velocity) - impulse).amax() * self.mobility
+    }
+
     /// By how much velocities are off because an impulse that comes out was not foretold, in m/s.
     pub(super) fn lack(&self, velocity: &Vector, impulse: &Vector) -> f64 {
         let given_way = (impulse - self.foretold).amax() * self.soft;
@@ -128,11 +133,6 @@ impl Augmented {
         self.foretold = Vector::new(impulse.x.max(0.0), impulse.y, impulse.z);
         self.bound = self.friction * self.foretold.x;
         self.soft = (self.soft * HARDER).max(self.mobility * HARD);
-    }
-
-    /// The mobility, for what is off by an impulse.
-    pub(super) fn mobility(&self) -> f64 {
-        self.mobility
     }
 
     /// Above 0 where it pushes, in m/s.

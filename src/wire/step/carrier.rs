@@ -4,7 +4,7 @@ use smallvec::SmallVec;
 
 use crate::wire::model::{BodyId, NodeKind, World};
 use crate::wire::solve::dissect;
-use crate::wire::{Place, Vector};
+use crate::wire::{Contact, Place, Vector};
 
 /// What the velocity of a point is made of.
 #[derive(Clone, Copy, Debug)]
@@ -198,6 +198,18 @@ impl Layout {
                 Carrier::Given(velocity + spin.cross(&arm))
             }
         }
+    }
+
+    /// What carries the velocity of a contact's place A seen from B, by carriers and their shares.
+    pub(super) fn contact(
+        &self,
+        world: &World,
+        contact: &Contact,
+    ) -> SmallVec<[(Carrier, f64); 4]> {
+        let b = self.place(world, &contact.b).into_iter();
+        let a = self.place(world, &contact.a).into_iter();
+        a.chain(b.map(|(carrier, share)| (carrier, -share)))
+            .collect()
     }
 
     /// What carries a place, by at most two carriers and their shares.

@@ -142,15 +142,15 @@ impl Swept {
 pub(super) struct Blocks {
     pub(super) list: Vec<Block>,
     paths: Paths,
-    factor: Vec<Entry>,
 }
 
 /// The ways of contacts to the root of the elimination tree, one after the other, as sweeps go through them: rows, and what
 /// `Y` has there.
-#[derive(Default)]
 struct Paths {
     rows: Vec<u32>,
     values: Vec<[f64; 3]>,
+    /// Of every row of the factor.
+    factor: Vec<Entry>,
 }
 
 /// What sweeps need of a row of the factor, side by side.
@@ -171,63 +171,61 @@ impl Blocks {
         impulses: &[Vector],
     ) -> Self {
         let pivots = system.pivots().iter();
-        let mut blocks = Blocks {
-            list: Vec::with_capacity(contacts.len()),
-            paths: Paths::default(),
+        let mut paths = Paths {
+            rows: Vec::new(),
+            values: Vec::new(),
             factor: pivots.map(|&pivot| Entry { z: 0.0, pivot }).collect(),
         };
-        for (contact, impulse) in contacts.iter().zip(impulses) {
-            let block = Block::new(world, system, contact, free, impulse, &mut blocks);
-            push(
-                &blocks.paths,
-                &block.path,
-                &block.impulse,
-                &mut blocks.factor,
-            );
-            blocks.list.push(block);
-        }
-        blocks
+        let list = contacts.iter().zip(impulses).map(|(contact, impulse)| {
+            let block = Block::new(world, system, contact, free, impulse, &mut paths);
+            paths.push(&block.path, &block.impulse);
+            block
+        });
+        let list = list.collect();
+        Blocks { list, paths }
     }
 
     /// Rows, values and pivots on the path of a block.
     pub(super) fn path(&self, block: &Block) -> impl Iterator<Item = (u32, [f64; 3], f64)> {
-        let rows = self.paths.rows[block.path.clone()].iter();
-        let values = &self.paths.values[block.path.clone()];
-        rows.zip(values)
-            .map(|(&row, &three)| (row, three, self.factor[row as usize].pivot))
+        let entries = self.paths.entries(&block.path);
+        entries.map(|(row, &three)| (row, three, self.paths.factor[row as usize].pivot))
     }
 
     /// One sweep; by how much the velocity of a contact changes at most, in m/s.
     fn relax(&mut self) -> f64 {
         let mut largest = 0.0_f64;
         for block in &mut self.list {
-            let change = block.solve(&excess(&self.paths, block, &self.factor));
-            push(&self.paths, &block.path, &change, &mut self.factor);
+            let change = block.solve(&block.excess(&self.paths));
+            self.paths.push(&block.path, &change);
             largest = largest.max((block.mobility * change).amax());
         }
         largest
     }
 }
 
-/// Adds `D^-1 Y impulse` to `z`.
-fn push(paths: &Paths, path: &Range<usize>, impulse: &Vector, factor: &mut [Entry]) {
-    let rows = &paths.rows[path.clone()];
-    for (&row, three) in rows.iter().zip(&paths.values[path.clone()]) {
-        let sum = three[0] * impulse.x + three[1] * impulse.y + three[2] * impulse.z;
-        let entry = &mut factor[row as usize];
-        entry.z += sum / entry.pivot;
+impl Paths {
+    /// Takes the next path; where it is.
+    fn add(&mut self, path: SparseColumns) -> Range<usize> {
+        let start = self.rows.len();
+        self.rows.extend(path.rows);
+        self.values.extend(path.values);
+        start..self.rows.len()
     }
-}
 
-/// Velocity of a block less what is asked for, at the impulses so far.
-fn excess(paths: &Paths, block: &Block, factor: &[Entry]) -> Vector {
-    let mut sum = block.bias;
-    sum.x += block.sigma * block.impulse.x;
-    let rows = &paths.rows[block.path.clone()];
-    for (&row, three) in rows.iter().zip(&paths.values[block.path.clone()]) {
-        sum += Vector::from_row_slice(three) * factor[row as usize].z;
+    fn entries(&self, path: &Range<usize>) -> impl Iterator<Item = (u32, &[f64; 3])> {
+        let rows = self.rows[path.clone()].iter().copied();
+        rows.zip(&self.values[path.clone()])
     }
-    sum
+
+    /// Adds `D^-1 Y impulse` to `z`.
+    fn push(&mut self, path: &Range<usize>, impulse: &Vector) {
+        let rows = &self.rows[path.clone()];
+        for (&row, three) in rows.iter().zip(&self.values[path.clone()]) {
+            let sum = three[0] * impulse.x + three[1] * impulse.y + three[2] * impulse.z;
+            let entry = &mut self.factor[row as usize];
+            entry.z += sum / entry.pivot;
+        }
+    }
 }
 
 impl Block {
@@ -237,25 +235,16 @@ impl Block {
         contact: &Contact,
         free: &[f64],
         impulse: &Vector,
-        Blocks { paths, factor, .. }: &mut Blocks,
+        paths: &mut Paths,
     ) -> Self {
         let frame = frame(&contact.normal);
-        let place = |place: &Place, sign: f64| {
-            let carriers = system.layout.place(world, place).into_iter();
-            carriers.map(move |(carrier, share)| (carrier, sign * share))
-        };
-        let terms: SmallVec<[(Carrier, f64); 4]> = place(&contact.a, 1.0)
-            .chain(place(&contact.b, -1.0))
-            .collect();
-        let SparseColumns { rows, values } = system.forward(&columns(&frame, &terms));
+        let terms = system.layout.contact(world, contact);
+        let path = paths.add(system.forward(&columns(&frame, &terms)));
         let mut mobility = Matrix3::zeros();
-        for (&at, three) in rows.iter().zip(&values) {
+        for (at, three) in paths.entries(&path) {
             let row = Vector::from_row_slice(three);
-            mobility += row * row.transpose() / factor[at as usize].pivot;
+            mobility += row * row.transpose() / paths.factor[at as usize].pivot;
         }
-        let start = paths.rows.len();
-        paths.rows.extend(rows);
-        paths.values.extend(values);
         let speed = velocity_of(world, &contact.a) - velocity_of(world, &contact.b);
         let [target, sigma] = normal_row(&world.settings, contact, speed.dot(&contact.normal));
         mobility[(0, 0)] += sigma;
@@ -269,10 +258,20 @@ impl Block {
             friction: contact.friction,
             frame,
             terms,
-            path: start..paths.rows.len(),
+            path,
             mobility,
             sigma,
         }
+    }
+
+    /// Velocity less what is asked for, at the impulses so far.
+    fn excess(&self, paths: &Paths) -> Vector {
+        let mut sum = self.bias;
+        sum.x += self.sigma * self.impulse.x;
+        for (row, three) in paths.entries(&self.path) {
+            sum += Vector::from_row_slice(three) * paths.factor[row as usize].z;
+        }
+        sum
     }
 
     /// Solves the block with all others held, from its velocity less what is asked for; by how much its impulse

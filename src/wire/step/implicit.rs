@@ -63,18 +63,16 @@ impl Implicit {
     ) -> Self {
         let mut columns: SmallVec<[(usize, Vector); 12]> = SmallVec::new();
         let mut given = Vector::zeros();
-        for (place, sign) in [(&contact.a, 1.0), (&contact.b, -1.0)] {
-            for (carrier, share) in layout.place(world, place) {
-                given += carrier.given() * (sign * share);
-                for axis in 0..3 {
-                    let direction = Vector::ith(axis, sign * share);
-                    carrier.each_column(&direction, |column, value| {
-                        match columns.iter_mut().find(|(other, _)| *other == column) {
-                            Some((_, along)) => along[axis] += value,
-                            None => columns.push((column, Vector::ith(axis, value))),
-                        }
-                    });
-                }
+        for (carrier, share) in layout.contact(world, contact) {
+            given += carrier.given() * share;
+            for axis in 0..3 {
+                let direction = Vector::ith(axis, share);
+                carrier.each_column(&direction, |column, value| {
+                    match columns.iter_mut().find(|(other, _)| *other == column) {
+                        Some((_, along)) => along[axis] += value,
+                        None => columns.push((column, Vector::ith(axis, value))),
+                    }
+                });
             }
         }
         let mobilities = columns
@@ -137,16 +135,12 @@ impl Implicit {
         self.frame.tr_mul(&impulse)
     }
 
-    /// By how much velocities are off because the law is not linear, in m/s.
-    pub(super) fn bend(&self, x: &[f64]) -> f64 {
+    /// By how much velocities are off because the law is not linear, and because another impulse was foretold, in m/s.
+    pub(super) fn residuals(&self, x: &[f64]) -> [f64; 2] {
         let velocity = self.at(x);
-        (self.law.impulse(&velocity) - self.linear(&velocity)).amax() * self.law.mobility()
-    }
-
-    /// By how much velocities are off because another impulse was foretold, in m/s.
-    pub(super) fn lack(&self, x: &[f64]) -> f64 {
-        let velocity = self.at(x);
-        self.law.lack(&velocity, &self.linear(&velocity))
+        let impulse = self.linear(&velocity);
+        let bend = self.law.bend(&velocity, &impulse);
+        [bend, self.law.lack(&velocity, &impulse)]
     }
 
     /// Foretells what a solution came to.

@@ -26,10 +26,6 @@ pub(super) struct Candidate {
 impl World {
     /// Solves for velocities, multipliers and contact impulses; finds out which segments of chains pull and which wires
     /// slide over contact nodes, starting from those that did in the last step.
-    ///
-    /// Contacts are swept while the same segments pull; then it is found which pull and slide under these impulses, until
-    /// that changes nothing. Friction may let it change for ever: after [`ROUNDS`] the impulses are held, and what
-    /// contacts lack then is in the record.
     pub(super) fn settle(
         &self,
         system: &mut System,
@@ -40,17 +36,32 @@ impl World {
             .iter()
             .map(|contact| self.warm.impulse(contact.key))
             .collect();
-        if implicit::suits(self, &system.layout, contacts) {
-            let found = self.settle_touching(system, contacts, &start, phases);
-            // What does not come to an end is swept.
-            if let Some(candidate) = found {
-                return Ok(candidate);
-            }
-        }
+        let touching = implicit::suits(self, &system.layout, contacts);
+        let found = touching.then(|| self.settle_touching(system, contacts, &start, phases));
+        // What does not come to an end is swept.
+        let mut candidate = match found.flatten() {
+            Some(candidate) => candidate,
+            None => self.settle_swept(system, contacts, &start, phases)?,
+        };
+        candidate.solver.slide_residual = bounds_lack(&system.rows, &candidate.x);
+        stop_slip(&system.rows, &mut candidate.x);
+        Ok(candidate)
+    }
+
+    /// Contacts are swept while the same segments pull; then it is found which pull and slide under these impulses, until
+    /// that changes nothing. Friction may let it change for ever: after [`ROUNDS`] the impulses are held, and what
+    /// contacts lack then is in the record.
+    fn settle_swept(
+        &self,
+        system: &mut System,
+        contacts: &[Contact],
+        start: &[Vector],
+        phases: &mut Phases,
+    ) -> Result<Candidate, Reason> {
         let mut clock = Clock::start();
         system.factor()?;
         phases.factor += clock.lap();
-        let mut candidate = self.solve(system, contacts, &start, phases)?;
+        let mut candidate = self.solve(system, contacts, start, phases)?;
         let mut tries = 1;
         for round in 1..=ROUNDS {
             if !contradict(&system.rows, &candidate.x) {
@@ -75,12 +86,10 @@ impl World {
             break;
         }
         candidate.solver.tries = tries;
-        candidate.solver.slide_residual = bounds_lack(&system.rows, &candidate.x);
-        stop_slip(&system.rows, &mut candidate.x);
         Ok(candidate)
     }
 
-    /// The same with the contacts in the system, from impulses that are foretold. None if that does not come to an end.
+    /// With the contacts in the system, from impulses that are foretold. None if that does not come to an end.
     fn settle_touching(
         &self,
         system: &mut System,
@@ -93,13 +102,13 @@ impl World {
         let found = touching::find(system, system.start(self), self.settings.contact_tolerance);
         let touching = std::mem::take(&mut system.implicit);
         phases.contacts += clock.lap();
-        let mut found = found.ok()?;
+        let found = found.ok()?;
         let solver = SolverRecord {
             residual: found.residual,
             tries: found.tries,
             sweeps: 0,
             contact_residual: found.lack,
-            slide_residual: bounds_lack(&system.rows, &found.x),
+            slide_residual: 0.0,
         };
         let impulses = touching
             .iter()
@@ -108,7 +117,6 @@ impl World {
             impulses: impulses.collect(),
             ..Swept::default()
         };
-        stop_slip(&system.rows, &mut found.x);
         Some(Candidate {
             x: found.x,
             swept,

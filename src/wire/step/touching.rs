@@ -109,8 +109,9 @@ fn least_for_foretold(
 /// By how much velocities are off at most because laws are not linear, and because other impulses were foretold, in m/s.
 fn residuals(system: &System, x: &[f64]) -> [f64; 2] {
     let contacts = system.implicit.iter();
-    contacts.fold([0.0; 2], |[bend, lack], contact| {
-        [bend.max(contact.bend(x)), lack.max(contact.lack(x))]
+    contacts.fold([0.0; 2], |most: [f64; 2], contact| {
+        let own = contact.residuals(x);
+        [most[0].max(own[0]), most[1].max(own[1])]
     })
 }
 
