@@ -7,5 +7,5 @@ mod symmetric;
 
 pub(super) use bisect::bisect;
 pub(super) use ldl::{Ldl, SparseColumns};
-pub(super) use order::dissect;
+pub(super) use order::{dissect, least_degree};
 pub(super) use symmetric::{Symmetric, Triplets};

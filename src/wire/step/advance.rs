@@ -8,7 +8,7 @@ use super::contact::{Warm, check};
 use super::error::{Reason, StepError};
 use super::motion::{Motion, Shares, Sliding};
 use super::settle::Candidate;
-use super::system::System;
+use super::system::{Structure, System};
 use super::watch::{Given, Judgement, Watch};
 use crate::wire::model::World;
 use crate::wire::model::strand::MEMORY;
@@ -46,19 +46,11 @@ impl World {
         let step = self.steps;
         let failed = |reason| StepError { step, reason };
         let mut phases = Phases::default();
-        let mut clock = Clock::start();
         check(self, watch.contacts()).map_err(failed)?;
-        let structure = self.structure.take();
-        let mut system = System::new(self, structure);
-        phases.assembly = clock.lap();
-        let (candidate, motion) = match self.agree(&mut system, watch, &mut phases) {
-            Ok(agreed) => agreed,
-            Err(reason) => {
-                self.structure = system.into_structure();
-                return Err(failed(reason));
-            }
-        };
-        clock.lap();
+        let mut structure = self.structure.take();
+        let agreed = self.agree(&mut structure, watch, &mut phases);
+        let (system, candidate, motion) = agreed.map_err(failed)?;
+        let mut clock = Clock::start();
         let mut record = StepRecord::before(self);
         record.contacts = self.contact_records(watch.contacts(), &candidate.swept.impulses);
         record.solver = candidate.solver.clone();
@@ -77,11 +69,11 @@ impl World {
     /// Solves, and again with more contacts, until `watch` accepts the motion.
     fn agree(
         &self,
-        system: &mut System,
+        structure: &mut Option<Structure>,
         watch: &mut dyn Watch,
         phases: &mut Phases,
-    ) -> Result<(Candidate, Motion), Reason> {
-        let mut candidate = self.settle(system, watch.contacts(), phases)?;
+    ) -> Result<(System, Candidate, Motion), Reason> {
+        let (mut system, mut candidate) = self.settle(structure, watch.contacts(), phases)?;
         let mut shares = Shares::all(self);
         loop {
             let motion = self.motion(&system.layout, &candidate.x, &shares);
@@ -93,8 +85,11 @@ impl World {
             let judgement = watch.judge(self, &motion, &candidate.swept.impulses)?;
             phases.narrow += clock.lap();
             match judgement {
-                Judgement::Accept => return Ok((candidate, motion)),
-                Judgement::Solve => candidate = self.settle(system, watch.contacts(), phases)?,
+                Judgement::Accept => return Ok((system, candidate, motion)),
+                Judgement::Solve => {
+                    *structure = system.into_structure();
+                    (system, candidate) = self.settle(structure, watch.contacts(), phases)?;
+                }
                 Judgement::Hold(smaller) => shares = smaller,
             }
         }

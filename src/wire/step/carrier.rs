@@ -2,8 +2,8 @@
 
 use smallvec::SmallVec;
 
+use super::order::Block;
 use crate::wire::model::{BodyId, NodeKind, World};
-use crate::wire::solve::dissect;
 use crate::wire::{Contact, Place, Vector};
 
 /// What the velocity of a point is made of.
@@ -63,8 +63,8 @@ impl Carrier {
 
 /// The numbering of the unknowns: velocities and multipliers in order of elimination.
 ///
-/// Each wire's free nodes go by nested dissection, each followed by the rows that it can eliminate;
-/// then come the bodies, then what slides over contact nodes, and last the rows without a free node.
+/// Free nodes, each followed by the rows that it can eliminate, and bodies come in a given order ([`order`](super::order)),
+/// then what slides over contact nodes, and last the rows without a free node.
 #[derive(Clone, Debug)]
 pub(super) struct Layout {
     /// How many unknowns there are.
@@ -86,26 +86,15 @@ pub(super) struct Layout {
 const UNSET: usize = usize::MAX;
 
 impl Layout {
-    pub(super) fn new(world: &World) -> Self {
+    /// Numbers blocks in the order given, each followed by the rows that it can eliminate.
+    pub(super) fn new(world: &World, order: &[Block]) -> Self {
         let mut layout = Layout::carried(world);
-        let mut order = Vec::new();
-        for (w, wire) in world.wires.iter().enumerate() {
-            order.clear();
-            let free = |node: usize| wire.nodes[node].kind == NodeKind::Free;
-            let mut start = 0;
-            for node in 0..=wire.nodes.len() {
-                if node == wire.nodes.len() || !free(node) {
-                    dissect(start..node, &mut order);
-                    start = node + 1;
+        for block in order {
+            match *block {
+                Block::Node { wire, node } => {
+                    layout.eliminate_node(wire, node, world.wires[wire].nodes.len());
                 }
-            }
-            for &node in &order {
-                layout.eliminate_node(w, node, wire.nodes.len());
-            }
-        }
-        for (at, body) in world.bodies.iter().enumerate() {
-            if body.dynamic {
-                layout.bodies[at] = Some(layout.take(6));
+                Block::Body(at) => layout.bodies[at] = Some(layout.take(6)),
             }
         }
         layout.rest(world);

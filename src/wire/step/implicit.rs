@@ -1,37 +1,18 @@
 //! Contacts in the system itself: each with its law taken as linear, a stiffness and an impulse.
 //!
-//! A contact of a wire with what does not move ties two nodes that are tied anyway, so it hardly adds to the fill of the
-//! factor. There Newton's method, which finds what pulls and slides, finds what pushes, sticks and slips at once
+//! Newton's method, which finds what pulls and slides, then finds what pushes, sticks and slips at once
 //! ([`touching`](super::touching)).
 
 use nalgebra::Matrix3;
 use smallvec::SmallVec;
 
 use super::augmented::Augmented;
-use super::carrier::{Carrier, Layout};
-use super::contact::{Contact, Place};
+use super::carrier::Layout;
+use super::contact::Contact;
 use super::friction::{normal_row, velocity_of};
 use super::system::frame;
 use crate::wire::Vector;
 use crate::wire::model::World;
-
-/// Fewer contacts settle by few sweeps.
-const MANY: usize = 8;
-
-/// The most contacts between things that both move. Each adds to the fill.
-const COUPLED: usize = 16;
-
-/// Whether contacts are solved within the system.
-pub(super) fn suits(world: &World, layout: &Layout, contacts: &[Contact]) -> bool {
-    let moves = |place: &Place| {
-        let carriers = layout.place(world, place);
-        carriers
-            .iter()
-            .any(|(carrier, _)| !matches!(carrier, Carrier::Given(_)))
-    };
-    let coupled = |contact: &&Contact| moves(&contact.a) && moves(&contact.b);
-    contacts.len() >= MANY && contacts.iter().filter(coupled).count() <= COUPLED
-}
 
 /// One contact, its law taken as linear at one velocity. Velocities and impulses are those of place A against B, in the frame of
 /// the contact.

@@ -13,6 +13,7 @@ mod friction;
 mod implicit;
 mod law;
 pub(super) mod motion;
+mod order;
 mod rows;
 mod settle;
 mod slack;

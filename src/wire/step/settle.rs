@@ -5,9 +5,9 @@ use super::advance::Clock;
 use super::capstan::{bounds_lack, stop_slip};
 use super::error::Reason;
 use super::friction::{Swept, lack, sweep};
-use super::implicit;
+use super::order::{self, Block};
 use super::slack::{contradict, pull};
-use super::system::System;
+use super::system::{Structure, System};
 use super::touching;
 use crate::wire::Vector;
 use crate::wire::model::World;
@@ -28,24 +28,52 @@ impl World {
     /// slide over contact nodes, starting from those that did in the last step.
     pub(super) fn settle(
         &self,
-        system: &mut System,
+        structure: &mut Option<Structure>,
         contacts: &[Contact],
         phases: &mut Phases,
-    ) -> Result<Candidate, Reason> {
+    ) -> Result<(System, Candidate), Reason> {
+        let (system, mut candidate) = self.solution(structure, contacts, phases)?;
+        candidate.solver.slide_residual = bounds_lack(&system.rows, &candidate.x);
+        stop_slip(&system.rows, &mut candidate.x);
+        Ok((system, candidate))
+    }
+
+    fn solution(
+        &self,
+        structure: &mut Option<Structure>,
+        contacts: &[Contact],
+        phases: &mut Phases,
+    ) -> Result<(System, Candidate), Reason> {
         let start: Vec<Vector> = contacts
             .iter()
             .map(|contact| self.warm.impulse(contact.key))
             .collect();
-        let touching = implicit::suits(self, &system.layout, contacts);
-        let found = touching.then(|| self.settle_touching(system, contacts, &start, phases));
-        // What does not come to an end is swept.
-        let mut candidate = match found.flatten() {
-            Some(candidate) => candidate,
-            None => self.settle_swept(system, contacts, &start, phases)?,
-        };
-        candidate.solver.slide_residual = bounds_lack(&system.rows, &candidate.x);
-        stop_slip(&system.rows, &mut candidate.x);
-        Ok(candidate)
+        let mut clock = Clock::start();
+        let by_ties = order::by_ties(self, contacts);
+        phases.assembly += clock.lap();
+        if let Some(order) = by_ties {
+            let mut system = self.assemble(&order, structure, phases);
+            match self.settle_touching(&mut system, contacts, &start, phases) {
+                Some(candidate) => return Ok((system, candidate)),
+                // What does not come to an end is swept.
+                None => *structure = system.into_structure(),
+            }
+        }
+        let mut system = self.assemble(&order::by_wires(self), structure, phases);
+        let candidate = self.settle_swept(&mut system, contacts, &start, phases)?;
+        Ok((system, candidate))
+    }
+
+    fn assemble(
+        &self,
+        order: &[Block],
+        structure: &mut Option<Structure>,
+        phases: &mut Phases,
+    ) -> System {
+        let mut clock = Clock::start();
+        let system = System::new(self, order, structure.take());
+        phases.assembly += clock.lap();
+        system
     }
 
     /// Contacts are swept while the same segments pull; then it is found which pull and slide under these impulses, until

@@ -7,6 +7,7 @@ use super::contact::Contact;
 use super::error::Reason;
 use super::implicit::Implicit;
 use super::law::Piece;
+use super::order::Block;
 use super::rows::{Row, rows, unit};
 use super::spin::spin_freely;
 use crate::wire::Vector;
@@ -41,9 +42,9 @@ pub(super) struct System {
 }
 
 impl System {
-    /// Puts the system of the next step together. `structure` is that of the step before.
-    pub(super) fn new(world: &World, structure: Option<Structure>) -> Self {
-        let layout = Layout::new(world);
+    /// Puts the system of the next step together. `structure` is that of the last one.
+    pub(super) fn new(world: &World, order: &[Block], structure: Option<Structure>) -> Self {
+        let layout = Layout::new(world, order);
         let rows = rows(world, &layout);
         let mut system = System {
             triplets: Triplets::default(),

@@ -1,6 +1,7 @@
 use super::super::{anderson, delassus::Delassus};
 use super::*;
 use crate::query::Point;
+use crate::wire::step::order::by_wires;
 use crate::wire::{Material, Stop, WirePlan};
 
 /// A steel wire that lies over the upper half of a drum of radius 1, a contact at each of its nodes.
@@ -36,7 +37,7 @@ fn over_a_drum() -> (World, Vec<Contact>) {
 }
 
 fn solved(world: &World) -> (System, Vec<f64>) {
-    let mut system = System::new(world, None);
+    let mut system = System::new(world, &by_wires(world), None);
     system.factor().unwrap();
     let (free, _) = system.solve(&[]).unwrap();
     (system, free)

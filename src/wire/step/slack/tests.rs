@@ -6,6 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use super::*;
 use crate::query::Point;
 use crate::wire::step::law::Piece;
+use crate::wire::step::order::by_wires;
 use crate::wire::{Material, Settings, Stop, Vector, WirePlan, World};
 
 fn vector(rng: &mut ChaCha8Rng, size: f64) -> Vector {
@@ -58,7 +59,7 @@ fn pulling_segments_are_those_of_the_only_guess_that_holds() {
     let mut more_than_one = 0;
     for _ in 0..20 {
         let world = chain(rng);
-        let mut system = System::new(&world, None);
+        let mut system = System::new(&world, &by_wires(&world), None);
         let expected = by_guessing(&mut system);
         // From whatever velocities the search starts.
         for speed in [0.0, 1.0, 1000.0] {

@@ -8,7 +8,8 @@ use crate::query::Point;
 use crate::wire::step::carrier::Columns;
 use crate::wire::step::contact::{Contact, Place};
 use crate::wire::step::friction::{normal_row, sweep};
-use crate::wire::{Material, Settings, Stop, Vector, WirePlan, World};
+use crate::wire::step::order::{by_ties, by_wires};
+use crate::wire::{Material, Settings, Stop, Vector, WireId, WirePlan, World};
 
 /// A wire on a floor, dragged and thrown, with a contact at every node; some are loose.
 fn dragged(rng: &mut ChaCha8Rng, material: Material, speed: f64) -> (World, Vec<Contact>) {
@@ -42,9 +43,46 @@ fn dragged(rng: &mut ChaCha8Rng, material: Material, speed: f64) -> (World, Vec<
     (world, contacts)
 }
 
+/// The same with short wires across, which lie on every other node, and on the floor with both ends.
+fn laid_across(rng: &mut ChaCha8Rng, material: Material, speed: f64) -> (World, Vec<Contact>) {
+    let (mut world, mut contacts) = dragged(rng, material, speed);
+    for at in (1..15).step_by(2) {
+        let under = world.wires[0].nodes[at];
+        let route = [-1.0, 0.0, 1.0].map(|y| {
+            let off = Vector::new(rng.random_range(-0.1..0.1), y, 0.02);
+            Stop::Free(under.position + off)
+        });
+        let plan = WirePlan::new(material, 0.5, route.to_vec());
+        let wire = world.add_wire(&plan).unwrap();
+        let nodes = &mut world.wires[wire.0].nodes;
+        for node in nodes.iter_mut() {
+            node.velocity = Vector::from_fn(|_, _| rng.random_range(-1.0..1.0) * speed);
+        }
+        let arcs: Vec<f64> = nodes.iter().map(|node| node.arc).collect();
+        let below = Place::Wire {
+            wire: WireId(0),
+            arc: under.arc,
+        };
+        let last = arcs.len() - 1;
+        let b = [Place::World, below, Place::World];
+        for (arc, b) in [arcs[0], 0.5 * arcs[last], arcs[last]].into_iter().zip(b) {
+            contacts.push(Contact {
+                key: contacts.len() as u64,
+                a: Place::Wire { wire, arc },
+                b,
+                normal: Vector::z(),
+                gap: rng.random_range(-1e-4..1e-3),
+                friction: 0.5,
+            });
+        }
+    }
+    (world, contacts)
+}
+
 /// What is found from impulses of 0, and the impulses.
 fn found(world: &World, contacts: &[Contact]) -> (System, Found, Vec<Vector>) {
-    let mut system = System::new(world, None);
+    let order = by_ties(world, contacts).unwrap();
+    let mut system = System::new(world, &order, None);
     system.take(world, contacts, &vec![Vector::zeros(); contacts.len()]);
     let start = system.start(world);
     let found = find(&mut system, start, world.settings.contact_tolerance).unwrap();
@@ -131,10 +169,11 @@ fn contacts_keep_to_coulombs_law_and_their_impulses_are_what_moves_the_wire() {
 fn impulses_are_those_that_sweeps_come_to() {
     let rng = &mut ChaCha8Rng::seed_from_u64(2);
     for k in 0..20 {
-        let (mut world, contacts) = dragged(rng, Material::steel(0.01), 0.3);
+        let scene = [dragged, laid_across][k % 2];
+        let (mut world, contacts) = scene(rng, Material::steel(0.01), 0.3);
         let (_, _, impulses) = found(&world, &contacts);
         (world.settings.sweeps, world.settings.contact_tolerance) = (100_000, 1e-12);
-        let mut system = System::new(&world, None);
+        let mut system = System::new(&world, &by_wires(&world), None);
         system.factor().unwrap();
         let (free, _) = system.solve(&[]).unwrap();
         let start = vec![Vector::zeros(); contacts.len()];
