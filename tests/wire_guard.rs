@@ -16,8 +16,8 @@ use tunnelproof::contact::Verdict;
 use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
 use tunnelproof::query::{EdgeEdge, Point, Query};
 use tunnelproof::wire::{
-    BodyId, BodyPlan, CollisionError, Collisions, Drive, Material, Mode, Phase, Reason, Remesh,
-    RemeshKind, Settings, Shape, StepRecord, Stop, Vector, WirePlan, World,
+    BodyId, BodyPlan, CollisionError, Collisions, Drive, Material, Mode, NodeKind, Phase, Reason,
+    Remesh, RemeshKind, Settings, Shape, StepRecord, Stop, Vector, WirePlan, World,
 };
 use tunnelproof_reference::oracle::decide_query;
 
@@ -176,6 +176,8 @@ struct Tally {
     held: usize,
     remeshed: usize,
     refused: usize,
+    /// Contact nodes, counted in every step.
+    riding: usize,
     /// Why steps were not done.
     failed: Vec<String>,
     /// Failed because midlines touched before a step, which guard mode must not let happen.
@@ -193,12 +195,18 @@ impl Tally {
         self.held += record.collisions.held.len();
         self.refused += record.collisions.refused;
         self.remeshed += record.remeshes.len();
+        let kinds = record.wires.iter().flat_map(|wire| &wire.kinds);
+        let riding = kinds.filter(|kind| matches!(kind, NodeKind::Contact { .. }));
+        self.riding += riding.count();
         self.met += meetings(record);
         for (wire, moved) in before.iter_mut().zip(&record.wires) {
             assert!(wire.iter().map(|(_, point)| point).eq(&moved.before));
             for ((_, point), to) in wire.iter_mut().zip(&moved.after) {
                 *point = *to;
             }
+        }
+        for slide in &record.slides {
+            before[slide.wire.0][slide.node].0 += slide.distance;
         }
         for change in &record.remeshes {
             self.met_remeshing += remesh(&mut before, change);
@@ -223,14 +231,24 @@ impl Tally {
     }
 }
 
+/// Guard mode with one of both broad phases, and in every other pair of scenes with contact nodes.
+fn collisions(seed: u64) -> Collisions<'static> {
+    let method = [Method::SweepAndPrune, Method::HierarchicalGrid][seed as usize % 2];
+    let collisions = Collisions::new(Mode::Guard, method, &Certified);
+    if seed / 2 % 2 == 1 {
+        collisions.with_contact_nodes()
+    } else {
+        collisions
+    }
+}
+
 #[test]
 fn guard_commits_no_motion_in_which_midlines_meet() {
     let scenes = std::env::var("TUNNELPROOF_SCENES");
     let scenes = scenes.map_or(60, |count| count.parse().expect("a number of scenes"));
     let mut tally = Tally::default();
     for seed in 0..scenes {
-        let method = [Method::SweepAndPrune, Method::HierarchicalGrid][seed as usize % 2];
-        let mut collisions = Collisions::new(Mode::Guard, method, &Certified);
+        let mut collisions = collisions(seed);
         let before = (tally.met, tally.met_remeshing);
         let failed = tally.failed.len();
         tally.scene(scene(seed), &mut collisions);
@@ -247,16 +265,16 @@ fn guard_commits_no_motion_in_which_midlines_meet() {
     assert_eq!(tally.stuck, 0);
     // All parts of guard mode took part.
     assert!(tally.prevented > 0 && tally.held > 0 && tally.remeshed > 0 && tally.refused > 0);
+    assert!(tally.riding > 0);
 }
 
-/// Scenes in which steps were once refused: chains whose segments pull in turns, and one that threw a coordinate to
-/// infinity.
+/// Scenes in which steps were once refused: chains whose segments pull in turns, one that threw a coordinate to
+/// infinity, and contact nodes over which all of a segment would have slid.
 #[test]
 fn guard_does_every_step_of_scenes_that_were_hard() {
-    for seed in [72, 1066, 3243, 6060, 6644, 9114] {
+    for seed in [72, 1066, 1122, 1515, 3243, 6060, 6644, 9114] {
         let mut tally = Tally::default();
-        let method = [Method::SweepAndPrune, Method::HierarchicalGrid][seed as usize % 2];
-        let mut collisions = Collisions::new(Mode::Guard, method, &Certified);
+        let mut collisions = collisions(seed);
         tally.scene(scene(seed), &mut collisions);
         println!("seed {seed}: {tally:?}");
         assert_eq!(tally.steps, STEPS, "seed {seed}: {tally:?}");

@@ -5,14 +5,13 @@ use std::time::Instant;
 
 use serde::Serialize;
 use tunnelproof::additive::Additive;
-use tunnelproof::broad::Method;
 use tunnelproof::certified::Certified;
 use tunnelproof::contact::{Case, Flags, Verdict};
 use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
 use tunnelproof::query::EdgeEdge;
-use tunnelproof::scenario::scenes::{Reason, Scene, SceneError};
+use tunnelproof::scenario::scenes::{Scene, SceneError};
 use tunnelproof::thesis::Thesis;
-use tunnelproof::wire::{Collisions, Mode, Outcome, StepError, StepRecord, World};
+use tunnelproof::wire::{Mode, Outcome, StepError, StepRecord, World};
 
 use crate::certify::table::grouped;
 
@@ -142,14 +141,7 @@ impl Run<'_> {
         mut observe: impl FnMut(&World, &StepRecord) -> Result<(), E>,
     ) -> Result<Summary, E> {
         let mut world = self.scene.world()?;
-        let collisions = Collisions::new(self.mode, Method::default(), self.narrow);
-        let refused = |error| SceneError {
-            line: None,
-            path: vec!["friction".to_owned()],
-            reason: Reason::Model(error),
-        };
-        let friction = self.scene.friction;
-        let mut collisions = collisions.with_friction(friction).map_err(refused)?;
+        let mut collisions = self.scene.collisions(self.mode, self.narrow)?;
         let mut summary = Summary {
             title: self.scene.title.clone(),
             ..Summary::default()

@@ -143,7 +143,7 @@ fn split(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
     }
 }
 
-fn remesh(wire: usize, kind: RemeshKind, nodes: &[Node; 3]) -> Remesh {
+pub(super) fn remesh(wire: usize, kind: RemeshKind, nodes: &[Node; 3]) -> Remesh {
     Remesh {
         wire: WireId(wire),
         kind,
@@ -186,7 +186,7 @@ fn between(ends: &[Node; 2], settled: u64) -> Node {
     }
 }
 
-fn put_in(wire: &mut Wire, segment: usize, middle: Node) {
+pub(super) fn put_in(wire: &mut Wire, segment: usize, middle: Node) {
     for end in [segment, segment + 1] {
         wire.nodes[end].settled = middle.settled;
     }

@@ -28,6 +28,35 @@ velocity = [0, 0, -20]
 route = [{ pinned = [0, 0, 0] }, { pinned = [2, 0, 0] }, { free = [2, 1, 0.2] }, { free = [0.9, 1, 0.2] }, { free = [0.9, -0.5, 0.2] }]
 "#;
 
+/// A chain that slides over the edge of a cube, and two that fall on it, across it and over the edge.
+const EDGE: &str = r#"
+title = "edge"
+duration = 2
+friction = 0.1
+contact_nodes = true
+[[bodies]]
+name = "cube"
+shape = { box = { half = [0.5, 0.5, 0.5] } }
+position = [0, 0, -0.5]
+[[wires]]
+name = "over the edge"
+material = { radius = 0.005, bend_modulus = 0 }
+resolution = 0.2
+route = [{ free = [0, 0, 0.005] }, { free = [0.505, 0, 0.005] }, { free = [0.505, 0, -1.5] }]
+[[wires]]
+name = "across"
+material = { radius = 0.005, bend_modulus = 0 }
+resolution = 0.2
+velocity = [1, 0, -5]
+route = [{ free = [0.1, -0.8, 0.06] }, { free = [0.1, 0.8, 0.06] }]
+[[wires]]
+name = "askew"
+material = { radius = 0.005 }
+resolution = 0.2
+velocity = [0, 0, -10]
+route = [{ free = [-0.5, -0.3, 0.1] }, { free = [1, 0.3, 0.1] }]
+"#;
+
 fn basic_collision() -> World {
     Scene::embedded("basic-collision").unwrap().world().unwrap()
 }
@@ -54,6 +83,29 @@ fn audit_of_guard_mode_finds_nothing_and_every_time_exact() {
     assert!(report.is_exact(), "{report:?}");
     assert_eq!(report.contacts, 0);
     assert!(report.prevented > 0 && report.steps == 60);
+}
+
+#[test]
+fn audit_of_contact_nodes_that_come_and_go_finds_nothing() {
+    let scene = Scene::from_toml(EDGE).unwrap();
+    let mut collisions = scene.collisions(Mode::Guard, &Certified).unwrap();
+    let mut world = scene.world().unwrap();
+    let records: Vec<StepRecord> = (0..scene.steps())
+        .map(|_| world.step_colliding(&mut collisions, &[]).unwrap())
+        .collect();
+    let report = audited(&records);
+    assert!(report.is_exact() && report.prevented > 0, "{report:?}");
+    let over = |kind: &&NodeKind| matches!(kind, NodeKind::Contact { .. });
+    let rode = |record: &StepRecord| {
+        let kinds = record.wires.iter().flat_map(|wire| &wire.kinds);
+        kinds.filter(over).count()
+    };
+    let left = |record: &StepRecord| record.slides.iter().filter(|slide| slide.left).count();
+    let [rode, left] = [
+        records.iter().map(rode).sum::<usize>(),
+        records.iter().map(left).sum(),
+    ];
+    assert!(rode > 50 && left > 0, "{rode} {left}");
 }
 
 #[test]

@@ -10,9 +10,8 @@ mod twist;
 use std::error::Error;
 
 use super::scenes::Scene;
-use crate::broad::Method;
 use crate::certified::Certified;
-use crate::wire::{Collisions, ContactRecord, Mode, Outcome, Place, StepRecord, World};
+use crate::wire::{ContactRecord, Mode, Outcome, Place, StepRecord, World};
 
 /// What is looked at in one scene.
 #[derive(Clone, Copy, Debug)]
@@ -79,8 +78,7 @@ fn run(
 ) -> Result<(), Box<dyn Error>> {
     let scene = Scene::embedded(name)?;
     let mut world = scene.world()?;
-    let collisions = Collisions::new(mode, Method::default(), &Certified);
-    let mut collisions = collisions.with_friction(scene.friction)?;
+    let mut collisions = scene.collisions(mode, &Certified)?;
     for _ in 0..scene.steps() {
         let record = world.step_colliding(&mut collisions, &[])?;
         look(&world, &record);

@@ -7,8 +7,12 @@ use nalgebra::{Quaternion, UnitQuaternion};
 use super::error::{Reason, SceneError};
 use super::file::{Body, Drive, Material, Scene, Shape, Stop, Turn, Wire};
 use super::hang::hang;
+use crate::broad::Method;
+use crate::narrow::NarrowPhase;
 use crate::query::Point;
-use crate::wire::{self, BodyId, BodyPlan, Mesh, ModelError, WirePlan, World, check};
+use crate::wire::{
+    self, BodyId, BodyPlan, Collisions, Mesh, Mode, ModelError, WirePlan, World, check,
+};
 
 /// The most parts of a catenary; where a wire is resolved more finely, they are straight.
 const MOST_PARTS: f64 = 1e4;
@@ -40,6 +44,26 @@ impl Scene {
                 .map_err(|error| on_route(k, &entries, error))?;
         }
         Ok(world)
+    }
+
+    /// How its wires and bodies collide.
+    ///
+    /// # Errors
+    ///
+    /// A friction that is refused. None for a scene as it was read.
+    pub fn collisions<'n>(
+        &self,
+        mode: Mode,
+        narrow: &'n dyn NarrowPhase,
+    ) -> Result<Collisions<'n>, SceneError> {
+        let collisions = Collisions::new(mode, Method::default(), narrow);
+        let collisions = collisions.with_friction(self.friction);
+        let collisions = collisions.map_err(|error| refused(&[&"friction"], error))?;
+        Ok(if self.contact_nodes {
+            collisions.with_contact_nodes()
+        } else {
+            collisions
+        })
     }
 
     /// The plan of a wire, and of each stop of its route the entry of the file.

@@ -19,6 +19,9 @@ pub struct Scene {
     /// Coefficient of friction of wires; usual value 0.5.
     #[serde(default = "half")]
     pub friction: f64,
+    /// Whether adaptive wires get contact nodes where bodies bend them; usually not.
+    #[serde(default)]
+    pub contact_nodes: bool,
     /// What the stepper works with; what is left out has its usual value.
     #[serde(default)]
     pub settings: Settings,

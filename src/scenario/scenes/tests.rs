@@ -55,6 +55,9 @@ fn refused(from: &str, to: &str) -> String {
 fn scene_file_builds_all_that_the_model_has() {
     let scene = Scene::from_toml(FILE).unwrap();
     assert_eq!((scene.steps(), scene.friction), (150, 0.5));
+    let more = FILE.replacen("duration", "contact_nodes = true\nduration", 1);
+    let with = Scene::from_toml(&more).unwrap();
+    assert!(with.contact_nodes && !scene.contact_nodes);
     let world = scene.world().unwrap();
     assert_eq!(world.settings().step, 0.01);
     assert_eq!(world.settings().sweeps, 200);

@@ -8,11 +8,12 @@ use super::obstacle::Obstacles;
 use super::record::{CollisionRecord, Outcome};
 use super::segment::{pair_at, reach};
 use super::touch::{Touch, Touches};
-use super::{CollisionError, Collisions, Mode, remesh};
+use super::{CollisionError, Collisions, Mode, bend, remesh};
 use crate::wire::Vector;
 use crate::wire::model::{WireId, World};
 use crate::wire::record::ContactRecord;
 use crate::wire::resolution::{Remesh, RemeshGuard, RemeshKind};
+use crate::wire::step::capstan::Bend;
 use crate::wire::step::motion::Motion;
 use crate::wire::step::watch::{Judgement, Watch};
 use crate::wire::step::{Contact, Reason};
@@ -169,10 +170,19 @@ impl Watch for Guard<'_, '_> {
         hold.shorten(&found.hits);
         Ok(Judgement::Hold(hold.shares()))
     }
+
+    fn contact_nodes(&self, world: &World, contacts: &[ContactRecord]) -> Vec<Bend> {
+        if self.collisions.contact_nodes {
+            bend::bends(world, contacts)
+        } else {
+            Vec::new()
+        }
+    }
 }
 
 impl RemeshGuard for Guard<'_, '_> {
-    /// In guard mode: not if it would meet a segment, nor if it moves a stretch on which a contact pushes.
+    /// In guard mode: not if it would meet a segment, nor if it moves a stretch on which a contact pushes, other than by a hair beside a
+    /// contact node.
     fn permits(&mut self, world: &World, change: &Remesh) -> bool {
         let Collisions {
             narrow,
@@ -183,7 +193,9 @@ impl RemeshGuard for Guard<'_, '_> {
             ..
         } = &*self.collisions;
         let [from, _, to] = change.arcs;
-        let by_body = |o: &Obstacles| o.pushes_between(change.wire, from, to);
+        let by_body = |o: &Obstacles| {
+            o.pushes_between(change.wire, from, to) && !remesh::is_slid_over(world, change)
+        };
         let loaded = || {
             touches.pushes_between(change.wire.0, from, to)
                 || obstacles.as_ref().is_some_and(by_body)

@@ -31,6 +31,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod bend;
 mod boxes;
 mod detect;
 mod error;
@@ -89,6 +90,8 @@ pub struct Collisions<'n> {
     touches: Touches,
     /// None if bodies are the caller's.
     obstacles: Option<Obstacles>,
+    /// Whether wires get contact nodes where bodies bend them.
+    contact_nodes: bool,
 }
 
 impl Default for Collisions<'_> {
@@ -110,6 +113,7 @@ impl<'n> Collisions<'n> {
             pipeline: Pipeline::new(method),
             touches: Touches::default(),
             obstacles: Some(Obstacles::new(method)),
+            contact_nodes: false,
         }
     }
 
@@ -135,6 +139,15 @@ impl<'n> Collisions<'n> {
     #[must_use]
     pub fn without_bodies(mut self) -> Self {
         self.obstacles = None;
+        self
+    }
+
+    /// The same with contact nodes for adaptive wires: where a body that was found to touch one bends it between two nodes, it gets
+    /// another one there, which rides the body, and over which wire sticks or slides ([`NodeKind::Contact`](crate::wire::NodeKind)).
+    /// It leaves where the wire turns away from the body, and with the end of the wire.
+    #[must_use]
+    pub fn with_contact_nodes(mut self) -> Self {
+        self.contact_nodes = true;
         self
     }
 

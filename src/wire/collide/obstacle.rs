@@ -18,7 +18,7 @@ use crate::wire::record::ContactRecord;
 use crate::wire::step::{Contact, Place};
 
 /// Where the keys of contacts with bodies start.
-const KEYS: u64 = 3 << 62;
+pub(super) const KEYS: u64 = 3 << 62;
 
 /// The contacts with bodies of one world, from step to step.
 pub(super) struct Obstacles {
@@ -230,17 +230,15 @@ fn moving<'f>(
     bodies.chain(segments).collect()
 }
 
-/// Whether two things are a pair to test: a segment and a body that does not carry one of its nodes, or two bodies of
-/// which forces move one.
+/// Whether two things are a pair to test: a segment and a body of which it is no end and that does not carry both of its nodes, or
+/// two bodies of which forces move one.
 fn is_pair(world: &World, pair: [Thing; 2]) -> bool {
     match pair {
         [Thing::Body(a), Thing::Body(b)] => [a, b].iter().any(|body| world.bodies[body.0].dynamic),
         [Thing::Body(body), Thing::Segment(id)] | [Thing::Segment(id), Thing::Body(body)] => {
-            let carriers = id.nodes(world).map(|node| node.kind.carrier());
-            carriers
-                .iter()
-                .flatten()
-                .all(|(carrier, _)| *carrier != body)
+            let rides = id.nodes(world).map(|node| node.kind.rides(body));
+            let is_end = id.nodes(world).iter().any(|node| node.kind.is_eye(body));
+            !is_end && rides != [true; 2]
         }
         [Thing::Segment(_), Thing::Segment(_)] => false,
     }

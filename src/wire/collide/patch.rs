@@ -7,13 +7,14 @@ use super::obstacle::Thing;
 use super::segment::SegmentId;
 use crate::query::Point;
 use crate::wire::Vector;
-use crate::wire::model::{BodyId, WireId, World};
+use crate::wire::model::{BodyId, NodeKind, WireId, World};
 use crate::wire::step::{Contact, Place};
 
 /// A contact and the segment that it is on, if it is on one.
 pub(super) type Found = (Option<SegmentId>, Contact);
 
-/// Adds the contacts of one pair. On a segment, a place between two others counts only if it is deeper.
+/// Adds the contacts of one pair. On a segment, a place between two others counts only if it is deeper, and none in the half that a
+/// contact node on this body ends: the node holds that.
 pub(super) fn contacts_of(
     world: &World,
     [a, b]: [Thing; 2],
@@ -36,6 +37,7 @@ pub(super) fn contacts_of(
         found.extend(contacts.into_iter().map(|contact| (None, contact)));
         return;
     };
+    contacts.retain(|contact| !is_held(world, id, other, arc(contact)));
     contacts.sort_by(|a, b| arc(a).total_cmp(&arc(b)));
     let outer = [contacts.first(), contacts.last()];
     let outer = outer.map(|contact| contact.map_or(0.0, |contact| contact.gap));
@@ -46,6 +48,17 @@ pub(super) fn contacts_of(
             found.push((Some(id), contact));
         }
     }
+}
+
+/// Whether a place of a segment is in the half that a node on a body ends.
+fn is_held(world: &World, id: SegmentId, body: BodyId, arc: f64) -> bool {
+    let [start, end] = id.nodes(world);
+    let nearer = if arc - start.arc < end.arc - arc {
+        start
+    } else {
+        end
+    };
+    nearer.kind.rides(body)
 }
 
 /// The place of a point that is on the surface of a thing.
@@ -77,7 +90,7 @@ fn arc(contact: &Contact) -> f64 {
     }
 }
 
-/// Leaves out the ends of wires: from a node that a body carries, whatever of the wire penetrates this body without
+/// Leaves out the ends of wires: from a node that is fixed to a body, whatever of the wire penetrates this body without
 /// a gap is one with it. So a wire may come from a point inside of a body.
 pub(super) fn leave_out_ends(world: &World, found: &mut Vec<Found>) {
     let mut deep: BTreeSet<(BodyId, SegmentId)> = BTreeSet::new();
@@ -91,7 +104,7 @@ pub(super) fn leave_out_ends(world: &World, found: &mut Vec<Found>) {
     let mut ends = BTreeSet::new();
     for (w, wire) in world.wires.iter().enumerate() {
         for (n, node) in wire.nodes.iter().enumerate() {
-            let Some((body, _)) = node.kind.carrier() else {
+            let NodeKind::Eye { body, .. } = node.kind else {
                 continue;
             };
             let at = |segment: usize| {

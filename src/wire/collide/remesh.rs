@@ -6,7 +6,7 @@ use super::segment::{SegmentId, joined};
 use crate::broad::Aabb;
 use crate::narrow::NarrowPhase;
 use crate::query::EdgeEdge;
-use crate::wire::model::{WireId, World};
+use crate::wire::model::{NodeKind, WireId, World};
 use crate::wire::resolution::Remesh;
 
 /// Whether the triangle that a change sweeps meets another segment.
@@ -43,6 +43,21 @@ pub(super) fn meets(
         }
     }
     Ok(false)
+}
+
+/// Whether a node that lies beside a contact node, and hardly off the line between its neighbours, would be taken out: wire that slides
+/// over a body brings its nodes, and whatever else the body pushes on them does not hold them there.
+pub(super) fn is_slid_over(world: &World, change: &Remesh) -> bool {
+    let wire = &world.wires[change.wire.0];
+    let is_contact = |arc: f64| {
+        let (segment, share) = wire.at(arc);
+        let node = segment + usize::from(share > 0.5);
+        matches!(wire.nodes[node].kind, NodeKind::Contact { .. })
+    };
+    let [a, b, c] = change.triangle;
+    let off = (b - a).cross(&(c - a)).norm() / (c - a).norm();
+    let [from, _, to] = change.arcs;
+    (is_contact(from) || is_contact(to)) && off <= wire.material.radius
 }
 
 /// The segments that a change takes out or divides.

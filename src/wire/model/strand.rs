@@ -42,6 +42,16 @@ pub enum NodeKind {
 }
 
 impl NodeKind {
+    /// Whether a point of this body carries the node.
+    pub(in crate::wire) fn rides(&self, body: BodyId) -> bool {
+        self.carrier().is_some_and(|(carrier, _)| carrier == body)
+    }
+
+    /// Whether it is fixed to this body.
+    pub(in crate::wire) fn is_eye(&self, body: BodyId) -> bool {
+        matches!(self, NodeKind::Eye { .. }) && self.rides(body)
+    }
+
     /// The body and the point of it that carry the node, if one does.
     pub fn carrier(&self) -> Option<(BodyId, Vector)> {
         match *self {

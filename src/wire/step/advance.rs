@@ -60,7 +60,9 @@ impl World {
         record.after(self);
         phases.commit = clock.lap();
         record.slides = capstan::slides(self, &slid);
-        record.remeshes = resolution::adapt(self, watch);
+        let bends = watch.contact_nodes(self, &record.contacts);
+        record.remeshes = capstan::arrive(self, &bends, watch);
+        record.remeshes.extend(resolution::adapt(self, watch));
         phases.resolution = clock.lap();
         record.phases = phases;
         Ok(record)
@@ -76,11 +78,11 @@ impl World {
         let (mut system, mut candidate) = self.settle(structure, watch.contacts(), phases)?;
         let mut shares = Shares::all(self);
         loop {
-            let motion = self.motion(&system.layout, &candidate.x, &shares);
+            let mut motion = self.motion(&system.layout, &candidate.x, &shares);
             if !motion.is_finite() {
                 return Err(Reason::NotFinite);
             }
-            capstan::check(self, &motion)?;
+            capstan::shorten(self, &mut motion);
             let mut clock = Clock::start();
             let judgement = watch.judge(self, &motion, &candidate.swept.impulses)?;
             phases.narrow += clock.lap();

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::wire::collide::CollisionError;
-use crate::wire::model::{ModelError, WireId};
+use crate::wire::model::ModelError;
 
 /// A step that was not done. The world is as it was before.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,13 +39,6 @@ pub enum Reason {
     },
     /// The solution leads to a position, orientation or velocity that is NaN or infinite.
     NotFinite,
-    /// Hardly anything of a segment beside a contact node would be left: all would have slid over the node.
-    Swallowed {
-        /// The wire.
-        wire: WireId,
-        /// The segment.
-        segment: usize,
-    },
     /// It was not found which segments of chains pull, or which wires slide over contact nodes.
     Slack {
         /// How many guesses were tried.
@@ -76,11 +69,6 @@ impl fmt::Display for StepError {
             ),
             Reason::NotFinite => f.write_str(
                 "something would end at a position or velocity that is not a finite number",
-            ),
-            Reason::Swallowed { wire, segment } => write!(
-                f,
-                "segment {segment} of wire {} would slide over its contact nodes as a whole",
-                wire.0
             ),
             Reason::Slack { tries } => write!(
                 f,

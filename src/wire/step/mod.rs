@@ -3,7 +3,7 @@
 pub(super) mod advance;
 mod anderson;
 mod augmented;
-mod capstan;
+pub(super) mod capstan;
 mod carrier;
 pub(super) mod contact;
 mod coulomb;

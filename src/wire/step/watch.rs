@@ -1,8 +1,10 @@
 //! Who looks on while a step is made.
 
+use super::capstan::Bend;
 use super::error::Reason;
 use super::motion::{Motion, Shares};
 use crate::wire::model::{WireId, World};
+use crate::wire::record::ContactRecord;
 use crate::wire::resolution::{Remesh, RemeshGuard};
 use crate::wire::{Contact, Vector};
 
@@ -18,6 +20,11 @@ pub(in crate::wire) trait Watch: RemeshGuard {
         motion: &Motion,
         impulses: &[Vector],
     ) -> Result<Judgement, Reason>;
+
+    /// After the motion, with the contacts that it was made with: where wires get contact nodes.
+    fn contact_nodes(&self, _world: &World, _contacts: &[ContactRecord]) -> Vec<Bend> {
+        Vec::new()
+    }
 }
 
 /// What becomes of a motion.
