@@ -1,12 +1,12 @@
 //! Where bodies bend wires, which get contact nodes there.
 //!
 //! A wire bends at its nodes only: over an edge between two of them it lies as a bar. With a contact node there it turns, and sticks
-//! or slides as far as the capstan bound goes. The node leaves where the wire turns away from the body, or ends (`step/capstan.rs`).
+//! or slides as far as the capstan bound goes. The node leaves where the wire turns away from the body, or ends (`step/ride.rs`).
 
 use super::obstacle::KEYS;
 use crate::wire::model::{BodyId, Wire, World};
 use crate::wire::record::ContactRecord;
-use crate::wire::step::capstan::{self, Bend};
+use crate::wire::step::ride::{self, Bend};
 use crate::wire::step::{Contact, Place};
 
 /// The least turn of a wire that is bent, as the length of the difference of two directions.
@@ -31,18 +31,16 @@ fn bend(world: &World, contact: &Contact) -> Option<Bend> {
     if !(found && on_surface) || wire.segments[segment].tension <= 0.0 {
         return None;
     }
-    let node = capstan::node_near(wire, arc);
-    let place = match node {
-        Some(node) => wire.nodes[node].position,
-        None => wire.nodes[segment].position + wire.span(segment) * share,
+    // Where the node will be, and the nodes between which it turns the wire.
+    let (place, [before, after]) = match ride::node_near(wire, arc) {
+        Some(node) => (wire.nodes[node].position, [node.checked_sub(1)?, node + 1]),
+        None => {
+            let place = wire.nodes[segment].position + wire.span(segment) * share;
+            (place, beside(wire, segment, body))
+        }
     };
-    let ways = match node {
-        Some(node) => [node.checked_sub(1)?, node + 1],
-        None => beside(wire, segment, body),
-    }
-    .map(|node| Some((wire.nodes.get(node)?.position - place).normalize()));
-    let [before, after] = ways;
-    let [before, after] = [before?, after?];
+    let way = |node: usize| Some((wire.nodes.get(node)?.position - place).normalize());
+    let [before, after] = [way(before)?, way(after)?];
     // Down on one side, and not as far up on the other: over an edge, not beside one.
     let slopes = [before, after].map(|way| way.dot(&contact.normal));
     let out = -(before + after);

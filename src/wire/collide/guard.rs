@@ -13,8 +13,8 @@ use crate::wire::Vector;
 use crate::wire::model::{WireId, World};
 use crate::wire::record::ContactRecord;
 use crate::wire::resolution::{Remesh, RemeshGuard, RemeshKind};
-use crate::wire::step::capstan::Bend;
 use crate::wire::step::motion::Motion;
+use crate::wire::step::ride::Bend;
 use crate::wire::step::watch::{Judgement, Watch};
 use crate::wire::step::{Contact, Reason};
 

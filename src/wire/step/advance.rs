@@ -7,6 +7,7 @@ use super::capstan;
 use super::contact::{Warm, check};
 use super::error::{Reason, StepError};
 use super::motion::{Motion, Shares, Sliding};
+use super::ride;
 use super::settle::Candidate;
 use super::system::{Structure, System};
 use super::watch::{Given, Judgement, Watch};
@@ -60,8 +61,9 @@ impl World {
         record.after(self);
         phases.commit = clock.lap();
         record.slides = capstan::slides(self, &slid);
+        record.slides.extend(ride::leave(self));
         let bends = watch.contact_nodes(self, &record.contacts);
-        record.remeshes = capstan::arrive(self, &bends, watch);
+        record.remeshes = ride::arrive(self, &bends, watch);
         record.remeshes.extend(resolution::adapt(self, watch));
         phases.resolution = clock.lap();
         record.phases = phases;

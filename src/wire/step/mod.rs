@@ -3,7 +3,7 @@
 pub(super) mod advance;
 mod anderson;
 mod augmented;
-pub(super) mod capstan;
+mod capstan;
 mod carrier;
 pub(super) mod contact;
 mod coulomb;
@@ -14,6 +14,7 @@ mod implicit;
 mod law;
 pub(super) mod motion;
 mod order;
+pub(super) mod ride;
 mod rows;
 mod settle;
 mod slack;

@@ -1,8 +1,8 @@
 //! Who looks on while a step is made.
 
-use super::capstan::Bend;
 use super::error::Reason;
 use super::motion::{Motion, Shares};
+use super::ride::Bend;
 use crate::wire::model::{WireId, World};
 use crate::wire::record::ContactRecord;
 use crate::wire::resolution::{Remesh, RemeshGuard};

@@ -2,6 +2,7 @@ use super::*;
 use crate::query::Point;
 use crate::wire::step::motion::Shares;
 use crate::wire::step::order::by_wires;
+use crate::wire::step::ride::free;
 use crate::wire::{BodyId, BodyPlan, Drive, Material, Phase, Settings, Shape, Stop, WirePlan};
 
 const FRICTION: f64 = 0.3;
@@ -153,7 +154,7 @@ fn contact_node_leaves_where_the_wire_turns_away_from_the_body_and_goes_on_with_
     let wire = &mut world.wires[0];
     wire.nodes[1].slide = -2.0;
     let [before, after] = directions(wire, 1);
-    leave(wire, 1);
+    free(wire, 1);
     assert_eq!(
         (wire.nodes[1].slide, wire.nodes[1].velocity),
         (0.0, before + after)
