@@ -8,9 +8,12 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use nalgebra::UnitQuaternion;
 use parry3d_f64::math::{Pose, Rotation, Vector as Vec3};
 use parry3d_f64::query::{
-    ContactManifold, DefaultQueryDispatcher, PersistentQueryDispatcher, TrackedContact,
+    ContactManifold, DefaultQueryDispatcher, PersistentQueryDispatcher, QueryDispatcher,
+    TrackedContact,
 };
-use parry3d_f64::shape::{SharedShape, TriMeshBuilderError, TriMeshFlags};
+use parry3d_f64::shape::{
+    Segment, Shape as ShapeOfLibrary, SharedShape, TriMeshBuilderError, TriMeshFlags, Triangle,
+};
 
 use crate::broad::{Aabb, BroadError};
 use crate::query::Point;
@@ -118,6 +121,22 @@ impl Placed<'_> {
         let margin = Vec3::splat(margin);
         let [low, high] = [bounds.mins - margin, bounds.maxs + margin].map(from_library);
         Aabb::new(low.into(), high.into())
+    }
+
+    /// Whether two pieces of a midline, from the first corner over the second to the third, do not meet it, but the triangle does that
+    /// straightening them sweeps.
+    pub(super) fn is_swept(&self, corners: &[Point; 3]) -> bool {
+        let [a, b, c] = corners.map(|corner| to_library(&corner.coords));
+        let before = [Segment::new(a, b), Segment::new(b, c)];
+        self.meets(&Triangle::new(a, b, c)) && !before.iter().any(|piece| self.meets(piece))
+    }
+
+    /// Whether a shape in the world meets it.
+    fn meets(&self, shape: &dyn ShapeOfLibrary) -> bool {
+        let own = &*self.form.shape;
+        let met = DefaultQueryDispatcher.intersection_test(&self.pose.inverse(), own, shape);
+        // Everything is supported with pieces and triangles.
+        met.is_ok_and(|intersection| intersection.intersecting)
     }
 
     /// Where the surfaces are closer than `reach`: one to four places on convex shapes, more on others.

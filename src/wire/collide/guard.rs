@@ -181,7 +181,7 @@ impl Watch for Guard<'_, '_> {
 }
 
 impl RemeshGuard for Guard<'_, '_> {
-    /// In guard mode: not if it would meet a segment, nor if it moves a stretch on which a contact pushes, other than by a hair beside a
+    /// In guard mode: not if it would meet a segment or go through a body, nor if it moves a stretch on which a contact pushes, other than by a hair beside a
     /// contact node.
     fn permits(&mut self, world: &World, change: &Remesh) -> bool {
         let Collisions {
@@ -200,8 +200,12 @@ impl RemeshGuard for Guard<'_, '_> {
             touches.pushes_between(change.wire.0, from, to)
                 || obstacles.as_ref().is_some_and(by_body)
         };
+        let through = || {
+            let obstacles = obstacles.as_ref();
+            obstacles.is_some_and(|o| o.is_swept(world, &change.triangle))
+        };
         let refused = *mode == Mode::Guard
-            && (change.kind == RemeshKind::Merge && loaded()
+            && (change.kind == RemeshKind::Merge && (loaded() || through())
                 // A triangle that cannot be tested is not swept.
                 || remesh::meets(world, change, *narrow, *filter).unwrap_or(true));
         self.record.refused += usize::from(refused);

@@ -13,6 +13,7 @@ use super::form::{Form, Placed};
 use super::patch::{along, contacts_of, join, leave_out_ends, things};
 use super::segment::SegmentId;
 use crate::broad::Method;
+use crate::query::Point;
 use crate::wire::model::{BodyId, WireId, World};
 use crate::wire::record::ContactRecord;
 use crate::wire::step::{Contact, Place};
@@ -130,6 +131,13 @@ impl Obstacles {
                 self.pushed.push((wire, arc));
             }
         }
+    }
+
+    /// Whether the triangle that taking out a node sweeps meets a body that the wire does not meet.
+    pub(super) fn is_swept(&self, world: &World, triangle: &[Point; 3]) -> bool {
+        let bodies = world.bodies.iter().zip(&self.forms);
+        let mut placed = bodies.map(|(body, form)| form.at(&body.position, &body.orientation));
+        placed.any(|placed| placed.is_swept(triangle))
     }
 
     /// Whether a body pushes on a wire strictly between two arc lengths.

@@ -29,11 +29,10 @@ fn distance(shape: &Shape, p: &Vector) -> f64 {
     }
 }
 
-/// The least distance on a segment: it is convex along it.
-fn least(shape: &Shape, [a, b]: &[Point; 2]) -> f64 {
-    let at = |share: f64| distance(shape, &a.coords.lerp(&b.coords, share));
+/// The least value from 0 to 1 of a convex function.
+fn minimum(rounds: usize, at: impl Fn(f64) -> f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..200 {
+    for _ in 0..rounds {
         let third = (high - low) / 3.0;
         if at(low + third) < at(high - third) {
             high -= third;
@@ -42,6 +41,19 @@ fn least(shape: &Shape, [a, b]: &[Point; 2]) -> f64 {
         }
     }
     at(low)
+}
+
+/// The least distance on a segment: it is convex along it.
+fn least(shape: &Shape, [a, b]: &[Point; 2]) -> f64 {
+    minimum(200, |share| {
+        distance(shape, &a.coords.lerp(&b.coords, share))
+    })
+}
+
+/// The least distance on a triangle, whose second corner is `b`: of pieces between its sides from there.
+fn least_on_triangle(shape: &Shape, [a, b, c]: &[Point; 3]) -> f64 {
+    let piece = |share: f64| [a, c].map(|end| Point::from(b.coords.lerp(&end.coords, share)));
+    minimum(60, |share| least(shape, &piece(share)))
 }
 
 fn shapes() -> [Shape; 5] {
@@ -106,6 +118,38 @@ proptest! {
                     prop_assert!(distance(&shape, &spot.points[1].coords).abs() < 1e-5);
                 }
             }
+        }
+    }
+
+    #[test]
+    fn triangle_sweeps_a_shape_that_it_meets_and_its_two_pieces_do_not(
+        a in point(), b in point(), c in point(),
+    ) {
+        let pieces = [[a, b], [b, c]];
+        for shape in shapes() {
+            let swept = least_on_triangle(&shape, &[a, b, c]);
+            let before = pieces.map(|piece| least(&shape, &piece));
+            let before = before[0].min(before[1]);
+            if swept.abs().min(before.abs()) < 1e-4 {
+                continue;
+            }
+            let body = Form::of_body(&shape).unwrap();
+            let body = body.at(&Point::origin(), &UnitQuaternion::identity());
+            let expected = swept < 0.0 && before > 0.0;
+            prop_assert_eq!(body.is_swept(&[a, b, c]), expected, "{:?} {} {}", shape, swept, before);
+        }
+        // Of a mesh there is a surface only.
+        let half = Vector::new(0.3, 0.5, 0.7);
+        let shape = Shape::Box { half };
+        let before = pieces.map(|piece| least(&shape, &piece));
+        if before[0].min(before[1]) > 1e-4 {
+            let body = |shape: &Shape| {
+                let body = Form::of_body(shape).unwrap();
+                let (at, turned) = (Point::new(0.1, 0.0, 0.0), UnitQuaternion::identity());
+                body.at(&at, &turned).is_swept(&[a, b, c])
+            };
+            let mesh = Shape::Mesh(box_mesh(half, Vector::zeros()));
+            prop_assert_eq!(body(&mesh), body(&shape));
         }
     }
 

@@ -205,6 +205,31 @@ fn wire_from_inside_of_a_body_is_not_pushed_by_it() {
 }
 
 #[test]
+fn node_that_keeps_a_wire_around_a_corner_is_not_taken_out_and_one_beside_a_body_is() {
+    let taken_out = |apart: f64| {
+        let mut world = World::new(Settings {
+            gravity: Vector::zeros(),
+            ..Settings::default()
+        })
+        .unwrap();
+        let half = Vector::repeat(0.5);
+        let body = BodyPlan::fixed(Shape::Box { half }, Point::new(-apart, 0.0, -0.5 - apart));
+        world.add_body(body).unwrap();
+        let route = [[0.0, 0.0, 0.1], [0.6, 0.0, 0.1], [0.6, 0.0, -0.5]];
+        let ends = [0, 2].map(|end| Stop::Pinned(route[end].into()));
+        let route = vec![ends[0], Stop::Free(route[1].into()), ends[1]];
+        let plan = WirePlan::new(Material::steel(0.02).chain(), 0.6, route).adaptive();
+        let wire = world.add_wire(&plan).unwrap();
+        // Now it should be one segment.
+        world.wires[wire.0].resolution.length = 2.0;
+        let record = step(&mut world, &mut Collisions::default(), 1);
+        assert_eq!(record.collisions.refused, 1 - record.remeshes.len());
+        !record.remeshes.is_empty()
+    };
+    assert!(taken_out(1.0) && !taken_out(0.0));
+}
+
+#[test]
 fn contact_names_wire_and_body_with_its_normal_to_the_wire() {
     let mut world = world();
     world.add_body(grounds()[1].clone()).unwrap();
