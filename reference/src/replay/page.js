@@ -103,8 +103,15 @@ function view(box) {
   });
   const middle = new lib.Vector3(...range.map(([low, high]) => (low + high) / 2));
   const size = Math.hypot(...range.map(([low, high]) => high - low)) || 1;
+  const back = new lib.Vector3(0.55, -1.05, 0.4).normalize();
+  const right = camera.up.clone().cross(back).normalize(), top = back.clone().cross(right);
+  // So far back that every corner of what there is at the start is seen, with some room.
+  const away = Array.from({ length: 8 }, (_, k) => {
+    const corner = new lib.Vector3(...range.map((ends, axis) => ends[k >> axis & 1])).sub(middle);
+    return Math.max(...[right, top].map(way => Math.abs(corner.dot(way)))) / Math.tan(Math.PI / 9) + corner.dot(back);
+  });
   controls.target.copy(middle);
-  camera.position.copy(middle).add(new lib.Vector3(0.55, -1.05, 0.4).multiplyScalar(size * 0.95));
+  camera.position.copy(middle).addScaledVector(back, 1.15 * Math.max(...away, size / 2));
   controls.update();
 
   const up = new lib.Vector3(0, 1, 0);

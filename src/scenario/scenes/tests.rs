@@ -1,7 +1,8 @@
 //! Scene files: what they build, and what is said of wrong ones.
 
 use super::*;
-use crate::wire::{NodeKind, Vector, World};
+use crate::certified::Certified;
+use crate::wire::{self, Mode, NodeKind, Vector, World};
 
 const FILE: &str = r#"
 title = "All that there is"
@@ -52,6 +53,26 @@ fn refused(from: &str, to: &str) -> String {
 }
 
 #[test]
+fn chain_of_the_example_scene_slides_over_both_edges() {
+    let scene = include_str!("../../../scenes/over-the-edge.toml");
+    let scene = Scene::from_toml(scene).unwrap();
+    let mut world = scene.world().unwrap();
+    let mut collisions = scene.collisions(Mode::Guard, &Certified).unwrap();
+    let heights = |world: &World| [1, 2].map(|ball| world.bodies()[ball].position().z);
+    let start = heights(&world);
+    for _ in 0..scene.steps() / 4 {
+        world.step_colliding(&mut collisions, &[]).unwrap();
+    }
+    let slid = heights(&world);
+    let over = |node: &&wire::Node| matches!(node.kind, NodeKind::Contact { .. });
+    assert_eq!(world.wires()[0].nodes().iter().filter(over).count(), 2);
+    assert!(
+        slid[0] - start[0] > 0.2 && start[1] - slid[1] > 0.2,
+        "{start:?} {slid:?}"
+    );
+}
+
+#[test]
 fn scene_file_builds_all_that_the_model_has() {
     let scene = Scene::from_toml(FILE).unwrap();
     assert_eq!((scene.steps(), scene.friction), (150, 0.5));
@@ -74,7 +95,7 @@ fn scene_file_builds_all_that_the_model_has() {
     assert!((last.arc - 9.0).abs() < 1e-12);
     assert_eq!(last.position, load.point(&Vector::new(0.0, 0.0, 0.75)));
     // The catenary hangs below both its ends.
-    let over = |node: &&crate::wire::Node| matches!(node.kind, NodeKind::Contact { .. });
+    let over = |node: &&wire::Node| matches!(node.kind, NodeKind::Contact { .. });
     let turn = wire.nodes().iter().position(|node| over(&node)).unwrap();
     assert_eq!(turn, 10);
     assert!(
