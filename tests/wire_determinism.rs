@@ -7,11 +7,12 @@
 #![cfg(feature = "wire")]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use tunnelproof::certified::Certified;
 use tunnelproof::query::Point;
 use tunnelproof::scenario::scenes::Scene;
 use tunnelproof::wire::{
-    BodyPlan, Collisions, Contact, Drive, Material, Mesh, Place, Settings, Shape, Stop, Vector,
-    WirePlan, World,
+    BodyPlan, Collisions, Contact, Drive, Material, Mesh, Mode, Place, Settings, Shape, Stop,
+    Vector, WirePlan, World,
 };
 
 /// A tumbling box between an adaptive steel wire and a chain, which hits the ground.
@@ -248,4 +249,26 @@ fn steps_with_contact_nodes_that_come_and_go_give_the_same_bits_in_every_build()
     }
     assert!(left > 0);
     assert_eq!(hash(&world), 0x8e0b_74bc_7602_4d35, "{:#x}", hash(&world));
+}
+
+/// Basic collision is above.
+#[test]
+fn other_scenes_of_the_thesis_give_the_same_bits_in_every_build() {
+    // So many steps reach contacts in each.
+    for (name, steps, expected) in [
+        ("pulling-anchor", 600, 0x97bb_6649_be2f_6313),
+        ("twisting-under-load", 60, 0x5f16_4baf_0fd2_16f5),
+        ("chains-on-deck", 60, 0x9ef1_80bd_230f_787f),
+    ] {
+        let scene = Scene::embedded(name).unwrap();
+        let mut world = scene.world().unwrap();
+        let mut collisions = scene.collisions(Mode::Guard, &Certified).unwrap();
+        let mut contacts = 0;
+        for _ in 0..steps {
+            let record = world.step_colliding(&mut collisions, &[]).unwrap();
+            contacts += record.contacts.len();
+        }
+        assert!(contacts > 0, "{name}");
+        assert_eq!(hash(&world), expected, "{name} {:#x}", hash(&world));
+    }
 }
