@@ -1,4 +1,4 @@
-//! The same world gives the same bits in every build: a hash of all positions after 300 steps.
+//! The same world gives the same bits in every build: hashes of all positions after some steps.
 //!
 //! It runs optimised (`cargo test --release`) and not (`CARGO_PROFILE_TEST_OPT_LEVEL=0 cargo test --test
 //! wire_determinism`): a transformation that changed floating-point results would show here. A change of

@@ -222,8 +222,8 @@ pub fn largest_discrete_step(scene: &Scene) -> Result<Option<(f64, Audited)>, Sc
 }
 
 /// The largest step in whole milliseconds, at most so many seconds, at which no wires pass through each other with discrete detection,
-/// neither from the scene as it is nor from so many starts moved by up to `most` metres ([`perturbed`](crate::perturb::perturbed), seeds from 1). What holds
-/// from one start may hold by luck.
+/// neither from the scene as it is nor from so many starts moved by up to `most` metres
+/// ([`perturbed`](crate::perturb::perturbed), seeds from 1). What holds from one start may hold by luck.
 ///
 /// # Errors
 ///

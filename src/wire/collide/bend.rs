@@ -9,7 +9,7 @@ use crate::wire::record::ContactRecord;
 use crate::wire::step::ride::{self, Bend};
 use crate::wire::step::{Contact, Place};
 
-/// The least turn of a wire that is bent, as the length of the difference of two directions.
+/// The least slope down beside a place at which a wire is bent, and the least turn there, as a difference of two directions.
 const TURN: f64 = 0.02;
 
 /// Where bodies bend adaptive wires that pull, in the order of the contacts.

@@ -181,8 +181,8 @@ impl Watch for Guard<'_, '_> {
 }
 
 impl RemeshGuard for Guard<'_, '_> {
-    /// In guard mode: not if it would meet a segment or go through a body, nor if it moves a stretch on which a contact pushes, other than by a hair beside a
-    /// contact node.
+    /// In guard mode: not if it would meet a segment or go through a body, nor if it moves a stretch on which a contact
+    /// pushes, other than by a hair beside a contact node.
     fn permits(&mut self, world: &World, change: &Remesh) -> bool {
         let Collisions {
             narrow,
@@ -194,7 +194,8 @@ impl RemeshGuard for Guard<'_, '_> {
         } = &*self.collisions;
         let [from, _, to] = change.arcs;
         let by_body = |o: &Obstacles| {
-            o.pushes_between(change.wire, from, to) && !remesh::is_slid_over(world, change)
+            let straightens = remesh::straightens_beside_contact_node(world, change);
+            o.pushes_between(change.wire, from, to) && !straightens
         };
         let loaded = || {
             touches.pushes_between(change.wire.0, from, to)

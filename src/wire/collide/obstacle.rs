@@ -135,9 +135,15 @@ impl Obstacles {
 
     /// Whether the triangle that taking out a node sweeps meets a body that the wire does not meet.
     pub(super) fn is_swept(&self, world: &World, triangle: &[Point; 3]) -> bool {
-        let bodies = world.bodies.iter().zip(&self.forms);
-        let mut placed = bodies.map(|(body, form)| form.at(&body.position, &body.orientation));
-        placed.any(|placed| placed.is_swept(triangle))
+        let [a, b, c] = triangle;
+        let reach = (a - b).norm().max((c - b).norm());
+        let mut bodies = world.bodies.iter().zip(&self.forms);
+        bodies.any(|(body, form)| {
+            let near = (body.position - b).norm() <= form.extent + reach;
+            near && form
+                .at(&body.position, &body.orientation)
+                .is_swept(triangle)
+        })
     }
 
     /// Whether a body pushes on a wire strictly between two arc lengths.

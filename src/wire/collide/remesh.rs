@@ -47,12 +47,11 @@ pub(super) fn meets(
 
 /// Whether a node that lies beside a contact node, and hardly off the line between its neighbours, would be taken out: wire that slides
 /// over a body brings its nodes, and whatever else the body pushes on them does not hold them there.
-pub(super) fn is_slid_over(world: &World, change: &Remesh) -> bool {
+pub(super) fn straightens_beside_contact_node(world: &World, change: &Remesh) -> bool {
     let wire = &world.wires[change.wire.0];
     let is_contact = |arc: f64| {
-        let (segment, share) = wire.at(arc);
-        let node = segment + usize::from(share > 0.5);
-        matches!(wire.nodes[node].kind, NodeKind::Contact { .. })
+        let node = &wire.nodes[wire.nearest_node(arc)];
+        matches!(node.kind, NodeKind::Contact { .. })
     };
     let [a, b, c] = change.triangle;
     let off = (b - a).cross(&(c - a)).norm() / (c - a).norm();

@@ -175,4 +175,10 @@ impl Wire {
         let place = (arc - self.nodes[segment].arc) / self.rest_length(segment);
         (segment, place.clamp(0.0, 1.0))
     }
+
+    /// The node that is nearest to an arc length, along the wire.
+    pub(in crate::wire) fn nearest_node(&self, arc: f64) -> usize {
+        let (segment, share) = self.at(arc);
+        segment + usize::from(share > 0.5)
+    }
 }

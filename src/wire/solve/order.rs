@@ -66,9 +66,8 @@ fn union(a: &[usize], b: &[usize]) -> Vec<usize> {
     let mut both = Vec::with_capacity(a.len() + b.len());
     let (mut a, mut b) = (a.iter().peekable(), b.iter().peekable());
     while let (Some(x), Some(y)) = (a.peek(), b.peek()) {
-        let least = x.min(y);
-        both.push(**least);
-        let least = **least;
+        let least = **x.min(y);
+        both.push(least);
         a.next_if(|x| **x == least);
         b.next_if(|y| **y == least);
     }

@@ -1,7 +1,7 @@
 //! Contact nodes: where a wire turns over a body, and sticks or slides.
 //!
-//! A contact node rides a point of a body, from when it comes to when it leaves ([`ride`](super::ride)). Wire slides over it at a speed that is an unknown of the step like any velocity: arc length
-//! moves from the segment on one side to that on the other, and what moves is the node's mass. Friction takes up any
+//! A contact node rides a point of a body, from when it comes to when it leaves ([`ride`](super::ride)). Wire slides over
+//! it at a speed that is an unknown of the step like any velocity: arc length moves from the segment on one side to that on the other, and what moves is the node's mass. Friction takes up any
 //! sliding, as far as the capstan bound of a node that turns the wire by an angle `D` goes:
 //! `T2/T1 <= (1 + f tan(D/2)) / (1 - f tan(D/2))`, which tends to `e^(f D)` for small `D`. That is Coulomb's law,
 //! `|T2 - T1| <= f tan(D/2) (T1 + T2)`.

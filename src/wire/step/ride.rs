@@ -63,8 +63,7 @@ pub(super) fn arrive(
 
 /// The node that is too near to a place of a wire for another one there.
 pub(in crate::wire) fn node_near(wire: &Wire, arc: f64) -> Option<usize> {
-    let (segment, share) = wire.at(arc);
-    let node = segment + usize::from(share > 0.5);
+    let node = wire.nearest_node(arc);
     let near = (wire.nodes[node].arc - arc).abs() < LEAST * wire.resolution.length;
     near.then_some(node)
 }

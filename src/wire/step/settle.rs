@@ -38,6 +38,7 @@ impl World {
         Ok((system, candidate))
     }
 
+    /// The same, as it comes out of the solver: what sticks may slip by a hair.
     fn solution(
         &self,
         structure: &mut Option<Structure>,
