@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use tunnelproof::scenario::scenes::{Scene, SceneError};
 use tunnelproof::wire::Mode;
 
-use super::{Audited, audited, row};
+use super::{Audited, OfThesis, audited, row};
 use crate::certify::table::grouped;
 use crate::perturb::perturbed;
 use crate::simulate::Narrow;
@@ -24,12 +24,12 @@ pub(super) fn start(scene: &Scene, seed: u64, most: f64) -> Scene {
 /// # Errors
 ///
 /// A scene cannot be built.
-pub fn starts(scenes: &[Scene], count: u64, most: f64) -> Result<String, SceneError> {
+pub fn starts(scenes: &[OfThesis], count: u64, most: f64) -> Result<String, SceneError> {
     let mut text = format!(
         "Guard mode, certified path, by the audit; starts moved by up to {most} m along each axis\n"
     );
     let names = ["steps", "prevented", "missed", "not exact", "standing"];
-    for scene in scenes {
+    for OfThesis { scene, .. } in scenes {
         let runs = (0..=count)
             .into_par_iter()
             .map(|seed| audited(&start(scene, seed, most), Narrow::Certified, Mode::Guard));

@@ -1,10 +1,36 @@
 use super::*;
 use crate::perturb::perturbed;
 
-fn basic_collision(duration: f64) -> Vec<Scene> {
-    let mut scenes = scenes(duration).unwrap();
-    scenes.truncate(1);
-    scenes
+fn basic_collision(duration: f64) -> Vec<OfThesis> {
+    scenes(duration, Some("basic-collision")).unwrap()
+}
+
+#[test]
+fn scene_of_a_name_keeps_its_figures() {
+    let scenes = scenes(0.1, Some("chains-on-deck")).unwrap();
+    assert_eq!(scenes.len(), 1);
+    let text = cases(&scenes).unwrap();
+    assert!(text.lines().nth(1).unwrap().ends_with("Chains on deck"));
+    assert!(text.contains(" 26,958 / "), "{text}");
+    let unknown = super::scenes(0.1, Some("bridge")).unwrap_err();
+    assert!(unknown.to_string().contains("bridge"), "{unknown}");
+}
+
+#[test]
+fn chances_of_tunnelling_in_scene_1_rise_from_nothing_below_the_step_in_which_it_falls_through_its_thickness()
+ {
+    let text = chances(&basic_collision(0.1), 20).unwrap();
+    let count = |step: &str| -> u64 {
+        let row = text.lines().find(|line| line.starts_with(step)).unwrap();
+        // All of them in a motion.
+        let (all, in_motion) = row[NAME..].trim().split_once(", ").unwrap();
+        assert_eq!(all, in_motion, "{text}");
+        all.parse().unwrap()
+    };
+    // At 10 m/s it falls through 40 mm, both radii, in 4 ms.
+    assert_eq!(["1 ms", "2 ms", "3 ms"].map(count), [0; 3], "{text}");
+    let [some, more] = ["5 ms", "16 ms"].map(count);
+    assert!(0 < some && some < more, "{text}");
 }
 
 #[test]
@@ -37,7 +63,7 @@ fn table_of_missed_tunnels_has_discrete_detection_miss_and_the_certified_path_no
 
 #[test]
 fn largest_discrete_step_of_scene_1_does_not_tunnel_and_the_next_does() {
-    let scene = &basic_collision(0.1)[0];
+    let scene = &basic_collision(0.1)[0].scene;
     let (step, run) = largest_discrete_step(scene).unwrap().unwrap();
     assert!(run.report.is_clean());
     // That of the thesis.
@@ -50,7 +76,7 @@ fn largest_discrete_step_of_scene_1_does_not_tunnel_and_the_next_does() {
 
 #[test]
 fn safe_discrete_step_holds_from_other_starts_as_well() {
-    let scene = &basic_collision(0.1)[0];
+    let scene = &basic_collision(0.1)[0].scene;
     let safe = |longest, count| safe_discrete_step(scene, longest, count, 1e-3).unwrap();
     // At 6 ms a step happens to end where the wires overlap; from the third start it does not, and at 5 ms from none.
     assert_eq!(safe(0.006, 0), Some(0.006));
