@@ -10,7 +10,7 @@ use tunnelproof::contact::{Case, Flags, Verdict};
 use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
 use tunnelproof::query::EdgeEdge;
 use tunnelproof::scenario::scenes::{Scene, SceneError};
-use tunnelproof::thesis::Thesis;
+use tunnelproof::thesis::{Options, Thesis, Thresholds};
 use tunnelproof::wire::{Mode, Outcome, StepError, StepRecord, World};
 
 use crate::certify::table::grouped;
@@ -39,6 +39,8 @@ pub enum Narrow {
     Certified,
     /// The thesis path with the thresholds of table 3.1.
     Thesis,
+    /// The thesis path with the thresholds that `tune` recommends for metres in `f64` (docs/thresholds.md).
+    Tuned,
     /// Additive CCD.
     Additive,
     /// [`Discrete`].
@@ -47,9 +49,10 @@ pub enum Narrow {
 
 impl Narrow {
     /// All of them.
-    pub const ALL: [Narrow; 4] = [
+    pub const ALL: [Narrow; 5] = [
         Narrow::Certified,
         Narrow::Thesis,
+        Narrow::Tuned,
         Narrow::Additive,
         Narrow::Discrete,
     ];
@@ -59,6 +62,7 @@ impl Narrow {
         match self {
             Narrow::Certified => "certified",
             Narrow::Thesis => "thesis",
+            Narrow::Tuned => "tuned",
             Narrow::Additive => "additive",
             Narrow::Discrete => "discrete",
         }
@@ -69,9 +73,21 @@ impl Narrow {
         match self {
             Narrow::Certified => Box::new(Certified),
             Narrow::Thesis => Box::new(Thesis::default()),
+            Narrow::Tuned => Box::new(tuned()),
             Narrow::Additive => Box::new(Additive::default()),
             Narrow::Discrete => Box::new(Discrete),
         }
+    }
+}
+
+/// The thesis path with the thresholds that `tune` recommends for metres in `f64`.
+fn tuned() -> Thesis {
+    let thresholds = Thresholds::named([1e-4, 1e-4, 1e-15, 1e-5, 1e-12]);
+    Thesis {
+        options: Options {
+            thresholds,
+            ..Options::default()
+        },
     }
 }
 

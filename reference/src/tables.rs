@@ -156,8 +156,8 @@ fn stopped<'a>(runs: impl IntoIterator<Item = &'a Audited>) -> String {
     stopped.collect()
 }
 
-/// Tunnels missed: discrete at the scenes' step, the thesis path, additive CCD, the certified path, each in thesis mode,
-/// by the audit.
+/// Tunnels missed: discrete at the scenes' step, the thesis path with the thresholds of table 3.1 and with those that `tune` recommends,
+/// additive CCD, the certified path, each in thesis mode, by the audit.
 ///
 /// # Errors
 ///
@@ -169,6 +169,7 @@ pub fn missed(scenes: &[OfThesis]) -> Result<String, SceneError> {
     let order = [
         Narrow::Discrete,
         Narrow::Thesis,
+        Narrow::Tuned,
         Narrow::Additive,
         Narrow::Certified,
     ];

@@ -15,7 +15,7 @@ pub(super) const SHORTEST: f64 = 0.001;
 /// The longest step of discrete detection that is looked at, in ms: the longest whole number below the scenes' step.
 const LONGEST: u32 = 16;
 
-/// The largest step in whole milliseconds, at most [`LONGEST`], up to which no wires pass through each other with discrete
+/// The largest step in whole milliseconds, at most 16, up to which no wires pass through each other with discrete
 /// detection. A larger one may do by luck: where a step ends with the wires overlapping.
 ///
 /// # Errors

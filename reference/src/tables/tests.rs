@@ -57,6 +57,8 @@ fn table_of_missed_tunnels_has_discrete_detection_miss_and_the_certified_path_no
     };
     // Midlines meet in eight pairs, at two nodes. Nothing pushes the wires back.
     assert_eq!(last("discrete"), "8, 0 / 8; 2");
+    // With either set of thresholds half of the pairs at a node are missed.
+    assert_eq!([last("thesis"), last("tuned")], ["4, 0 / 10; 0"; 2]);
     assert!(last("certified").starts_with("0, 0 / "), "{text}");
     assert!(last("certified").ends_with("; 0"), "{text}");
 }
