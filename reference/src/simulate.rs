@@ -114,12 +114,16 @@ pub struct Summary {
     pub wall: f64,
     /// Of this, collision detection.
     pub wall_collision: f64,
+    /// Of this, the narrow phase: tests of pairs, and the contacts that come of them.
+    pub wall_narrow: f64,
     /// Pairs that the broad phase named.
     pub named: usize,
     /// Of these, excluded as too slow.
     pub excluded: usize,
     /// Of these, tested.
     pub tested: usize,
+    /// Pairs with a body that were tested.
+    pub tested_bodies: usize,
     /// Tests by case, in the order of [`Case::ALL`].
     pub cases: [usize; Case::ALL.len()],
     /// Contacts at which the segments are parallel for an instant.
@@ -198,10 +202,12 @@ impl Summary {
         self.steps += 1;
         self.time = record.time;
         self.wall_collision += record.phases.broad + record.phases.narrow;
+        self.wall_narrow += record.phases.narrow;
         let found = &record.collisions;
         self.named += found.named;
         self.excluded += found.excluded;
         self.tested += found.tested;
+        self.tested_bodies += found.tested_bodies;
         for (sum, count) in self.cases.iter_mut().zip(found.cases) {
             *sum += count;
         }

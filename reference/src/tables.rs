@@ -22,7 +22,7 @@ pub use times::times;
 mod tests;
 
 /// The width of the names of rows.
-const NAME: usize = 34;
+const NAME: usize = 40;
 
 /// The width of a column.
 const CELL: usize = 26;

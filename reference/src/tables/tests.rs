@@ -103,3 +103,22 @@ fn table_of_starts_has_a_clean_row_for_each_start_of_scene_1() {
         assert_ne!(cells[1], "0", "{text}");
     }
 }
+
+#[test]
+fn table_4_2_has_the_figures_of_the_thesis_and_its_own_beside_them() {
+    let text = times(&basic_collision(0.1), 1).unwrap();
+    let cell = |name: &str| {
+        let row = text.lines().find(|line| line.starts_with(name)).unwrap();
+        let (thesis, ours) = row[NAME..].split_once(" / ").unwrap();
+        (thesis.trim().to_owned(), ours.to_owned())
+    };
+    let steps = cell("Factor time steps (discrete / CCD)");
+    assert_eq!(steps, ("4.167".to_owned(), "4.167".to_owned()), "{text}");
+    assert_eq!(cell("Factor run time (discrete / CCD)").0, "4.144");
+    assert_eq!(cell("Total run time change").0, "-75.87 %");
+    assert_eq!(cell("Time step, s (2 starts)").1, "0.004");
+    for row in ["  tests (CCD at 1/60 s)", "  per test, ns (discrete)"] {
+        let number: f64 = cell(row).1.replace(',', "").parse().unwrap();
+        assert!(number > 0.0, "{text}");
+    }
+}
