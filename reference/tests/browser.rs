@@ -297,25 +297,37 @@ fn browser_sees_an_error_on_the_console() {
     assert!(console.contains("nothing is not defined"), "{console}");
 }
 
+/// Writes the page of a scene of the thesis.
+fn simulate(arguments: &[&str], page: &Path) {
+    let output = Command::new(env!("CARGO_BIN_EXE_tunnelproof"))
+        .arg("simulate")
+        .args(arguments)
+        .arg("--replay")
+        .arg(page)
+        .output()
+        .unwrap();
+    assert!(output.status.success());
+}
+
+#[test]
+fn browser_plays_the_page_of_the_longest_run() {
+    let Some(browser) = browser() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("run.html");
+    simulate(&["pulling-anchor"], &page);
+    let (said, console) = drawn(browser, &page, PLAY, 1280, false);
+    assert_eq!(console, "", "{said:#}");
+    assert!(said["drawn"][0].as_f64().unwrap() > 5000.0, "{said:#}");
+    assert_eq!(said["moved"], true, "{said:#}");
+}
+
 #[test]
 fn browser_plays_the_page_of_a_run() {
     let Some(browser) = browser() else { return };
     let folder = tempfile::tempdir().unwrap();
     let page = folder.path().join("run.html");
-    let output = Command::new(env!("CARGO_BIN_EXE_tunnelproof"))
-        .args([
-            "simulate",
-            "basic-collision",
-            "--duration",
-            "1.5",
-            "--mode",
-            "thesis",
-        ])
-        .arg("--replay")
-        .arg(&page)
-        .output()
-        .unwrap();
-    assert!(output.status.success());
+    let scene = ["basic-collision", "--duration", "1.5", "--mode", "thesis"];
+    simulate(&scene, &page);
     for (width, is_dark) in [(390, false), (1280, true)] {
         let (said, console) = drawn(browser, &page, PLAY, width, is_dark);
         let at = format!("at {width}: {said:#}");

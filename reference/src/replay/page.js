@@ -5,7 +5,9 @@ const run = JSON.parse(document.getElementById("run").textContent);
 const byId = id => document.getElementById(id);
 const colour = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const frames = run.frames, last = frames.length - 1;
-const most = Math.max(1, ...frames.flatMap(frame => frame.tensions.flat()));
+// Not Math.max(...numbers), which takes no more than some hundred thousand.
+const largest = (numbers, least) => numbers.reduce((a, b) => Math.max(a, b), least);
+const most = largest(frames.flatMap(frame => frame.tensions.flat()), 1);
 const kinds = { f: ["free", "#8a949e"], p: ["pinned", "#d62728"], e: ["eye", "#9467bd"], c: ["contact", "#ff7f0e"] };
 
 /* Tension from blue to red; the square root shows small ones too. */
@@ -72,7 +74,7 @@ function view(box) {
     scene.add(line);
     return line;
   });
-  const room = Math.max(1, ...frames.map(frame => frame.wires.reduce((sum, wire) => sum + wire.length / 3, 0)));
+  const room = largest(frames.map(frame => frame.wires.reduce((sum, wire) => sum + wire.length / 3, 0)), 1);
   const tubes = new lib.InstancedMesh(new lib.CylinderGeometry(1, 1, 1, 12), new lib.MeshStandardMaterial(), room);
   tubes.frustumCulled = false;
   scene.add(tubes);
@@ -155,7 +157,7 @@ function view(box) {
   /* Each contact: its normal in orange, its force in green, the longest a tenth of the scene. */
   function showContacts(frame) {
     const force = contact => Math.hypot(...contact.slice(6));
-    const strongest = Math.max(1e-9, ...frame.contacts.map(force));
+    const strongest = largest(frame.contacts.map(force), 1e-9);
     const ends = [], colours = [];
     for (const contact of frame.contacts) {
       const at = contact.slice(0, 3);
