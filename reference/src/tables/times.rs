@@ -180,7 +180,10 @@ fn column(of: &OfThesis, count: u64) -> Result<Cells, SceneError> {
             share([&ours, &discrete].map(Timed::per_test)),
         ),
     ));
-    let name = format!("{} starts", count + 1);
+    let name = match count {
+        0 => "1 start".to_owned(),
+        others => format!("{} starts", others + 1),
+    };
     let safe_step = safe.unwrap_or(SHORTEST);
     let safely = if safe_step == step {
         discrete
