@@ -28,9 +28,9 @@ pub(super) struct Table {
     /// Run no scene for longer than this, in s; `rows` are of whole scenes
     #[arg(long, value_name = "S", default_value_t = f64::INFINITY, hide_default_value = true)]
     duration: f64,
-    /// How many perturbed starts `4.2`, `chances` and `starts` look at beside the scene as it is
-    #[arg(long, value_name = "N", default_value_t = 10)]
-    starts: u64,
+    /// How many perturbed starts `4.2`, `chances` and `starts` look at beside the scene as it is [default: 10]
+    #[arg(long, value_name = "N")]
+    starts: Option<u64>,
     /// Only one scene of the thesis, by its name; not for `rows` and `speeds`
     #[arg(long, value_name = "NAME")]
     scene: Option<String>,
@@ -57,14 +57,22 @@ enum Which {
     Starts,
 }
 
+/// How many perturbed starts each scene has if nothing else is said.
+const STARTS: u64 = 10;
+
 impl Table {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
+        let perturbs = matches!(self.table, Which::Times | Which::Chances | Which::Starts);
+        if self.starts.is_some() && !perturbs {
+            return Err(refused("--starts", "this table has no perturbed starts"));
+        }
+        let count = self.starts.unwrap_or(STARTS);
         let text = match self.table {
             Which::Cases => cases(&self.scenes()?)?,
-            Which::Times => times(&self.scenes()?, self.starts)?,
-            Which::Chances => chances(&self.scenes()?, self.starts)?,
+            Which::Times => times(&self.scenes()?, count)?,
+            Which::Chances => chances(&self.scenes()?, count)?,
             Which::Missed => missed(&self.scenes()?)?,
-            Which::Starts => starts(&self.scenes()?, self.starts, perturb::USUAL)?,
+            Which::Starts => starts(&self.scenes()?, count, perturb::USUAL)?,
             Which::Rows | Which::Speeds if self.scene.is_some() => {
                 return Err(refused("--scene", "this table has no choice of scenes"));
             }

@@ -24,7 +24,7 @@ const LONGEST: u32 = 16;
 pub fn largest_discrete_step(scene: &Scene) -> Result<Option<(f64, Audited)>, SceneError> {
     let mut largest = None;
     for milliseconds in 1..=LONGEST {
-        let step = f64::from(milliseconds) / 1000.0;
+        let step = seconds(milliseconds);
         let run = run(scene, 0, 0.0, step)?;
         if !run.holds() {
             break;
@@ -49,7 +49,7 @@ pub fn safe_discrete_step(
 ) -> Result<Option<f64>, SceneError> {
     let longest = (longest * 1000.0).round() as u32;
     for milliseconds in (1..=longest).rev() {
-        let step = f64::from(milliseconds) / 1000.0;
+        let step = seconds(milliseconds);
         let found = (0..=count).into_par_iter().try_for_each(|seed| {
             match run(scene, seed, most, step).map(|run| run.holds()) {
                 Ok(true) => Ok(()),
@@ -64,6 +64,10 @@ pub fn safe_discrete_step(
         }
     }
     Ok(None)
+}
+
+fn seconds(milliseconds: u32) -> f64 {
+    f64::from(milliseconds) / 1000.0
 }
 
 /// A run with discrete detection at a step in s, from the start of a seed.
@@ -86,7 +90,7 @@ pub fn chances(scenes: &[OfThesis], count: u64) -> Result<String, SceneError> {
         count + 1
     ) + &heading(scenes);
     for milliseconds in 1..=LONGEST {
-        let step = f64::from(milliseconds) / 1000.0;
+        let step = seconds(milliseconds);
         let cell = |of: &OfThesis| {
             let found = |seed| -> Result<[u64; 2], SceneError> {
                 let run = run(&of.scene, seed, thinnest(&of.scene), step)?;

@@ -160,3 +160,26 @@ fn table_has_the_rows_of_every_scene_and_all_hold() {
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(stderr(&output), "--duration: rows are of whole scenes\n");
 }
+
+#[test]
+fn table_refuses_options_that_say_nothing_to_it() {
+    let refusals = [
+        (
+            ["4.1", "--starts", "3"],
+            "--starts: this table has no perturbed starts\n",
+        ),
+        (
+            ["speeds", "--scene", "basic-collision"],
+            "--scene: this table has no choice of scenes\n",
+        ),
+        (
+            ["rows", "--scene", "basic-collision"],
+            "--scene: this table has no choice of scenes\n",
+        ),
+    ];
+    for (arguments, refusal) in refusals {
+        let output = tunnelproof(&["table", arguments[0], arguments[1], arguments[2]]);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert_eq!(stderr(&output), refusal, "{arguments:?}");
+    }
+}
