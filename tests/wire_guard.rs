@@ -319,6 +319,22 @@ fn soak_finds_a_narrow_phase_that_misses() {
     assert!(tally.met > 0, "{tally:?}");
 }
 
+/// No time passes in them, so the narrow phase has no say.
+#[test]
+fn changes_of_resolution_do_not_cross_whatever_narrow_phase_motions_have() {
+    let misses_all = Careless {
+        every: 1,
+        hits: AtomicU64::new(0),
+    };
+    let mut tally = Tally::default();
+    for seed in 0..20 {
+        let mut collisions = Collisions::new(Mode::Guard, Method::default(), &misses_all);
+        tally.scene(scene(seed), &mut collisions);
+    }
+    assert!(tally.met > 0 && tally.refused > 0, "{tally:?}");
+    assert_eq!(tally.met_remeshing, 0, "{tally:?}");
+}
+
 #[test]
 fn soak_finds_a_broad_phase_that_drops_pairs() {
     let asked = AtomicU64::new(0);

@@ -15,7 +15,8 @@ use tunnelproof::wire::{Mode, Outcome, StepError, StepRecord, World};
 
 use crate::certify::table::grouped;
 
-/// No continuous detection at all: wires get contacts where they overlap at the end of a step.
+/// No continuous detection at all: wires get contacts where they overlap at the end of a step. In guard mode changes of
+/// resolution are tested still: no time passes in them.
 pub struct Discrete;
 
 impl NarrowPhase for Discrete {

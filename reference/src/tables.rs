@@ -210,7 +210,7 @@ pub fn speeds(duration: f64) -> Result<String, SceneError> {
         for wire in &mut scene.wires {
             wire.velocity[2] *= speed / 10.0;
         }
-        let discrete = audited(&scene, Narrow::Discrete, Mode::Thesis)?.report;
+        let discrete = audited(&scene, Narrow::Discrete, Mode::Guard)?.report;
         let guard = audited(&scene, Narrow::Certified, Mode::Guard)?.report;
         let missed = guard.missed.iter().sum::<u64>();
         let (lost, standing) = (discrete.standing.len() as u64, guard.standing.len() as u64);

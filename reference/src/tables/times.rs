@@ -160,7 +160,7 @@ fn column(of: &OfThesis, count: u64) -> Result<Cells, SceneError> {
     let at = |step: f64| {
         let mut scene = scene.clone();
         scene.settings.step = step;
-        fastest(&scene, Narrow::Discrete, Mode::Thesis)
+        fastest(&scene, Narrow::Discrete, Mode::Guard)
     };
     let ours = fastest(scene, Narrow::Certified, Mode::Guard)?;
     let step = largest.unwrap_or(SHORTEST);

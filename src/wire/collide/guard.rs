@@ -185,7 +185,6 @@ impl RemeshGuard for Guard<'_, '_> {
     /// pushes, other than by a hair beside a contact node.
     fn permits(&mut self, world: &World, change: &Remesh) -> bool {
         let Collisions {
-            narrow,
             filter,
             mode,
             touches,
@@ -208,7 +207,7 @@ impl RemeshGuard for Guard<'_, '_> {
         let refused = *mode == Mode::Guard
             && (change.kind == RemeshKind::Merge && (loaded() || through())
                 // A triangle that cannot be tested is not swept.
-                || remesh::meets(world, change, *narrow, *filter).unwrap_or(true));
+                || remesh::meets(world, change, *filter).unwrap_or(true));
         self.record.refused += usize::from(refused);
         !refused
     }

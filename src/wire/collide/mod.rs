@@ -69,7 +69,8 @@ use touch::Touches;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
     /// It is prevented: the step is solved again with a contact there, and if that does not help, what
-    /// takes part moves only as far as it may. Changes of resolution that would cross are refused.
+    /// takes part moves only as far as it may. Changes of resolution that would cross are refused, by the certified path
+    /// whatever narrow phase tests motions.
     #[default]
     Guard,
     /// It happens, as in the thesis: the contact comes with the next step and pushes the wires back
@@ -102,7 +103,7 @@ impl Default for Collisions<'_> {
 }
 
 impl<'n> Collisions<'n> {
-    /// Collisions found by a broad and a narrow phase; friction 0.5, no filter. What guard mode promises
+    /// Collisions found by a broad and a narrow phase; friction 0.5, no filter. What guard mode promises of motions
     /// it promises as far as the narrow phase misses nothing.
     pub fn new(mode: Mode, method: Method, narrow: &'n dyn NarrowPhase) -> Self {
         Collisions {

@@ -4,12 +4,13 @@ use super::PairFilter;
 use super::error::CollisionError;
 use super::segment::{SegmentId, joined};
 use crate::broad::Aabb;
-use crate::narrow::NarrowPhase;
+use crate::certified::{Verdict, decide};
 use crate::query::EdgeEdge;
 use crate::wire::model::{NodeKind, WireId, World};
 use crate::wire::resolution::Remesh;
 
-/// Whether the triangle that a change sweeps meets another segment.
+/// Whether the triangle that a change sweeps meets another segment, by the certified path: no time passes in a change, so it is
+/// nothing that a narrow phase for motions would be asked.
 ///
 /// The segment from `b` to `c` whose end `b` goes straight to `a` passes every point of the triangle `abc` and no
 /// other, so one query without rounding asks for all of it. Segments at the corners are left out, as
@@ -17,7 +18,6 @@ use crate::wire::resolution::Remesh;
 pub(super) fn meets(
     world: &World,
     change: &Remesh,
-    narrow: &dyn NarrowPhase,
     filter: Option<PairFilter<'_>>,
 ) -> Result<bool, CollisionError> {
     let [a, b, c] = change.triangle;
@@ -37,7 +37,7 @@ pub(super) fn meets(
             }
             let [p, q] = ends;
             let query = EdgeEdge::new([b, c, p, q], [a, c, p, q], 0.0)?;
-            if narrow.edge_edge(&query)?.verdict.is_hit() {
+            if matches!(decide(&query), Verdict::Hit(_)) {
                 return Ok(true);
             }
         }

@@ -207,7 +207,7 @@ fn change_of_resolution_is_refused_exactly_where_its_triangle_meets_a_segment() 
     };
     let met = |only: usize| {
         let filter = |_: SegmentId, b: SegmentId| b.wire.0 == only;
-        remesh::meets(&world, &change, &Certified, Some(&filter)).unwrap()
+        remesh::meets(&world, &change, Some(&filter)).unwrap()
     };
     assert_eq!([1, 2, 3].map(met), [true, false, false]);
 }
