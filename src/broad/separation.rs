@@ -3,6 +3,12 @@
 use crate::closest::closest;
 use crate::query::Point;
 
+/// 8 units of rounding of `f64`, 2^-50: twice what the errors of three products and two sums come to, and more.
+const EIGHT_U: f64 = 4.0 * f64::EPSILON;
+
+/// 2^-900. Beside it an underflow is nothing.
+const SMALL: f64 = f64::from_bits((1023 - 900) << 52);
+
 /// A lower bound on the distance of two segments in metres, given by their ends: within rounding of it,
 /// or 0 where nothing is proved. All coordinates are finite.
 ///
@@ -33,9 +39,24 @@ fn direction(first: &[Point; 2], second: &[Point; 2]) -> Option<[f64; 3]> {
     is_finite.then_some(direction.into())
 }
 
-/// A lower bound on `(q - p) . d`, the components of `d` at most 1 in magnitude. Not NaN: infinity, which
-/// only an overflow makes, is not multiplied by 0, and no sum is +inf.
+/// A lower bound on `(q - p) . d`, the components of `d` at most 1 in magnitude.
+///
+/// With `u` = 2^-53, a difference has a relative error of `u`, a product of another, or 2^-1075 where it underflows, and each of the two
+/// sums of one more. So the sum is off by less than 4.2 `u` times the sum of magnitudes, and what underflows, which beside a sum of 2^-900
+/// is nothing. The bound takes off 8 `u` of it, and loses another `u` or so by rounding.
 fn advance_below(p: &Point, q: &Point, d: &[f64; 3]) -> f64 {
+    let [x, y, z] = [0, 1, 2].map(|axis| (q[axis] - p[axis]) * d[axis]);
+    let magnitude = x.abs() + y.abs() + z.abs();
+    if (SMALL..f64::INFINITY).contains(&magnitude) {
+        (x + y + z) - EIGHT_U * magnitude
+    } else {
+        advance_below_anywhere(p, q, d)
+    }
+}
+
+/// The same by rounding each operation downward. Not NaN: infinity, which only an overflow makes, is not multiplied by 0, and no sum
+/// is +inf.
+fn advance_below_anywhere(p: &Point, q: &Point, d: &[f64; 3]) -> f64 {
     let mut sum = 0.0;
     for axis in 0..3 {
         let difference = q[axis] - p[axis];
@@ -49,20 +70,43 @@ fn advance_below(p: &Point, q: &Point, d: &[f64; 3]) -> f64 {
     sum
 }
 
-/// An upper bound on the distance between two points in metres. All coordinates are finite.
+/// An upper bound on the distance between two points in metres; 0 if they are one. All coordinates are finite.
 pub(super) fn distance_above(p: &Point, q: &Point) -> f64 {
-    norm_above(&[0, 1, 2].map(|axis| (q[axis] - p[axis]).abs().next_up()))
+    if p == q {
+        return 0.0;
+    }
+    norm_above(&[0, 1, 2].map(|axis| q[axis] - p[axis]))
 }
 
-/// An upper bound on the length of a vector without NaN.
+/// An upper bound on the length of a vector of which each component is given rounded, none NaN.
+///
+/// With `u` = 2^-53, each component has a relative error of `u`, each square of another, or 2^-1075 where it underflows, which beside a sum of
+/// 2^-900 is nothing; two sums and the root have one of `u` each. So the root is at most 3.6 `u` too small; the factor makes it 8 `u` larger,
+/// less a rounding.
 fn norm_above(v: &[f64; 3]) -> f64 {
-    let squares = v.map(|x| (x * x).next_up());
+    let [x, y, z] = v.map(|x| x * x);
+    let squares = x + y + z;
+    if (SMALL..f64::INFINITY).contains(&squares) {
+        squares.sqrt() * (1.0 + EIGHT_U)
+    } else {
+        norm_above_anywhere(v)
+    }
+}
+
+/// The same by rounding each operation upward.
+fn norm_above_anywhere(v: &[f64; 3]) -> f64 {
+    let squares = v.map(|x| {
+        let most = x.abs().next_up();
+        (most * most).next_up()
+    });
     let sum = (squares[0] + squares[1]).next_up() + squares[2];
     sum.next_up().sqrt().next_up()
 }
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
 
     #[test]
@@ -89,5 +133,53 @@ mod tests {
         let [most, least] = [f64::MAX, -f64::MAX].map(|x| Point::new(x, x, x));
         assert_eq!(distance_above(&most, &least), f64::INFINITY);
         assert!(distance_above(&Point::origin(), &Point::new(0.0, 5e-324, 0.0)) >= 5e-324);
+    }
+
+    /// Lengths of vectors of whole numbers times powers of two, which are known exactly, where squares underflow and overflow too.
+    #[test]
+    fn bounds_are_on_their_sides_of_lengths_that_are_known() {
+        for [x, y, z, length] in [
+            [2, 3, 6, 7],
+            [1, 4, 8, 9],
+            [6, 10, 15, 19],
+            [0, 3, 4, 5],
+            [0, 0, 1, 1],
+        ] {
+            for exponent in -1074..1020 {
+                let two = if exponent < -1022 {
+                    f64::from_bits(1 << (exponent + 1074))
+                } else {
+                    f64::from_bits(((1023 + exponent) as u64) << 52)
+                };
+                let to = Point::from([x, y, z].map(|k: i32| f64::from(k) * two));
+                let length = f64::from(length) * two;
+                let above = distance_above(&Point::origin(), &to);
+                assert!(above >= length, "{to}: {above}");
+                let below = distance_below(&[Point::origin(); 2], &[to; 2]);
+                assert!(below <= length, "{to}: {below}");
+                if (-400..400).contains(&exponent) {
+                    let [above, below] = [above, below].map(|bound| bound / length);
+                    assert!(above <= 1.0 + 1e-14 && below >= 1.0 - 1e-14, "{to}");
+                }
+            }
+        }
+    }
+
+    proptest! {
+        /// Each number rounded after each operation is the other way to both bounds.
+        #[test]
+        fn bounds_are_as_if_each_operation_were_rounded(
+            p in prop::array::uniform3(-1e3..1e3f64),
+            q in prop::array::uniform3(-1e3..1e3f64),
+            direction in prop::array::uniform3(-1.0..1.0f64),
+        ) {
+            let v = [0, 1, 2].map(|axis| q[axis] - p[axis]);
+            let (fast, slow) = (norm_above(&v), norm_above_anywhere(&v));
+            prop_assert!((fast - slow).abs() <= 1e-14 * slow);
+            let [p, q] = [p, q].map(Point::from);
+            let fast = advance_below(&p, &q, &direction);
+            let slow = advance_below_anywhere(&p, &q, &direction);
+            prop_assert!((fast - slow).abs() <= 1e-14 * norm_above(&v) * 3.0);
+        }
     }
 }
