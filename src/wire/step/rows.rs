@@ -207,7 +207,7 @@ fn bend(
     carriers: [Carrier; 3],
     multiplier: usize,
     settings: &Settings,
-) -> [Row; 3] {
+) -> impl Iterator<Item = Row> {
     let [(t1, l1), (t2, l2)] = [wire.span(node - 1), wire.span(node)].map(|span| unit(&span));
     let mean = (wire.rest_length(node - 1) + wire.rest_length(node)) / 2.0;
     let compliance = mean / wire.material.bend_stiffness();
@@ -225,7 +225,7 @@ fn bend(
     let jacobian = [p1, -(p1 + p2), p2];
     let nodes = &wire.nodes[node - 1..node + 2];
     let turning = p1 * nodes[0].velocity + p2 * nodes[2].velocity - (p1 + p2) * nodes[1].velocity;
-    [0, 1, 2].map(|axis| {
+    (0..3).map(move |axis| {
         let term = |i: usize| (carriers[i], jacobian[i].row(axis).transpose());
         Row {
             multiplier: multiplier + axis,
