@@ -105,6 +105,7 @@ fn norm_above_anywhere(v: &[f64; 3]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use num_rational::BigRational;
     use proptest::prelude::*;
 
     use super::*;
@@ -165,21 +166,32 @@ mod tests {
         }
     }
 
+    fn exact(x: f64) -> BigRational {
+        BigRational::from_float(x).unwrap()
+    }
+
     proptest! {
-        /// Each number rounded after each operation is the other way to both bounds.
+        /// Both ways to each bound are on its side of the exact number, and near.
         #[test]
-        fn bounds_are_as_if_each_operation_were_rounded(
+        fn bounds_are_on_their_sides_of_exact_numbers(
             p in prop::array::uniform3(-1e3..1e3f64),
             q in prop::array::uniform3(-1e3..1e3f64),
             direction in prop::array::uniform3(-1.0..1.0f64),
         ) {
             let v = [0, 1, 2].map(|axis| q[axis] - p[axis]);
-            let (fast, slow) = (norm_above(&v), norm_above_anywhere(&v));
-            prop_assert!((fast - slow).abs() <= 1e-14 * slow);
+            let exact_v = [0, 1, 2].map(|axis| exact(q[axis]) - exact(p[axis]));
+            let squares: BigRational = exact_v.iter().map(|x| x * x).sum();
+            let length = norm_above(&v);
+            for bound in [length, norm_above_anywhere(&v)] {
+                let ratio = exact(bound) * exact(bound) / &squares;
+                prop_assert!(ratio >= exact(1.0) && ratio <= exact(1.0 + 1e-14), "{bound}");
+            }
+            let advance: BigRational = (exact_v.iter().zip(direction)).map(|(x, d)| x * exact(d)).sum();
             let [p, q] = [p, q].map(Point::from);
-            let fast = advance_below(&p, &q, &direction);
-            let slow = advance_below_anywhere(&p, &q, &direction);
-            prop_assert!((fast - slow).abs() <= 1e-14 * norm_above(&v) * 3.0);
+            for bound in [advance_below(&p, &q, &direction), advance_below_anywhere(&p, &q, &direction)] {
+                let lack = &advance - exact(bound);
+                prop_assert!(lack >= exact(0.0) && lack <= exact(1e-14 * length), "{bound}");
+            }
         }
     }
 }
