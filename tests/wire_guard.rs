@@ -305,10 +305,10 @@ impl NarrowPhase for Careless {
     }
 }
 
-#[test]
-fn soak_finds_a_narrow_phase_that_misses() {
+/// Twenty scenes in guard mode behind a narrow phase that misses every so many hits.
+fn carelessly(every: u64) -> Tally {
     let narrow = Careless {
-        every: 20,
+        every,
         hits: AtomicU64::new(0),
     };
     let mut tally = Tally::default();
@@ -316,21 +316,19 @@ fn soak_finds_a_narrow_phase_that_misses() {
         let mut collisions = Collisions::new(Mode::Guard, Method::default(), &narrow);
         tally.scene(scene(seed), &mut collisions);
     }
+    tally
+}
+
+#[test]
+fn soak_finds_a_narrow_phase_that_misses() {
+    let tally = carelessly(20);
     assert!(tally.met > 0, "{tally:?}");
 }
 
 /// No time passes in them, so the narrow phase has no say.
 #[test]
 fn changes_of_resolution_do_not_cross_whatever_narrow_phase_motions_have() {
-    let misses_all = Careless {
-        every: 1,
-        hits: AtomicU64::new(0),
-    };
-    let mut tally = Tally::default();
-    for seed in 0..20 {
-        let mut collisions = Collisions::new(Mode::Guard, Method::default(), &misses_all);
-        tally.scene(scene(seed), &mut collisions);
-    }
+    let tally = carelessly(1);
     assert!(tally.met > 0 && tally.refused > 0, "{tally:?}");
     assert_eq!(tally.met_remeshing, 0, "{tally:?}");
 }
