@@ -10,10 +10,11 @@ use tunnelproof::contact::{Case, Flags, Verdict};
 use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
 use tunnelproof::query::EdgeEdge;
 use tunnelproof::scenario::scenes::{Scene, SceneError};
-use tunnelproof::thesis::{Options, Thesis, Thresholds};
+use tunnelproof::thesis::Thesis;
 use tunnelproof::wire::{Mode, Outcome, StepError, StepRecord, World};
 
 use crate::certify::table::grouped;
+use crate::sweep::Setting;
 
 /// No continuous detection at all: wires get contacts where they overlap at the end of a step. In guard mode changes of
 /// resolution are tested still: no time passes in them.
@@ -33,6 +34,9 @@ impl NarrowPhase for Discrete {
     }
 }
 
+/// The thresholds that `tune` recommends for metres in `f64` (docs/thresholds.md).
+const TUNED: Setting = Setting([1e-4, 1e-4, 1e-15, 1e-5, 1e-12]);
+
 /// A narrow phase that a simulation can use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Narrow {
@@ -40,7 +44,7 @@ pub enum Narrow {
     Certified,
     /// The thesis path with the thresholds of table 3.1.
     Thesis,
-    /// The thesis path with the thresholds that `tune` recommends for metres in `f64` (docs/thresholds.md).
+    /// The thesis path with the thresholds that `tune` recommends for metres in `f64`.
     Tuned,
     /// Additive CCD.
     Additive,
@@ -74,21 +78,12 @@ impl Narrow {
         match self {
             Narrow::Certified => Box::new(Certified),
             Narrow::Thesis => Box::new(Thesis::default()),
-            Narrow::Tuned => Box::new(tuned()),
+            Narrow::Tuned => Box::new(Thesis {
+                options: TUNED.options(),
+            }),
             Narrow::Additive => Box::new(Additive::default()),
             Narrow::Discrete => Box::new(Discrete),
         }
-    }
-}
-
-/// The thesis path with the thresholds that `tune` recommends for metres in `f64`.
-fn tuned() -> Thesis {
-    let thresholds = Thresholds::named([1e-4, 1e-4, 1e-15, 1e-5, 1e-12]);
-    Thesis {
-        options: Options {
-            thresholds,
-            ..Options::default()
-        },
     }
 }
 

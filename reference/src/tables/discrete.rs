@@ -22,15 +22,14 @@ const LONGEST: u32 = 16;
 /// # Errors
 ///
 /// The scene cannot be built.
-pub fn largest_discrete_step(scene: &Scene) -> Result<Option<(f64, Audited)>, SceneError> {
+pub fn largest_discrete_step(scene: &Scene) -> Result<Option<f64>, SceneError> {
     let mut largest = None;
     for milliseconds in 1..=LONGEST {
         let step = seconds(milliseconds);
-        let run = run(scene, 0, 0.0, step)?;
-        if !run.holds() {
+        if !run(scene, 0, 0.0, step)?.holds() {
             break;
         }
-        largest = Some((step, run));
+        largest = Some(step);
     }
     Ok(largest)
 }
@@ -72,7 +71,7 @@ fn seconds(milliseconds: u32) -> f64 {
 }
 
 /// A run with discrete detection at a step in s, from the start of a seed.
-fn run(scene: &Scene, seed: u64, most: f64, step: f64) -> Result<Audited, SceneError> {
+pub(super) fn run(scene: &Scene, seed: u64, most: f64, step: f64) -> Result<Audited, SceneError> {
     let mut start = start(scene, seed, most);
     start.settings.step = step;
     audited(&start, Narrow::Discrete, Mode::Guard)

@@ -1,5 +1,4 @@
 use super::*;
-use crate::perturb::perturbed;
 
 fn basic_collision(duration: f64) -> Vec<OfThesis> {
     scenes(duration, Some("basic-collision")).unwrap()
@@ -63,14 +62,12 @@ fn table_of_missed_tunnels_has_discrete_detection_miss_and_the_certified_path_no
 #[test]
 fn largest_discrete_step_of_scene_1_does_not_tunnel_and_the_next_does() {
     let scene = &basic_collision(0.1)[0].scene;
-    let (step, run) = largest_discrete_step(scene).unwrap().unwrap();
-    assert!(run.report.is_clean());
+    let step = largest_discrete_step(scene).unwrap().unwrap();
+    let report = |step| discrete::run(scene, 0, 0.0, step).unwrap().report;
+    assert!(report(step).is_clean());
     // That of the thesis.
     assert_eq!(step, 0.004);
-    let mut longer = scene.clone();
-    longer.settings.step = 0.005;
-    let longer = audited(&longer, Narrow::Discrete, Mode::Guard).unwrap();
-    assert_eq!(longer.report.standing.len(), 2);
+    assert_eq!(report(0.005).standing.len(), 2);
 }
 
 #[test]
@@ -82,9 +79,7 @@ fn safe_discrete_step_holds_from_other_starts_as_well() {
     assert_eq!(safe(0.005, 0), Some(0.004));
     assert_eq!(safe(0.006, 2), Some(0.006));
     assert_eq!(safe(0.006, 3), Some(0.004));
-    let mut start = perturbed(scene, 3, 1e-3);
-    start.settings.step = 0.006;
-    let run = audited(&start, Narrow::Discrete, Mode::Guard).unwrap();
+    let run = discrete::run(scene, 3, 1e-3, 0.006).unwrap();
     assert!(!run.report.is_clean());
 }
 

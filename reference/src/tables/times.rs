@@ -152,7 +152,7 @@ type Cells = Vec<(String, String)>;
 
 fn column(of: &OfThesis, count: u64) -> Result<Cells, SceneError> {
     let (scene, published) = (&of.scene, &PUBLISHED[of.index]);
-    let largest = largest_discrete_step(scene)?.map(|(step, _)| step);
+    let largest = largest_discrete_step(scene)?;
     let safe = match largest {
         Some(largest) => safe_discrete_step(scene, largest, count, thinnest(scene))?,
         None => None,
