@@ -8,7 +8,7 @@
 use nalgebra::Vector3;
 
 use crate::closest::{closest, distance};
-use crate::contact::{Contact, ContactPoint, Flags, Verdict};
+use crate::contact::{Contact, ContactPoint, EdgePoint, Flags, Verdict};
 use crate::narrow::{NarrowPhase, Report, Unsupported};
 use crate::query::{EdgeEdge, Point};
 
@@ -97,14 +97,14 @@ fn contact_at(query: &EdgeEdge, toi: f64) -> Contact {
     let relative = r.lerp(&s, v) - p.lerp(&q, u);
     let first = ContactPoint {
         point: Point::from(positions[0].lerp(&positions[1], u)),
-        u,
-        v,
-        normal: relative.try_normalize(0.0),
+        weights: EdgePoint { u, v }.weights(),
+        relative_velocity: relative.try_normalize(0.0),
     };
     Contact {
         toi,
         first,
         second: None,
+        normal: None,
     }
 }
 

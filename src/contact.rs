@@ -1,10 +1,103 @@
-//! What is answered: a verdict and, for a hit, its witness.
+//! What is answered: the first contact of a step.
+//!
+//! [`Hit`] is the answer of the [certified path](crate::certified), with what is proved of it. [`Contact`] is a
+//! contact in space: what any narrow phase can say, in a [`Verdict`].
 
 use std::fmt;
 
 use nalgebra::Vector3;
 
 use crate::query::Point;
+
+/// The first contact of a step, proved.
+///
+/// `P` is the place of the contact: [`EdgePlace`] of two edges, [`FacePlace`] of a vertex and a face, [`Place`] of
+/// either.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit<P> {
+    /// The largest `f64` that is not above the exact time of impact, in `[0, 1]`.
+    ///
+    /// Positions that are rounded to `f64` at this time may already be past the contact: the bound
+    /// holds for the time, not for stored positions.
+    pub toi: f64,
+    /// The smallest `f64` that is not below the exact time of impact: the next one up, or `toi` itself
+    /// if that is the time of impact.
+    pub toi_above: f64,
+    /// Whether a simulator that misses the contact lets the two sides through each other. Exact.
+    ///
+    /// A contact at time 0 or 1 is a graze. Otherwise the definition uses `f` (see [`side`](Self::side)):
+    ///
+    /// - Where `f` is not identically 0: a crossing if `f` changes its sign at the contact and the two
+    ///   touch strictly inside: two lines that meet at an angle strictly inside both edges, or a
+    ///   vertex strictly inside a face that has an area then.
+    /// - Where all points stay in a plane: a crossing if an end of one edge passes through the line
+    ///   of the other edge, inside that edge or onto an overlap; or if the vertex passes through the
+    ///   line of an edge of the face, strictly inside that edge.
+    /// - Where all points stay on a line: always a crossing.
+    ///
+    /// With a radius: whether there is a crossing, at radius 0, at any time of the step.
+    pub kind: ContactKind,
+    /// The sign of `f` just before the contact, which is the side that the two come from: 1, -1, or 0 where
+    /// `f` is identically 0 or the contact is at time 0. Exact.
+    ///
+    /// Of two edges `f = ((B - A) x (D - C)) . (C - A)`. Of a vertex and a face
+    /// `f = ((C - B) x (D - B)) . (A - B)`: 1 where the vertex comes from the side to which
+    /// `(C - B) x (D - B)` points.
+    pub side: i8,
+    /// The case of the motion. Exact.
+    pub case: Case,
+    /// The configuration at the time of impact. Exact.
+    pub flags: Flags,
+    /// Where the two touch; with a radius, where they are nearest.
+    pub place: P,
+}
+
+/// Where two edges touch, or are nearest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EdgePlace {
+    /// The place; of an overlap, the end with the smaller `u`.
+    pub first: EdgePoint,
+    /// The other end of the overlap, if the edges overlap, or are nearest, in more than a point.
+    pub second: Option<EdgePoint>,
+    /// No parameter is farther from the exact one than this, which is at most [`PLACE_ERROR`].
+    pub error: f64,
+}
+
+/// A point on each of two edges.
+///
+/// On an edge that is a point at that time, the parameter is 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EdgePoint {
+    /// On edge `AB`, 0 at A and 1 at B.
+    pub u: f64,
+    /// On edge `CD`, 0 at C and 1 at D.
+    pub v: f64,
+}
+
+/// Where a vertex and a face touch, or are nearest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FacePlace {
+    /// The weights of the corners B, C and D, in `[0, 1]`; they add up to 1 within three times
+    /// [`error`](Self::error).
+    ///
+    /// In a face without area at that time they are those at the first of B, C and D, or else on the
+    /// first of BC, CD and DB, that the vertex is on.
+    pub weights: [f64; 3],
+    /// No weight is farther from the exact one than this, which is at most [`PLACE_ERROR`].
+    pub error: f64,
+}
+
+/// The place of a contact, of either kind of query.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// Of two edges.
+    Edges(EdgePlace),
+    /// Of a vertex and a face.
+    Face(FacePlace),
+}
+
+/// The largest error that the place of a [`Hit`] has, `2^-32`. Where `f64` cannot promise so much, integers do.
+pub const PLACE_ERROR: f64 = f64::from_bits((1023 - 32) << 52);
 
 /// Hit or miss of one query, in `f64`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,7 +108,7 @@ pub enum Verdict {
     Hit(Contact),
 }
 
-/// The first contact of a step.
+/// The first contact of a step, in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     /// Time of impact in `[0, 1]`.
@@ -23,8 +116,12 @@ pub struct Contact {
     /// Where they touch at `toi`.
     pub first: ContactPoint,
     /// The other end of the overlap where the edges are collinear at `toi` and share more than a
-    /// point (thesis figure 4.11).
+    /// point.
     pub second: Option<ContactPoint>,
+    /// The unit vector along which the two sides touch: from the first side (the edge AB, or the vertex) to the
+    /// second (the edge CD, or the face), as they are just before the contact. `None` from a method
+    /// that does not say, and where there is no such direction; see [`Hit::normal`].
+    pub normal: Option<Vector3<f64>>,
 }
 
 /// One point of contact.
@@ -32,13 +129,15 @@ pub struct Contact {
 pub struct ContactPoint {
     /// Position in space, in metres.
     pub point: Point,
-    /// Parameter on edge `AB`: 0 at A, 1 at B.
-    pub u: f64,
-    /// Parameter on edge `CD`: 0 at C, 1 at D.
-    pub v: f64,
-    /// The velocity of `CD` relative to `AB` at this point, normalised (thesis 2.2.2); `None`
-    /// where they do not move against each other.
-    pub normal: Option<Vector3<f64>>,
+    /// How the point is made of A, B, C and D: `A w[0] + B w[1]` and `C w[2] + D w[3]` of two edges,
+    /// `A` and `B w[1] + C w[2] + D w[3]` of a vertex and a face. The weights of each side add up to 1.
+    pub weights: [f64; 4],
+    /// The direction in which the second side moves relative to the first at this point, a unit vector;
+    /// `None` where they do not move against each other.
+    ///
+    /// Brandl calls it the normal ("Continuous Collision Detection for Wires with Adaptive
+    /// Resolution", Umeå University 2017, section 2.2.2).
+    pub relative_velocity: Option<Vector3<f64>>,
 }
 
 /// How a pair of edges moves against each other during the whole step (thesis 3.1.1).
@@ -76,6 +175,49 @@ pub enum ContactKind {
     Crossing,
     /// They touch without swapping sides.
     Graze,
+}
+
+impl EdgePoint {
+    /// The weights of A, B, C and D.
+    pub fn weights(self) -> [f64; 4] {
+        let EdgePoint { u, v } = self;
+        [1.0 - u, u, 1.0 - v, v]
+    }
+}
+
+impl ContactPoint {
+    /// The point on each edge, of a contact of two edges.
+    pub fn on_edges(&self) -> EdgePoint {
+        let [_, u, _, v] = self.weights;
+        EdgePoint { u, v }
+    }
+}
+
+impl From<EdgePlace> for Place {
+    fn from(place: EdgePlace) -> Self {
+        Place::Edges(place)
+    }
+}
+
+impl From<FacePlace> for Place {
+    fn from(place: FacePlace) -> Self {
+        Place::Face(place)
+    }
+}
+
+impl<P> Hit<P> {
+    /// The same contact with its place in another form.
+    pub fn map_place<T>(self, form: impl FnOnce(P) -> T) -> Hit<T> {
+        Hit {
+            toi: self.toi,
+            toi_above: self.toi_above,
+            kind: self.kind,
+            side: self.side,
+            case: self.case,
+            flags: self.flags,
+            place: form(self.place),
+        }
+    }
 }
 
 impl Verdict {

@@ -18,6 +18,13 @@ pub mod thesis;
 #[cfg(feature = "wire")]
 pub mod wire;
 
+pub use certified::{Batch, BatchError, Normal, classify, decide, decide_discrete, decide_exactly};
+pub use contact::{
+    Case, Contact, ContactKind, ContactPoint, EdgePlace, EdgePoint, FacePlace, Flags, Hit,
+};
+pub use nalgebra;
+pub use query::{EdgeEdge, Point, Query, QueryError, QueryKind, Radius, VertexFace};
+
 /// The example of the README, as a test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

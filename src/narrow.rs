@@ -34,14 +34,14 @@ use crate::query::{EdgeEdge, QueryKind, Radius, VertexFace};
 ///         let changes = volume(query.start()) * volume(query.end()) < 0.0;
 ///         let first = ContactPoint {
 ///             point: query.end()[0],
-///             u: 0.0,
-///             v: 0.0,
-///             normal: None,
+///             weights: [1.0, 0.0, 1.0, 0.0],
+///             relative_velocity: None,
 ///         };
 ///         let contact = Contact {
 ///             toi: 0.5,
 ///             first,
 ///             second: None,
+///             normal: None,
 ///         };
 ///         Ok(Report {
 ///             verdict: if changes { Verdict::Hit(contact) } else { Verdict::Miss },

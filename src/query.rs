@@ -92,6 +92,18 @@ macro_rules! four_points {
                 Ok(Self { start, end, radius })
             }
 
+            /// The query of four points that do not move, in metres.
+            ///
+            /// # Errors
+            ///
+            /// As [`new`](Self::new).
+            pub fn at_rest(
+                points: [Point; 4],
+                radius: impl Into<Radius>,
+            ) -> Result<Self, QueryError> {
+                Self::new(points, points, radius)
+            }
+
             /// The four points at `t = 0`.
             pub fn start(&self) -> &[Point; 4] {
                 &self.start

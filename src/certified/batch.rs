@@ -7,34 +7,53 @@ use std::marker::PhantomData;
 use std::ops::Range;
 
 use super::block::{BLOCK, Block};
-use super::cascade::Stage;
+use super::cascade::{decide_all, decide_rest};
+use super::kind::Kind;
 use super::motion::Positions;
-use super::pair::Pair;
+use super::stage::Stage;
 use super::thick;
-use crate::query::{EdgeEdge, Point, QueryError, Radius, VertexFace};
+use crate::contact::Hit;
+use crate::query::{Point, QueryError, Radius};
 
 /// How many blocks are not screened after one for which that did not pay.
 const UNSCREENED: u32 = 15;
 
-/// Queries of one kind as a structure of arrays.
+/// Queries of one kind, [`EdgeEdge`](crate::query::EdgeEdge) or [`VertexFace`](crate::query::VertexFace), as a
+/// structure of arrays.
+///
+/// It is for candidate pairs as a broad phase delivers them, of which few touch. The answers are those of
+/// [`decide`](super::decide), bit for bit.
+///
+/// ```
+/// use tunnelproof::{Batch, EdgeEdge, Point};
+///
+/// let p = Point::new;
+/// let start = [p(-1.0, 0.0, 0.0), p(1.0, 0.0, 0.0), p(0.5, -1.0, 1.0), p(0.5, 1.0, 1.0)];
+/// let mut batch = Batch::new();
+/// for depth in [0.5, 3.0] {
+///     let mut end = start;
+///     end[2].z -= depth;
+///     end[3].z -= depth;
+///     batch.push(&EdgeEdge::new(start, end, 0.0)?);
+/// }
+/// let hits = batch.decide();
+/// let [(index, hit)] = &hits[..] else { panic!("one of them touches") };
+/// assert_eq!(*index, 1);
+/// assert!(hit.toi <= 1.0 / 3.0 && 1.0 / 3.0 <= hit.toi_above);
+/// # Ok::<(), tunnelproof::QueryError>(())
+/// ```
 #[derive(Clone, Debug)]
-pub struct PairBatch<Q> {
+pub struct Batch<K> {
     /// Coordinate `3 p + i` is axis `i` of point `p`: A, B, C, D at `t = 0`, then at `t = 1`.
     coordinates: [Vec<f64>; 24],
     /// As long as the coordinates, or empty if all are 0.
     radii: Vec<Radius>,
-    kind: PhantomData<fn() -> Q>,
+    kind: PhantomData<fn() -> K>,
 }
 
-/// Edge-edge queries.
-pub type Batch = PairBatch<EdgeEdge>;
-
-/// Vertex-face queries.
-pub type FaceBatch = PairBatch<VertexFace>;
-
-impl<Q> Default for PairBatch<Q> {
+impl<K> Default for Batch<K> {
     fn default() -> Self {
-        PairBatch {
+        Batch {
             coordinates: Default::default(),
             radii: Vec::new(),
             kind: PhantomData,
@@ -42,11 +61,7 @@ impl<Q> Default for PairBatch<Q> {
     }
 }
 
-#[allow(
-    private_bounds,
-    reason = "there are two kinds of queries, and no more can be made"
-)]
-impl<Q: Pair> PairBatch<Q> {
+impl<K: Kind> Batch<K> {
     /// No queries.
     pub fn new() -> Self {
         Self::default()
@@ -69,7 +84,7 @@ impl<Q: Pair> PairBatch<Q> {
     }
 
     /// Adds a query.
-    pub fn push(&mut self, query: &Q) {
+    pub fn push(&mut self, query: &K) {
         let ([start, end], radius) = query.parts();
         if !(radius.is_zero() && self.radii.is_empty()) {
             self.radii.resize(self.len(), Radius::ZERO);
@@ -100,7 +115,7 @@ impl<Q: Pair> PairBatch<Q> {
             vec![radius; coordinates[0].len()]
         };
         let kind = PhantomData;
-        let batch = PairBatch {
+        let batch = Batch {
             coordinates,
             radii,
             kind,
@@ -126,27 +141,33 @@ impl<Q: Pair> PairBatch<Q> {
         Ok(batch)
     }
 
-    /// Decides every query and calls `hit` for each that is one, in order; see
-    /// [`decide`](super::decide) and [`decide_vertex_face`](super::decide_vertex_face).
-    pub fn decide(&self, hit: impl FnMut(usize, Q::Hit)) {
-        self.decide_observed(hit, |_| {});
+    /// All hits with the places of their queries, in order.
+    pub fn decide(&self) -> Vec<(usize, Hit<K::Place>)> {
+        let mut hits = Vec::new();
+        self.decide_observed(|index, hit| hits.push((index, hit)), |_| {});
+        hits
     }
 
-    /// As [`decide`](Self::decide), and says for each query, in any order, which stage decided it.
-    pub fn decide_observed(&self, hit: impl FnMut(usize, Q::Hit), observe: impl FnMut(Stage)) {
+    /// As [`decide`](Self::decide): calls `hit` for each hit, in order, and says for each query, in any order, which
+    /// stage decided it. Allocates nothing.
+    pub fn decide_observed(
+        &self,
+        hit: impl FnMut(usize, Hit<K::Place>),
+        observe: impl FnMut(Stage),
+    ) {
         self.decide_range(0..self.len(), hit, observe);
     }
 
-    /// All hits, in order, decided by all threads of the current pool.
+    /// As [`decide`](Self::decide), by all threads of the current pool.
     #[cfg(feature = "rayon")]
-    pub fn par_hits(&self) -> Vec<(usize, Q::Hit)> {
+    pub fn par_decide(&self) -> Vec<(usize, Hit<K::Place>)> {
         use rayon::prelude::*;
 
-        const SHARE: usize = 16 * BLOCK;
-        let starts = (0..self.len()).into_par_iter().step_by(SHARE);
+        const CHUNK: usize = 16 * BLOCK;
+        let starts = (0..self.len()).into_par_iter().step_by(CHUNK);
         let hits = starts.flat_map_iter(|start| {
             let mut hits = Vec::new();
-            let end = self.len().min(start + SHARE);
+            let end = self.len().min(start + CHUNK);
             self.decide_range(start..end, |index, hit| hits.push((index, hit)), |_| {});
             hits
         });
@@ -156,7 +177,7 @@ impl<Q: Pair> PairBatch<Q> {
     fn decide_range(
         &self,
         range: Range<usize>,
-        mut hit: impl FnMut(usize, Q::Hit),
+        mut hit: impl FnMut(usize, Hit<K::Place>),
         mut observe: impl FnMut(Stage),
     ) {
         let mut block = Block::new();
@@ -174,25 +195,25 @@ impl<Q: Pair> PairBatch<Q> {
                 continue;
             }
             block.fill(self.coordinates.each_ref().map(|array| &array[start..end]));
-            if !block.screen::<Q>(&mut observe) {
+            if !block.screen::<K>(&mut observe) {
                 unscreened = UNSCREENED;
             }
             for &i in block.open() {
                 let index = start + usize::from(i);
                 let positions = || self.positions(index);
-                if let Some(found) = Q::decide_rest(positions, &mut observe) {
+                if let Some(found) = decide_rest::<K>(positions, &mut observe) {
                     hit(index, found);
                 }
             }
         }
     }
 
-    fn decide_one(&self, index: usize, observe: &mut impl FnMut(Stage)) -> Option<Q::Hit> {
+    fn decide_one(&self, index: usize, observe: &mut impl FnMut(Stage)) -> Option<Hit<K::Place>> {
         let radius = self.radius(index);
         if radius.is_zero() {
-            Q::decide_all(|| self.positions(index), observe)
+            decide_all::<K>(|| self.positions(index), observe)
         } else {
-            thick::decide::<Q::Thick>(|| self.positions(index), radius, observe)
+            thick::decide::<K>(|| self.positions(index), radius, observe)
         }
     }
 
@@ -210,9 +231,9 @@ impl<Q: Pair> PairBatch<Q> {
         }
     }
 
-    fn query(&self, index: usize) -> Result<Q, QueryError> {
+    fn query(&self, index: usize) -> Result<K, QueryError> {
         let Positions { start, end } = self.positions(index);
-        Q::of_points(
+        K::of_points(
             start.map(Point::from),
             end.map(Point::from),
             self.radius(index),

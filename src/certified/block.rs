@@ -9,10 +9,10 @@ use std::marker::PhantomData;
 
 use pulp::{Arch, WithSimd};
 
-use super::cascade::Stage;
 use super::cubic::Cubic;
 use super::ends::{Ends, Plain};
-use super::pair::Pair;
+use super::kind::Kind;
+use super::stage::Stage;
 
 /// How many queries go through a stage together: enough that few lanes are idle in the later stages,
 /// few enough that their coordinates stay in the cache.
@@ -63,16 +63,16 @@ impl Block {
     /// The first three stages, and the fourth as far as it goes without a branch: a miss at the only
     /// root. Stops after the first two where they decide little: then most of these pairs touch, and one
     /// by one is faster. Returns whether it went on.
-    pub(super) fn screen<P: Pair>(&mut self, observe: &mut impl FnMut(Stage)) -> bool {
+    pub(super) fn screen<K: Kind>(&mut self, observe: &mut impl FnMut(Stage)) -> bool {
         let all = self.count;
-        let apart = self.test(Apart::<P>(PhantomData));
+        let apart = self.test(Apart::<K>(PhantomData));
         self.take_out([Stage::Boxes, Stage::Direction], &apart, observe);
         if 4 * self.count > 3 * all {
             return false;
         }
-        let signs = self.test(Signs::<P>(PhantomData));
+        let signs = self.test(Signs::<K>(PhantomData));
         self.take_out([Stage::Signs], &signs, observe);
-        let roots = self.test(Roots::<P>(PhantomData));
+        let roots = self.test(Roots::<K>(PhantomData));
         self.take_out([Stage::Roots], &roots, observe);
         true
     }
@@ -91,38 +91,38 @@ trait Test<const N: usize> {
 }
 
 /// Stages 1 and 2.
-struct Apart<P>(PhantomData<P>);
+struct Apart<K>(PhantomData<K>);
 
-impl<P: Pair> Test<2> for Apart<P> {
+impl<K: Kind> Test<2> for Apart<K> {
     #[inline(always)]
     fn of(&self, points: &[[Plain; 3]; 4]) -> [bool; 2] {
-        let boxes = P::boxes(points);
-        let is_separated = P::is_separated_by_centres(&P::motion(points), &boxes);
+        let boxes = K::boxes(points, 0.0);
+        let is_separated = K::is_separated_by_centres(&K::motion(points), &boxes);
         [boxes.are_disjoint, is_separated]
     }
 }
 
 /// Stage 3.
-struct Signs<P>(PhantomData<P>);
+struct Signs<K>(PhantomData<K>);
 
-impl<P: Pair> Test<1> for Signs<P> {
+impl<K: Kind> Test<1> for Signs<K> {
     #[inline(always)]
     fn of(&self, points: &[[Plain; 3]; 4]) -> [bool; 1] {
-        let cubic = Cubic::unchecked(&P::motion(points));
+        let cubic = Cubic::unchecked(&K::motion(points));
         [cubic.is_valid() & cubic.has_no_root()]
     }
 }
 
 /// Stage 4, for a miss at the only root in each half of the step.
-struct Roots<P>(PhantomData<P>);
+struct Roots<K>(PhantomData<K>);
 
-impl<P: Pair> Test<1> for Roots<P> {
+impl<K: Kind> Test<1> for Roots<K> {
     #[inline(always)]
     fn of(&self, points: &[[Plain; 3]; 4]) -> [bool; 1] {
-        let motion = P::motion(points);
+        let motion = K::motion(points);
         let cubic = Cubic::unchecked(&motion);
         let [lower, upper] = cubic.halves();
-        let is_apart_in = |half| P::is_apart_in(&motion, &cubic, half);
+        let is_apart_in = |half| K::is_apart_in(&motion, &cubic, half);
         let is_apart = is_apart_in(&lower) & is_apart_in(&upper);
         [cubic.is_valid() & is_apart]
     }

@@ -4,237 +4,117 @@ use wide::f64x2;
 
 use super::cubic::Cubic;
 use super::ends::Ends;
-use super::exact;
-use super::locate::Place;
+use super::kind::Kind;
 use super::motion::{Motion, Positions};
-use super::refine::Root;
-use super::root::Bracket;
 use super::separate::SweptBoxes;
-use super::start;
+use super::stage::Stage;
 use super::thick;
-use super::verdict::{Hit, Parameters, Verdict};
-use crate::contact::{Case, ContactKind, Flags};
-use crate::query::EdgeEdge;
+use crate::contact::{Case, Hit};
 
-/// The stage of the cascade that decided a query.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Stage {
-    /// The swept boxes are disjoint.
-    Boxes,
-    /// A direction separates the edges for the whole step.
-    Direction,
-    /// The Bernstein coefficients of the cubic have one sign.
-    Signs,
-    /// The roots of the cubic, bounded in `f64`.
-    Roots,
-    /// A separating direction, found by search.
-    Search,
-    /// With a radius: planes that separate, each for a part of the step, up to its end or the contact.
-    Planes,
-    /// Integers.
-    Exact,
-}
-
-impl Stage {
-    /// Every stage, in the order in which they are tried.
-    pub const ALL: [Stage; 7] = [
-        Stage::Boxes,
-        Stage::Direction,
-        Stage::Signs,
-        Stage::Roots,
-        Stage::Search,
-        Stage::Planes,
-        Stage::Exact,
-    ];
-
-    /// The name used in tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Stage::Boxes => "boxes",
-            Stage::Direction => "direction",
-            Stage::Signs => "signs",
-            Stage::Roots => "roots",
-            Stage::Search => "search",
-            Stage::Planes => "planes",
-            Stage::Exact => "exact",
-        }
-    }
-}
-
-/// Whether and when two moving edges touch: certified, without thresholds.
+/// Whether and when the two sides of a query touch: certified, without thresholds.
 ///
-/// No hit is false, no contact is missed, and `toi` is the exact time of impact rounded down.
+/// The query is an [`EdgeEdge`](crate::query::EdgeEdge) or a [`VertexFace`](crate::query::VertexFace). With a radius
+/// above 0, contact is a distance of at most the radius.
 ///
-/// With a radius above 0 contact is a distance of at most the radius, at [`Hit::toi`] that of the nearest points.
-pub fn decide(query: &EdgeEdge) -> Verdict {
+/// # Guarantee
+///
+/// No hit is false, no contact is missed, and [`toi`](Hit::toi) is the exact time of impact rounded down,
+/// for every finite query. The proofs assume rounding to nearest and gradual underflow, which is what Rust
+/// sets up.
+///
+/// # Example
+///
+/// ```
+/// use tunnelproof::{EdgeEdge, Point, decide};
+///
+/// let p = Point::new;
+/// let start = [p(-1.0, 0.0, 0.0), p(1.0, 0.0, 0.0), p(0.5, -1.0, 1.0), p(0.5, 1.0, 1.0)];
+/// let mut end = start;
+/// end[2].z = -3.0;
+/// end[3].z = -3.0;
+/// let hit = decide(&EdgeEdge::new(start, end, 0.0)?).expect("the edges cross");
+/// assert_eq!((hit.toi, hit.place.first.u, hit.place.first.v), (0.25, 0.75, 0.5));
+/// # Ok::<(), tunnelproof::QueryError>(())
+/// ```
+pub fn decide<K: Kind>(query: &K) -> Option<Hit<K::Place>> {
     decide_observed(query, &mut |_| {})
 }
 
 /// As [`decide`], and says which stage decided.
 #[inline]
-pub fn decide_observed(query: &EdgeEdge, observe: &mut impl FnMut(Stage)) -> Verdict {
-    if !query.radius().is_zero() {
-        let hit = thick::decide::<thick::Edges>(|| Positions::new(query), query.radius(), observe);
-        return hit.map_or(Verdict::Miss, Verdict::Hit);
+pub fn decide_observed<K: Kind>(
+    query: &K,
+    observe: &mut impl FnMut(Stage),
+) -> Option<Hit<K::Place>> {
+    let ([start, end], radius) = query.parts();
+    let positions = || Positions::of(start, end);
+    if !radius.is_zero() {
+        return thick::decide::<K>(positions, radius, observe);
     }
-    decide_all(|| Positions::new(query), observe)
+    decide_all::<K>(positions, observe)
+}
+
+/// As [`decide`], by integer arithmetic alone.
+///
+/// It takes about a microsecond where the coordinates are of similar magnitude, and up to milliseconds
+/// where their exponents span the range of `f64`; with a radius above 0, about fifty times that.
+pub fn decide_exactly<K: Kind>(query: &K) -> Option<Hit<K::Place>> {
+    let ([start, end], radius) = query.parts();
+    let positions = Positions::of(start, end);
+    if radius.is_zero() {
+        K::decide_exactly(&positions)
+    } else {
+        K::decide_thick_exactly(&positions, radius)
+    }
+}
+
+/// The case of the motion, whether the two sides touch or not. Exact; the radius has no part in it.
+pub fn classify<K: Kind>(query: &K) -> Case {
+    let ([start, end], _) = query.parts();
+    K::case(&Positions::of(start, end))
 }
 
 /// All stages.
 #[inline(always)]
-pub(super) fn decide_all(
+pub(super) fn decide_all<K: Kind>(
     positions: impl Fn() -> Positions,
     observe: &mut impl FnMut(Stage),
-) -> Verdict {
+) -> Option<Hit<K::Place>> {
     let points = positions().points::<f64x2>();
-    let boxes = SweptBoxes::new(&points);
+    let boxes = K::boxes(&points, 0.0);
     if boxes.are_disjoint {
         observe(Stage::Boxes);
-        return Verdict::Miss;
+        return None;
     }
-    let motion = Motion::new(&points);
-    if motion.is_separated_by_centres(&boxes) {
+    let motion = K::motion(&points);
+    if K::is_separated_by_centres(&motion, &boxes) {
         observe(Stage::Direction);
-        return Verdict::Miss;
+        return None;
     }
-    decide_open(positions, &boxes, &motion, observe)
+    decide_open::<K, _>(positions, &boxes, &motion, observe)
 }
 
 /// The stages after the first two, for a query that those leave open.
-pub(super) fn decide_rest(
+pub(super) fn decide_rest<K: Kind>(
     positions: impl Fn() -> Positions,
     observe: &mut impl FnMut(Stage),
-) -> Verdict {
+) -> Option<Hit<K::Place>> {
     let points = positions().points::<f64x2>();
-    let (boxes, motion) = (SweptBoxes::new(&points), Motion::new(&points));
-    decide_open(positions, &boxes, &motion, observe)
+    let (boxes, motion) = (K::boxes(&points, 0.0), K::motion(&points));
+    decide_open::<K, _>(positions, &boxes, &motion, observe)
 }
 
 #[inline(always)]
-fn decide_open<E: Ends>(
+fn decide_open<K: Kind, E: Ends>(
     positions: impl Fn() -> Positions,
     boxes: &SweptBoxes,
     motion: &Motion<E>,
     observe: &mut impl FnMut(Stage),
-) -> Verdict {
+) -> Option<Hit<K::Place>> {
     let cubic = Cubic::new(motion);
     if cubic.is_some_and(|cubic| cubic.has_no_root()) {
         observe(Stage::Signs);
-        return Verdict::Miss;
-    }
-    decide_with_roots(positions, boxes, motion, cubic.as_ref(), observe)
-}
-
-/// The stages from the roots on.
-#[inline(never)]
-fn decide_with_roots<E: Ends>(
-    positions: impl Fn() -> Positions,
-    boxes: &SweptBoxes,
-    motion: &Motion<E>,
-    cubic: Option<&Cubic>,
-    observe: &mut impl FnMut(Stage),
-) -> Verdict {
-    if let Some(hit) = start::contact(&positions, motion, cubic) {
-        observe(Stage::Roots);
-        return Verdict::Hit(hit);
-    }
-    if let Some(verdict) = cubic.and_then(|cubic| decide_by_roots(&positions, motion, cubic)) {
-        observe(Stage::Roots);
-        return verdict;
-    }
-    if motion.is_separated_by_search(boxes) {
-        observe(Stage::Search);
-        return Verdict::Miss;
-    }
-    observe(Stage::Exact);
-    match exact::decide(&positions()).hit {
-        None => Verdict::Miss,
-        Some(hit) => Verdict::Hit(hit),
-    }
-}
-
-/// Edges that touch are coplanar: the first root of the cubic at which the lines meet inside both
-/// edges is the contact. `None` as soon as one root is not certain.
-fn decide_by_roots<E: Ends>(
-    positions: &impl Fn() -> Positions,
-    motion: &Motion<E>,
-    cubic: &Cubic,
-) -> Option<Verdict> {
-    let is_apart = |low, high| {
-        motion
-            .meeting(cubic, &Bracket::around(low, high))
-            .is_apart()
-    };
-    for bracket in cubic.isolate(is_apart)?.as_slice() {
-        let mut bracket = *bracket;
-        let mut place = motion.meeting(cubic, &bracket).place();
-        if let Place::Unclear = place {
-            (bracket, _) = cubic.sharpen(&bracket)?;
-            place = motion.meeting(cubic, &bracket).place();
-        }
-        return match place {
-            Place::Apart => continue,
-            Place::Inside { .. } => hit(positions, motion, cubic, &bracket),
-            Place::Unclear => match decide_near_end(&positions(), motion, cubic, &bracket)? {
-                Verdict::Miss => continue,
-                hit => Some(hit),
-            },
-        };
-    }
-    Some(Verdict::Miss)
-}
-
-/// Whether the edges touch at the root in a sharpened bracket where the lines meet near an edge's end;
-/// `None` if that is not certain.
-#[inline(never)]
-fn decide_near_end<E: Ends>(
-    positions: &Positions,
-    motion: &Motion<E>,
-    cubic: &Cubic,
-    bracket: &Bracket,
-) -> Option<Verdict> {
-    let root = Root::new(positions, cubic, bracket)?;
-    match root.meeting(positions, motion, cubic).place() {
-        Place::Apart => Some(Verdict::Miss),
-        place => crossing(root.round_down()?, bracket, place),
-    }
-}
-
-/// The contact at a root at which the lines meet inside both edges.
-fn hit<E: Ends>(
-    positions: &impl Fn() -> Positions,
-    motion: &Motion<E>,
-    cubic: &Cubic,
-    bracket: &Bracket,
-) -> Option<Verdict> {
-    let toi = Root::new(&positions(), cubic, bracket)?.round_down()?;
-    let at_toi = Bracket {
-        low: toi,
-        high: toi.next_up(),
-        ..*bracket
-    };
-    crossing(toi, bracket, motion.meeting(cubic, &at_toi).place())
-}
-
-/// The contact at a simple root strictly inside the step, strictly inside both edges.
-///
-/// `f` changes sign there and the lines meet at an angle: a crossing of general motion.
-fn crossing(toi: f64, bracket: &Bracket, place: Place) -> Option<Verdict> {
-    let Place::Inside { u, v, error } = place else {
-        return None;
-    };
-    if error > Hit::PARAMETER_ERROR {
         return None;
     }
-    Some(Verdict::Hit(Hit {
-        toi,
-        toi_above: toi.next_up(),
-        kind: ContactKind::Crossing,
-        side: if bracket.is_rising { -1 } else { 1 },
-        first: Parameters { u, v },
-        second: None,
-        parameter_error: error,
-        case: Case::General,
-        flags: Flags::default(),
-    }))
+    K::decide_by_roots(positions, boxes, motion, cubic.as_ref(), observe)
 }

@@ -9,8 +9,9 @@ use nalgebra::Vector3;
 use super::exact;
 use super::motion::{Vector, add, cross, dot, largest, sub};
 use super::separate::U;
-use super::verdict::{Parameters, between, normalised};
-use crate::query::{EdgeEdge, Point, QueryError, Radius};
+use super::vector::{between, normalised};
+use crate::contact::EdgePoint;
+use crate::query::{EdgeEdge, Point};
 
 /// How near two edges are at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +30,7 @@ pub struct Proximity {
     /// The exact points with these parameters are not farther apart than `distance_high`, and the vector
     /// from one to the other is within `sqrt(distance_high^2 - distance_low^2)` of the shortest one: that is
     /// the point nearest to 0 of a convex set, with which other points of the set make no acute angle.
-    pub nearest: Parameters,
+    pub nearest: EdgePoint,
     /// The points of AB and CD with these parameters, rounded.
     pub points: [Point; 2],
     /// The direction from AB to CD. Where they may touch at distance 0 it is that of `K x L` with
@@ -40,16 +41,11 @@ pub struct Proximity {
     pub depth: f64,
 }
 
-/// How near two edges AB and CD are, and whether that is within a radius, or two.
+/// How near two edges are at the start of the step, and whether that is within the radius.
 ///
-/// # Errors
-///
-/// [`QueryError`], as [`EdgeEdge::new`].
-pub fn decide_discrete(
-    points: &[Point; 4],
-    radius: impl Into<Radius>,
-) -> Result<Proximity, QueryError> {
-    let radius = EdgeEdge::new(*points, *points, radius)?.radius();
+/// [`EdgeEdge::at_rest`] makes a query of edges at one instant.
+pub fn decide_discrete(query: &EdgeEdge) -> Proximity {
+    let (points, radius) = (query.start(), query.radius());
     let corners = points.each_ref().map(|p| [p.x, p.y, p.z]);
     let edges = Edges::new(&corners);
     let (nearest, way) = edges.nearest();
@@ -63,7 +59,7 @@ pub fn decide_discrete(
         exact::are_near(&corners, radius.parts())
     };
     let [a, b, c, d] = points.each_ref().map(|point| point.coords);
-    Ok(Proximity {
+    Proximity {
         touches,
         distance_low: low,
         distance_high: high,
@@ -79,7 +75,7 @@ pub fn decide_discrete(
         } else {
             0.0
         },
-    })
+    }
 }
 
 /// Two edges.
@@ -114,7 +110,7 @@ impl Edges {
     ///
     /// The inner points that solve `(M + v L - u K) . K = 0` and `(M + v L - u K) . L = 0`, and every end with
     /// the point of the other edge that is nearest to it.
-    fn nearest(&self) -> (Parameters, Vector) {
+    fn nearest(&self) -> (EdgePoint, Vector) {
         let Edges { k, l, m, .. } = self;
         let (kk, ll, kl) = (dot(k, k), dot(l, l), dot(k, l));
         let (mk, ml) = (dot(m, k), dot(m, l));
@@ -130,7 +126,7 @@ impl Edges {
             (on_ab(0.0), 0.0),
             (on_ab(1.0), 1.0),
         ];
-        let ways = places.map(|(u, v)| (Parameters { u, v }, self.way(u, v)));
+        let ways = places.map(|(u, v)| (EdgePoint { u, v }, self.way(u, v)));
         let mut nearest = ways[0];
         for other in &ways[1..] {
             if length(&other.1) < length(&nearest.1) {

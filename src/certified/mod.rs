@@ -35,32 +35,33 @@
 mod batch;
 mod block;
 mod cascade;
+mod contact;
 mod cubic;
 mod discrete;
 mod double;
+mod edges;
 mod ends;
 mod exact;
 mod face;
+mod kind;
 mod locate;
 mod motion;
 mod narrow;
-mod pair;
+mod normal;
 mod refine;
 mod root;
 mod separate;
+mod stage;
 mod start;
 #[cfg(test)]
 mod testing;
 mod thick;
-mod verdict;
+mod vector;
 
-pub use batch::{Batch, BatchError, FaceBatch, PairBatch};
-pub use cascade::{Stage, decide, decide_observed};
+pub use batch::{Batch, BatchError};
+pub use cascade::{classify, decide, decide_exactly, decide_observed};
 pub use discrete::{Proximity, decide_discrete};
-pub use exact::{Decision, decide_exactly};
-pub use face::{
-    FaceHit, decide_vertex_face, decide_vertex_face_exactly, decide_vertex_face_observed,
-};
+pub use kind::Kind;
 pub use narrow::Certified;
-pub use pair::Batched;
-pub use verdict::{Hit, Parameters, Verdict};
+pub use normal::Normal;
+pub use stage::Stage;

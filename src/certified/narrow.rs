@@ -1,9 +1,8 @@
 //! The certified path as a narrow phase.
 
 use super::cascade::decide;
-use super::face::decide_vertex_face;
-use super::verdict::Verdict;
-use crate::contact::{self, Flags};
+use super::kind::Kind;
+use crate::contact::{Flags, Verdict};
 use crate::narrow::{NarrowPhase, Report, Unsupported};
 use crate::query::{EdgeEdge, VertexFace};
 
@@ -19,31 +18,25 @@ impl NarrowPhase for Certified {
     }
 
     fn edge_edge(&self, query: &EdgeEdge) -> Result<Report, Unsupported> {
-        Ok(match decide(query) {
-            Verdict::Miss => miss(),
-            Verdict::Hit(hit) => Report {
-                verdict: contact::Verdict::Hit(hit.contact(query)),
-                case: Some(hit.case),
-                flags: hit.flags,
-            },
-        })
+        Ok(report(query))
     }
+
     fn vertex_face(&self, query: &VertexFace) -> Result<Report, Unsupported> {
-        Ok(match decide_vertex_face(query) {
-            None => miss(),
-            Some(hit) => Report {
-                verdict: contact::Verdict::Hit(hit.contact(query)),
-                case: Some(hit.case),
-                flags: hit.flags,
-            },
-        })
+        Ok(report(query))
     }
 }
 
-fn miss() -> Report {
-    Report {
-        verdict: contact::Verdict::Miss,
-        case: None,
-        flags: Flags::default(),
+fn report<K: Kind>(query: &K) -> Report {
+    match decide(query) {
+        None => Report {
+            verdict: Verdict::Miss,
+            case: None,
+            flags: Flags::default(),
+        },
+        Some(hit) => Report {
+            verdict: Verdict::Hit(hit.contact(query)),
+            case: Some(hit.case),
+            flags: hit.flags,
+        },
     }
 }

@@ -4,11 +4,10 @@
 
 use super::cubic::Cubic;
 use super::ends::Ends;
-use super::exact::PARAMETER_ERROR;
+use super::exact::PLACE_ERROR;
 use super::motion::{Motion, Positions, Vector};
 use super::root::Bracket;
-use super::verdict::{Hit, Parameters};
-use crate::contact::{Case, ContactKind, Flags};
+use crate::contact::{Case, ContactKind, EdgePlace, EdgePoint, Flags, Hit};
 
 /// The contact at `t = 0` in a common end, if nothing else is shared there and the case of the motion
 /// is certain.
@@ -22,7 +21,7 @@ pub(super) fn contact<E: Ends>(
     positions: &impl Fn() -> Positions,
     motion: &Motion<E>,
     cubic: Option<&Cubic>,
-) -> Option<Hit> {
+) -> Option<Hit<EdgePlace>> {
     let is_apart = cubic.is_some_and(|cubic| cubic.bernstein[0].abs() > cubic.error);
     if is_apart {
         return None;
@@ -35,7 +34,7 @@ fn common_end<E: Ends>(
     Positions { start, end }: &Positions,
     motion: &Motion<E>,
     cubic: Option<&Cubic>,
-) -> Option<Hit> {
+) -> Option<Hit<EdgePlace>> {
     let is_common = |at: &[Vector; 4], (i, j): (usize, usize)| at[i] == at[j];
     let ends = ENDS.into_iter().find(|ends| is_common(start, *ends))?;
     let unchecked = || Cubic::unchecked(motion);
@@ -59,14 +58,16 @@ fn common_end<E: Ends>(
         toi_above: 0.0,
         kind: ContactKind::Graze,
         side: 0,
-        first: Parameters {
-            u: parameter(ends.0 == B),
-            v: parameter(ends.1 == D),
-        },
-        second: None,
-        parameter_error: PARAMETER_ERROR,
         case,
         flags: Flags::default(),
+        place: EdgePlace {
+            first: EdgePoint {
+                u: parameter(ends.0 == B),
+                v: parameter(ends.1 == D),
+            },
+            second: None,
+            error: PLACE_ERROR,
+        },
     })
 }
 

@@ -90,15 +90,15 @@ mod tests {
         let in_unit = |x: f64| (0.0..=1.0).contains(&x) && !(x == 0.0 && x.is_sign_negative());
         assert!(in_unit(contact.toi), "{contact:?}");
         let check = |at: &ContactPoint| {
-            assert!(in_unit(at.u) && in_unit(at.v), "{contact:?}");
+            assert!(at.weights.into_iter().all(in_unit), "{contact:?}");
             assert!(at.point.iter().all(|x| x.is_finite()), "{contact:?}");
-            let is_unit = at.normal.is_none_or(|n| (n.norm() - 1.0).abs() < 1e-9);
+            let is_unit = at.relative_velocity.is_none_or(|n| (n.norm() - 1.0).abs() < 1e-9);
             assert!(is_unit, "{contact:?}");
         };
         check(&contact.first);
         if let Some(second) = contact.second {
             check(&second);
-            assert!(contact.first.u < second.u, "{contact:?}");
+            assert!(contact.first.on_edges().u < second.on_edges().u, "{contact:?}");
         }
     }
 

@@ -10,7 +10,7 @@ use super::detect::{detect_case3, same_for_whole_step};
 use super::given::{length, static_equality};
 use super::motion::Motion;
 use super::options::Options;
-use crate::contact::{Case, Contact, ContactPoint, Flags};
+use crate::contact::{Case, Contact, ContactPoint, EdgePoint, Flags};
 use crate::query::{EdgeEdge, Point};
 
 /// The contact at `toi` of a motion of the given case, and the configuration there.
@@ -29,15 +29,15 @@ pub fn contact_at(
     let shape = Shape::at(toi, query, case, options);
     let contact_point = |(u, v)| ContactPoint {
         point: Point::from(between(&shape.positions[0], &shape.positions[1], u)),
-        u,
-        v,
-        normal: normal(points, u, v),
+        weights: EdgePoint { u, v }.weights(),
+        relative_velocity: relative_velocity(points, u, v),
     };
     let (first, second) = shape.parameters(options.thresholds.dist);
     let contact = Contact {
         toi,
         first: contact_point(first),
         second: second.map(contact_point),
+        normal: None,
     };
     (contact, shape.flags(points, options))
 }
@@ -128,7 +128,7 @@ impl Shape {
 
 /// The velocity of `CD` at `v` relative to `AB` at `u`, normalised; `None` where it is zero, or no
 /// more than the rounding errors of its computation, or overflows.
-fn normal([p0, p1, p2, p3]: &[Motion; 4], u: f64, v: f64) -> Option<Vector3<f64>> {
+fn relative_velocity([p0, p1, p2, p3]: &[Motion; 4], u: f64, v: f64) -> Option<Vector3<f64>> {
     let relative = between(&p2.v, &p3.v, v) - between(&p0.v, &p1.v, u);
     let speed = length(&relative);
     let fastest = [p0, p1, p2, p3]
@@ -193,9 +193,9 @@ mod tests {
         ];
         let (contact, flags) =
             contact_of(Case::General, at_half, [STILL, STILL, UP, [0.0, 0.0, 4.0]]);
-        assert_eq!((contact.first.u, contact.first.v), (0.25, 0.5));
+        assert_eq!((contact.first.on_edges().u, contact.first.on_edges().v), (0.25, 0.5));
         assert_eq!(contact.first.point, Point::origin());
-        assert_eq!(contact.first.normal, Some(Vector3::z()));
+        assert_eq!(contact.first.relative_velocity, Some(Vector3::z()));
         assert_eq!(contact.second, None);
         assert_eq!(flags, Flags::default());
     }
@@ -210,10 +210,10 @@ mod tests {
         ];
         let down = [0.0, 0.0, -2.0];
         let (contact, _) = contact_of(Case::General, at_half, [UP, UP, down, down]);
-        assert_eq!(contact.first.normal, Some(-Vector3::z()));
+        assert_eq!(contact.first.relative_velocity, Some(-Vector3::z()));
         let along = [0.1, 0.2, 0.3];
         let (contact, _) = contact_of(Case::Coplanar, at_half, [along; 4]);
-        assert_eq!(contact.first.normal, None);
+        assert_eq!(contact.first.relative_velocity, None);
     }
 
     #[test]
@@ -227,7 +227,7 @@ mod tests {
         let spread = [STILL, STILL, UP, [0.0, 0.0, -2.0]];
         let (contact, flags) = contact_of(Case::Coplanar, at_half, spread);
         assert!(flags.temporarily_parallel && !flags.temporarily_point);
-        assert_eq!((contact.first.u, contact.first.v), (0.25, 1.0));
+        assert_eq!((contact.first.on_edges().u, contact.first.on_edges().v), (0.25, 1.0));
         let second = contact.second.unwrap();
         assert_eq!((second.u, second.v), (1.0, 0.25));
         assert_eq!(second.point, Point::new(4.0, 0.0, 0.0));
@@ -245,7 +245,7 @@ mod tests {
         ];
         let towards = [-1.0, 0.0, 0.0];
         let (contact, _) = contact_of(Case::Collinear, at_half, [STILL, STILL, towards, towards]);
-        assert_eq!((contact.first.u, contact.first.v), (1.0, 0.0));
+        assert_eq!((contact.first.on_edges().u, contact.first.on_edges().v), (1.0, 0.0));
         assert_eq!(contact.second, None);
     }
 
@@ -259,15 +259,15 @@ mod tests {
         ];
         let opening = [STILL, STILL, UP, [0.0, 0.0, -2.0]];
         let (contact, flags) = contact_of(Case::Coplanar, point_cd, opening);
-        assert_eq!((contact.first.u, contact.first.v), (0.25, 0.0));
+        assert_eq!((contact.first.on_edges().u, contact.first.on_edges().v), (0.25, 0.0));
         assert!(flags.temporarily_point && !flags.temporarily_parallel);
         let (_, flags) = contact_of(Case::Degenerate, point_cd, [STILL, STILL, UP, UP]);
         assert!(!flags.temporarily_point, "a point for the whole step");
         let [a, b, c, d] = point_cd;
         let (contact, _) = contact_of(Case::Coplanar, [c, d, a, b], opening);
-        assert_eq!((contact.first.u, contact.first.v), (0.0, 0.25));
+        assert_eq!((contact.first.on_edges().u, contact.first.on_edges().v), (0.0, 0.25));
         let (contact, _) = contact_of(Case::Coplanar, [c; 4], [UP, STILL, STILL, UP]);
-        assert_eq!((contact.first.u, contact.first.v), (0.0, 0.0));
+        assert_eq!((contact.first.on_edges().u, contact.first.on_edges().v), (0.0, 0.0));
     }
 
     #[test]
@@ -280,7 +280,7 @@ mod tests {
             [0.0, 3.0, 0.0],
         ];
         let (contact, _) = contact_of(Case::General, at_half, [STILL, STILL, UP, STILL]);
-        assert_eq!((contact.first.u, contact.first.v), (1.0, 0.0));
+        assert_eq!((contact.first.on_edges().u, contact.first.on_edges().v), (1.0, 0.0));
     }
 
     #[test]

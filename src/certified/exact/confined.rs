@@ -7,22 +7,22 @@
 
 use std::cmp::Ordering;
 
-use crate::contact::ContactKind;
+use crate::contact::{ContactKind, EdgePlace, Hit};
 
 use super::curve::{Curve, bernstein_signs};
+use super::edge_hit;
 use super::lane::{Lane, Number};
 use super::motion::{End, Motion, Quadratic};
 use super::roots::Roots;
 use super::time::Time;
-use crate::certified::verdict::Hit;
 
 impl<L: Lane> Motion<L> {
     /// The first contact of a motion with `f` identically 0.
-    pub(super) fn decide_confined(&self) -> Option<Hit> {
+    pub(super) fn decide_confined(&self) -> Option<Hit<EdgePlace>> {
         let start = Time::start();
         if let Some(locus) = self.locus(&start) {
             let case = self.confined_case();
-            return Some(Hit::exact(
+            return Some(edge_hit(
                 &start,
                 &locus,
                 ContactKind::Graze,
@@ -35,7 +35,7 @@ impl<L: Lane> Motion<L> {
         let toi = first_contact(ends, &mut roots)?;
         let locus = self.locus(&toi)?;
         let kind = kind(ends, &toi, locus.second.is_some());
-        Some(Hit::exact(
+        Some(edge_hit(
             &toi,
             &locus,
             kind,

@@ -21,23 +21,37 @@ use super::locus::{Parameter, nonzero_axis};
 use super::motion::{End, Motion, Quadratic, add, negate, subtract, subtract_vector};
 use super::roots::Roots;
 use super::time::Time;
-use super::{PARAMETER_ERROR, Question, answer};
-use crate::certified::face::FaceHit;
+use super::{PLACE_ERROR, Question, answer};
 use crate::certified::motion::Positions;
-use crate::contact::{Case, ContactKind, Flags};
+use crate::contact::{Case, ContactKind, FacePlace, Flags, Hit};
 
 /// The exact answer for a vertex A and a face BCD, given as B, C, A, D.
-pub(in crate::certified) fn decide_face(as_edges: &Positions) -> Option<FaceHit> {
+pub(in crate::certified) fn decide_face(as_edges: &Positions) -> Option<Hit<FacePlace>> {
     answer::<VertexMeetsFace>(as_edges)
+}
+
+/// The case of the motion of a vertex A and a face BCD, given as B, C, A, D.
+pub(in crate::certified) fn case_of_face(as_edges: &Positions) -> Case {
+    answer::<FaceCase>(as_edges)
+}
+
+struct FaceCase;
+
+impl Question for FaceCase {
+    type Answer = Case;
+
+    fn answer<L: Lane>(motion: Motion<L>) -> Case {
+        Face::new(motion).case()
+    }
 }
 
 /// Whether and when a vertex is in a face.
 struct VertexMeetsFace;
 
 impl Question for VertexMeetsFace {
-    type Answer = Option<FaceHit>;
+    type Answer = Option<Hit<FacePlace>>;
 
-    fn answer<L: Lane>(motion: Motion<L>) -> Option<FaceHit> {
+    fn answer<L: Lane>(motion: Motion<L>) -> Option<Hit<FacePlace>> {
         let face = Face::new(motion);
         if face.motion.is_confined() {
             face.decide_confined()
@@ -82,7 +96,7 @@ impl<L: Lane> Face<L> {
     }
 
     /// `f` is not identically 0: every contact time is a root of it.
-    fn decide_general(&self) -> Option<FaceHit> {
+    fn decide_general(&self) -> Option<Hit<FacePlace>> {
         let mut roots = Roots::none();
         roots.find(Curve::Cubic(self.motion.f.clone()));
         roots.iter().find_map(|(time, before, after)| {
@@ -100,7 +114,7 @@ impl<L: Lane> Face<L> {
     /// `f` is identically 0. If the vertex were off all edges at a first contact after the start, it
     /// would be inside a face that is not a segment or a point, and so shortly before. The candidates are
     /// therefore 0 and the times at which it comes onto an edge.
-    fn decide_confined(&self) -> Option<FaceHit> {
+    fn decide_confined(&self) -> Option<Hit<FacePlace>> {
         let start = Time::start();
         if let Some(place) = self.place(&start) {
             return Some(self.hit(&start, &place, ContactKind::Graze, Ordering::Equal));
@@ -234,16 +248,24 @@ impl<L: Lane> Face<L> {
         }
     }
 
-    fn hit(&self, time: &Time<L>, place: &Place<L>, kind: ContactKind, side: Ordering) -> FaceHit {
-        FaceHit {
+    fn hit(
+        &self,
+        time: &Time<L>,
+        place: &Place<L>,
+        kind: ContactKind,
+        side: Ordering,
+    ) -> Hit<FacePlace> {
+        Hit {
             toi: time.below,
             toi_above: time.above,
             kind,
             side: side as i8,
-            weights: place.weights.each_ref().map(|weight| weight.value(time)),
-            weight_error: PARAMETER_ERROR,
             case: self.case(),
             flags: place.flags,
+            place: FacePlace {
+                weights: place.weights.each_ref().map(|weight| weight.value(time)),
+                error: PLACE_ERROR,
+            },
         }
     }
 }

@@ -1,16 +1,16 @@
 //! Motion in space: `f` is not identically 0, and every contact time is a root of it.
 
-use crate::contact::{Case, ContactKind};
+use crate::contact::{Case, ContactKind, EdgePlace, Hit};
 
 use super::curve::Curve;
+use super::edge_hit;
 use super::lane::Lane;
 use super::motion::Motion;
 use super::roots::Roots;
-use crate::certified::verdict::Hit;
 
 impl<L: Lane> Motion<L> {
     /// The first contact of a motion with `f` not identically 0.
-    pub(super) fn decide_general(&self) -> Option<Hit> {
+    pub(super) fn decide_general(&self) -> Option<Hit<EdgePlace>> {
         let mut roots = Roots::none();
         roots.find(Curve::Cubic(self.f.clone()));
         roots.iter().find_map(|(time, before, after)| {
@@ -21,7 +21,7 @@ impl<L: Lane> Motion<L> {
             } else {
                 ContactKind::Graze
             };
-            Some(Hit::exact(&time, &locus, kind, before, Case::General))
+            Some(edge_hit(&time, &locus, kind, before, Case::General))
         })
     }
 }

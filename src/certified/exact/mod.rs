@@ -35,9 +35,7 @@
 use std::cmp::Ordering;
 
 use super::motion::Positions;
-use super::verdict::{Hit, Parameters};
-use crate::contact::{Case, ContactKind};
-use crate::query::EdgeEdge;
+use crate::contact::{Case, ContactKind, EdgePlace, EdgePoint, Hit};
 
 mod bracket;
 mod confined;
@@ -70,44 +68,26 @@ mod tick;
 mod time;
 
 use self::motion::Motion;
-use super::thick as at_distance;
-pub(super) use face::decide_face;
+pub(super) use face::{case_of_face, decide_face};
 use lane::{Fixed, Lane, Number, Unlimited, Wide};
 use locus::{Locus, Place};
 pub(super) use near::are_near;
 pub(super) use passage::{Passage, passage_of_edges, passage_of_face};
 use scaled::Scaled;
-pub(super) use thick::{Approach, approach_of_edges, approach_of_face};
+pub(super) use thick::{decide_thick_edges, decide_thick_face};
 use time::Time;
 
-/// The largest error of the parameters `u` and `v` of an [`Hit`] of the exact stage, 2^-50.
-pub(super) const PARAMETER_ERROR: f64 = 4.0 * f64::EPSILON;
+/// The largest error of the place of a [`Hit`] of this stage, 2^-50.
+pub(super) const PLACE_ERROR: f64 = 4.0 * f64::EPSILON;
 
-/// Hit or miss of an edge-edge query, and the case of the motion, all decided exactly.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Decision {
-    /// The case of the thesis' classification (3.1.1, figure 3.2), every threshold 0.
-    pub case: Case,
-    /// The first contact; `None` for a miss.
-    pub hit: Option<Hit>,
-}
-
-/// The exact answer to an edge-edge query, by integer arithmetic alone.
-///
-/// Every finite query is decided. It takes about a microsecond where the coordinates are of similar
-/// magnitude, and up to milliseconds where their exponents span the range of `f64`; with a radius above 0,
-/// about fifty times that.
-pub fn decide_exactly(query: &EdgeEdge) -> Decision {
-    let positions = Positions::new(query);
-    if !query.radius().is_zero() {
-        return at_distance::decide_edges_exactly(&positions, query.radius());
-    }
-    decide(&positions)
-}
-
-/// The exact answer for four points.
-pub(super) fn decide(positions: &Positions) -> Decision {
+/// The first contact of two edges.
+pub(super) fn decide_edges(positions: &Positions) -> Option<Hit<EdgePlace>> {
     answer::<EdgesTouch>(positions)
+}
+
+/// The case of the motion of two edges.
+pub(super) fn case_of_edges(positions: &Positions) -> Case {
+    answer::<EdgesCase>(positions)
 }
 
 /// What is asked of the motion of four points.
@@ -157,20 +137,25 @@ const _: () = assert!(Large::BITS >= 63);
 struct EdgesTouch;
 
 impl Question for EdgesTouch {
-    type Answer = Decision;
+    type Answer = Option<Hit<EdgePlace>>;
 
-    fn answer<L: Lane>(motion: Motion<L>) -> Decision {
+    fn answer<L: Lane>(motion: Motion<L>) -> Self::Answer {
         if motion.is_confined() {
-            Decision {
-                case: motion.confined_case(),
-                hit: motion.decide_confined(),
-            }
+            motion.decide_confined()
         } else {
-            Decision {
-                case: Case::General,
-                hit: motion.decide_general(),
-            }
+            motion.decide_general()
         }
+    }
+}
+
+/// How two edges move.
+struct EdgesCase;
+
+impl Question for EdgesCase {
+    type Answer = Case;
+
+    fn answer<L: Lane>(motion: Motion<L>) -> Case {
+        motion.case()
     }
 }
 
@@ -178,6 +163,15 @@ impl<L: Lane> Motion<L> {
     /// Whether `f` is identically 0.
     fn is_confined(&self) -> bool {
         self.f.iter().all(Number::is_zero)
+    }
+
+    /// The case of the motion.
+    fn case(&self) -> Case {
+        if self.is_confined() {
+            self.confined_case()
+        } else {
+            Case::General
+        }
     }
 
     /// The case of a motion with `f` identically 0; in every other case than the general one it is.
@@ -196,28 +190,29 @@ impl<L: Lane> Motion<L> {
     }
 }
 
-impl Hit {
-    fn exact<L: Lane>(
-        time: &Time<L>,
-        locus: &Locus<L>,
-        kind: ContactKind,
-        side: Ordering,
-        case: Case,
-    ) -> Self {
-        let parameters = |place: &Place<L>| Parameters {
-            u: place.u.value(time),
-            v: place.v.value(time),
-        };
-        Hit {
-            toi: time.below,
-            toi_above: time.above,
-            kind,
-            side: side as i8,
-            first: parameters(&locus.first),
-            second: locus.second.as_ref().map(parameters),
-            parameter_error: PARAMETER_ERROR,
-            case,
-            flags: locus.flags,
-        }
+/// The contact of two edges at a time.
+fn edge_hit<L: Lane>(
+    time: &Time<L>,
+    locus: &Locus<L>,
+    kind: ContactKind,
+    side: Ordering,
+    case: Case,
+) -> Hit<EdgePlace> {
+    let point = |place: &Place<L>| EdgePoint {
+        u: place.u.value(time),
+        v: place.v.value(time),
+    };
+    Hit {
+        toi: time.below,
+        toi_above: time.above,
+        kind,
+        side: side as i8,
+        case,
+        flags: locus.flags,
+        place: EdgePlace {
+            first: point(&locus.first),
+            second: locus.second.as_ref().map(point),
+            error: PLACE_ERROR,
+        },
     }
 }

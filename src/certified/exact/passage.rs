@@ -1,7 +1,7 @@
 //! Whether midlines cross at any time of the step, and the case of the motion: what a radius does not
 //! change.
 //!
-//! The definition of [`Hit::kind`](crate::certified::Hit::kind), asked at every time at which there can be a
+//! The definition of [`Hit::kind`](crate::contact::Hit::kind), asked at every time at which there can be a
 //! crossing, and not at the first contact alone.
 
 use std::cmp::Ordering;

@@ -9,107 +9,143 @@
 
 mod place;
 mod separate;
-mod verdict;
 
 use wide::f64x2;
 
-pub use self::verdict::FaceHit;
-
-pub(super) use self::place::is_apart_in;
-pub(super) use self::separate::{boxes, is_separated_by_centres, star};
-
-use self::place::{Place, of_edges, shares};
-use super::cascade::Stage;
+use self::place::{Place, of_edges, raw_weights};
 use super::cubic::Cubic;
 use super::ends::Ends;
-use super::exact;
+use super::exact::{self, Passage};
+use super::kind::{Kind, Stages, query_parts};
 use super::motion::{Motion, Positions};
+use super::normal::{self, Normal};
 use super::refine::Root;
-use super::root::Bracket;
-use super::thick;
-use crate::contact::{Case, ContactKind, Flags};
-use crate::query::VertexFace;
+use super::root::{Bracket, Half};
+use super::separate::{SweptBoxes, U};
+use super::stage::{Finding, Stage};
+use super::thick::{self, Gram, Spot};
+use crate::contact::{Case, ContactKind, FacePlace, Flags, Hit, PLACE_ERROR};
+use crate::query::{Point, QueryError, Radius, VertexFace};
 
-/// The first contact of a moving vertex and a moving face, `None` for a miss: certified, without
-/// thresholds. With a radius above 0 contact is a distance of at most the radius.
-///
-/// No hit is false, no contact is missed, and `toi` is the exact time of impact rounded down.
-pub fn decide_vertex_face(query: &VertexFace) -> Option<FaceHit> {
-    decide_vertex_face_observed(query, &mut |_| {})
+impl Kind for VertexFace {
+    type Place = FacePlace;
 }
 
-/// As [`decide_vertex_face`], by integer arithmetic alone.
-pub fn decide_vertex_face_exactly(query: &VertexFace) -> Option<FaceHit> {
-    let positions = Positions::of(query.start(), query.end());
-    if !query.radius().is_zero() {
-        return thick::decide_face_exactly(&positions, query.radius());
-    }
-    exact::decide_face(&as_edges(&positions))
-}
+#[allow(private_bounds, private_interfaces, reason = "as of the trait")]
+impl Stages<FacePlace> for VertexFace {
+    const FIRST: usize = 1;
 
-/// As [`decide_vertex_face`], and says which stage decided.
-#[inline]
-pub fn decide_vertex_face_observed(
-    query: &VertexFace,
-    observe: &mut impl FnMut(Stage),
-) -> Option<FaceHit> {
-    let positions = || Positions::of(query.start(), query.end());
-    if !query.radius().is_zero() {
-        return thick::decide::<thick::Face>(positions, query.radius(), observe);
-    }
-    decide_all(positions, observe)
-}
+    query_parts!();
 
-/// All stages.
-#[inline(always)]
-pub(super) fn decide_all(
-    positions: impl Fn() -> Positions,
-    observe: &mut impl FnMut(Stage),
-) -> Option<FaceHit> {
-    let points = positions().points::<f64x2>();
-    let boxes = boxes(&points);
-    if boxes.are_disjoint {
-        observe(Stage::Boxes);
-        return None;
+    fn normal(&self, hit: &Hit<FacePlace>) -> Option<Normal> {
+        normal::of_face(self, hit)
     }
-    let motion = star(&points);
-    if is_separated_by_centres(&motion, &boxes) {
-        observe(Stage::Direction);
-        return None;
-    }
-    decide_open(positions, &motion, observe)
-}
 
-/// The stages after the first two, for a query that those leave open.
-pub(super) fn decide_rest(
-    positions: impl Fn() -> Positions,
-    observe: &mut impl FnMut(Stage),
-) -> Option<FaceHit> {
-    let motion = star(&positions().points::<f64x2>());
-    decide_open(positions, &motion, observe)
-}
+    fn weights(place: &FacePlace) -> ([f64; 4], Option<[f64; 4]>) {
+        let [b, c, d] = place.weights;
+        ([1.0, b, c, d], None)
+    }
 
-#[inline(always)]
-fn decide_open<E: Ends>(
-    positions: impl Fn() -> Positions,
-    motion: &Motion<E>,
-    observe: &mut impl FnMut(Stage),
-) -> Option<FaceHit> {
-    let cubic = Cubic::new(motion);
-    if cubic.is_some_and(|cubic| cubic.has_no_root()) {
-        observe(Stage::Signs);
-        return None;
+    #[inline(always)]
+    fn boxes<E: Ends>([a, b, c, d]: &[[E; 3]; 4], distance: f64) -> SweptBoxes {
+        SweptBoxes::around([a], [b, c, d], distance)
     }
-    if let Some(answer) = cubic.and_then(|cubic| decide_by_roots(&positions, motion, &cubic)) {
-        observe(Stage::Roots);
-        return answer;
+
+    #[inline(always)]
+    fn motion<E: Ends>(points: &[[E; 3]; 4]) -> Motion<E> {
+        separate::star(points)
     }
-    observe(Stage::Exact);
-    exact::decide_face(&as_edges(&positions()))
+
+    #[inline(always)]
+    fn is_separated_by_centres<E: Ends>(motion: &Motion<E>, boxes: &SweptBoxes) -> bool {
+        separate::is_separated_by_centres(motion, boxes)
+    }
+
+    #[inline(always)]
+    fn is_apart_in<E: Ends>(motion: &Motion<E>, cubic: &Cubic, half: &Half) -> bool {
+        place::is_apart_in(motion, cubic, half)
+    }
+
+    #[inline(always)]
+    fn decide_by_roots<E: Ends>(
+        positions: impl Fn() -> Positions,
+        _: &SweptBoxes,
+        motion: &Motion<E>,
+        cubic: Option<&Cubic>,
+        observe: &mut impl FnMut(Stage),
+    ) -> Option<Hit<FacePlace>> {
+        let finding = cubic.map_or(Finding::Undecided, |cubic| {
+            decide_by_cubic(&positions, motion, cubic)
+        });
+        match finding {
+            Finding::Hit(hit) => {
+                observe(Stage::Roots);
+                Some(hit)
+            }
+            Finding::Miss => {
+                observe(Stage::Roots);
+                None
+            }
+            Finding::Undecided => {
+                observe(Stage::Exact);
+                Self::decide_exactly(&positions())
+            }
+        }
+    }
+
+    fn decide_exactly(positions: &Positions) -> Option<Hit<FacePlace>> {
+        exact::decide_face(&as_edges(positions))
+    }
+
+    fn case(positions: &Positions) -> Case {
+        exact::case_of_face(&as_edges(positions))
+    }
+
+    /// `K = B - C`, `L = D - B`, `M = B - A`: `u` and `v` are the weights of C and D.
+    const DIFFERENCES: [(usize, usize); 3] = [(2, 1), (1, 3), (0, 1)];
+
+    const CORNERS: &'static [(f64, f64)] = &[(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)];
+
+    const MIDDLE: (f64, f64) = (1.0 / 3.0, 1.0 / 3.0);
+
+    #[inline(always)]
+    fn least_corner<E: Ends>(k: E, l: E, m: E) -> E {
+        let zero = E::both(0.0);
+        m + l.smaller(zero - k).smaller(zero)
+    }
+
+    #[inline(always)]
+    fn nearest(gram: &Gram) -> Spot {
+        thick::nearest_on_face(gram)
+    }
+
+    /// The weight of B is what the others leave of 1, rounded twice.
+    fn place(u: f64, v: f64, error: f64) -> FacePlace {
+        FacePlace {
+            weights: [(1.0 - u - v).max(0.0), u, v],
+            error: 2.0 * error + 4.0 * U,
+        }
+    }
+
+    fn crosses_at<E: Ends>(points: &[[E; 3]; 4], cubic: &Cubic, bracket: &Bracket) -> Option<bool> {
+        match raw_weights(&separate::star(points), cubic, bracket).place() {
+            Place::Apart => Some(false),
+            Place::Inside { .. } => Some(true),
+            Place::Unclear => None,
+        }
+    }
+
+    fn passage(positions: &Positions) -> Passage {
+        exact::passage_of_face(&as_edges(positions))
+    }
+
+    fn decide_thick_exactly(positions: &Positions, radius: Radius) -> Option<Hit<FacePlace>> {
+        exact::decide_thick_face(positions, radius, || Self::passage(positions))
+    }
 }
 
 /// The ends of the edges BC and AD.
-pub(super) fn as_edges(Positions { start, end }: &Positions) -> Positions {
+fn as_edges(Positions { start, end }: &Positions) -> Positions {
     let order = |[a, b, c, d]: [_; 4]| [b, c, a, d];
     Positions {
         start: order(*start),
@@ -117,76 +153,76 @@ pub(super) fn as_edges(Positions { start, end }: &Positions) -> Positions {
     }
 }
 
-/// A vertex in the face is in its plane: the first root of the cubic at which it is inside the face is the
-/// contact. `None` as soon as one root is not certain.
-fn decide_by_roots<E: Ends>(
+/// A vertex in the face is in its plane: the first root of the cubic at which it is inside the face is
+/// the contact. Undecided as soon as one root is not certain.
+fn decide_by_cubic<E: Ends>(
     positions: &impl Fn() -> Positions,
     motion: &Motion<E>,
     cubic: &Cubic,
-) -> Option<Option<FaceHit>> {
-    let is_apart = |low, high| shares(motion, cubic, &Bracket::around(low, high)).are_apart();
-    for bracket in cubic.isolate(is_apart)?.as_slice() {
-        let answer = decide_at_root(positions, motion, cubic, bracket)?;
-        if answer.is_some() {
-            return Some(answer);
+) -> Finding<Hit<FacePlace>> {
+    let is_apart = |low, high| raw_weights(motion, cubic, &Bracket::around(low, high)).are_apart();
+    let Some(brackets) = cubic.isolate(is_apart) else {
+        return Finding::Undecided;
+    };
+    for bracket in brackets.as_slice() {
+        match decide_at_root(positions, motion, cubic, bracket) {
+            Finding::Miss => continue,
+            finding => return finding,
         }
     }
-    Some(None)
+    Finding::Miss
 }
 
-/// The contact at the root in a bracket; `None` if it is not certain whether there is one.
+/// Whether the vertex touches the face at the root in a bracket.
 #[inline(always)]
 fn decide_at_root<E: Ends>(
     positions: &impl Fn() -> Positions,
     motion: &Motion<E>,
     cubic: &Cubic,
     bracket: &Bracket,
-) -> Option<Option<FaceHit>> {
-    let settled = |bracket: &Bracket, place| match place {
-        Place::Apart => Some(None),
-        Place::Inside { .. } => hit(positions, motion, cubic, bracket).map(Some),
-        Place::Unclear => None,
+) -> Finding<Hit<FacePlace>> {
+    let mut bracket = *bracket;
+    let mut place = raw_weights(motion, cubic, &bracket).place();
+    if place == Place::Unclear {
+        let Some((sharp, _)) = cubic.sharpen(&bracket) else {
+            return Finding::Undecided;
+        };
+        bracket = sharp;
+        place = raw_weights(motion, cubic, &bracket).place();
+    }
+    match place {
+        Place::Apart => Finding::Miss,
+        Place::Inside { .. } => Finding::of_certain(hit(positions, motion, cubic, &bracket)),
+        Place::Unclear => decide_near_side(&positions(), &bracket),
+    }
+}
+
+/// Whether the vertex touches the face at the root in a sharpened bracket, to twice the precision.
+fn decide_near_side(positions: &Positions, bracket: &Bracket) -> Finding<Hit<FacePlace>> {
+    let edges = as_edges(positions);
+    let motion = Motion::new(&edges.points::<f64x2>());
+    let Some(cubic) = Cubic::new(&motion) else {
+        return Finding::Undecided;
     };
-    let place = shares(motion, cubic, bracket).place();
-    if place != Place::Unclear {
-        return settled(bracket, place);
-    }
-    let (sharp, _) = cubic.sharpen(bracket)?;
-    let place = shares(motion, cubic, &sharp).place();
-    if place != Place::Unclear {
-        return settled(&sharp, place);
-    }
-    // To twice the precision.
-    let edges = as_edges(&positions());
-    let edge_motion = Motion::new(&edges.points::<f64x2>());
-    let edge_cubic = Cubic::new(&edge_motion)?;
-    let root = Root::new(&edges, &edge_cubic, &sharp)?;
-    match of_edges(&root.meeting(&edges, &edge_motion, &edge_cubic)).place() {
-        Place::Apart => Some(None),
-        place => crossing(root.round_down()?, &sharp, place).map(Some),
+    let Some(root) = Root::new(&edges, &cubic, bracket) else {
+        return Finding::Undecided;
+    };
+    match of_edges(&root.meeting(&edges, &motion, &cubic)).place() {
+        Place::Apart => Finding::Miss,
+        place => {
+            let toi = root.round_down();
+            Finding::of_certain(toi.and_then(|toi| crossing(toi, bracket, place)))
+        }
     }
 }
 
-/// Whether the vertex is inside the face at the root in a bracket, if that is certain.
-pub(super) fn is_inside_at(
-    points: &[[f64x2; 3]; 4],
-    cubic: &Cubic,
-    bracket: &Bracket,
-) -> Option<bool> {
-    match shares(&star(points), cubic, bracket).place() {
-        Place::Apart => Some(false),
-        Place::Inside { .. } => Some(true),
-        Place::Unclear => None,
-    }
-}
-
-/// The contact at a root at which the vertex is inside the face.
+/// The contact at a root at which the vertex is inside the face, if its time is certain.
 fn hit<E: Ends>(
     positions: &impl Fn() -> Positions,
     motion: &Motion<E>,
     cubic: &Cubic,
     bracket: &Bracket,
-) -> Option<FaceHit> {
+) -> Option<Hit<FacePlace>> {
     let edges = as_edges(&positions());
     // The same cubic, with the error bound that belongs to the edges.
     let edge_cubic = Cubic::new(&Motion::new(&edges.points::<f64x2>()))?;
@@ -196,23 +232,25 @@ fn hit<E: Ends>(
         high: toi.next_up(),
         ..*bracket
     };
-    crossing(toi, bracket, shares(motion, cubic, &at_toi).place())
+    crossing(toi, bracket, raw_weights(motion, cubic, &at_toi).place())
 }
 
-/// The contact at a simple root strictly inside the step, strictly inside the face: `f` changes its sign.
-fn crossing(toi: f64, bracket: &Bracket, place: Place) -> Option<FaceHit> {
+/// The contact at a simple root strictly inside the step, strictly inside the face: `f` changes its
+/// sign.
+fn crossing(toi: f64, bracket: &Bracket, place: Place) -> Option<Hit<FacePlace>> {
     let Place::Inside { weights, error } = place else {
         return None;
     };
-    let hit = FaceHit {
+    if error > PLACE_ERROR {
+        return None;
+    }
+    Some(Hit {
         toi,
         toi_above: toi.next_up(),
         kind: ContactKind::Crossing,
         side: if bracket.is_rising { -1 } else { 1 },
-        weights,
-        weight_error: error,
         case: Case::General,
         flags: Flags::default(),
-    };
-    hit.is_precise().then_some(hit)
+        place: FacePlace { weights, error },
+    })
 }

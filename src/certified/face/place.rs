@@ -26,26 +26,30 @@ pub(super) enum Place {
 /// Numbers in proportion to the weights of B, C and D, each up to an error.
 ///
 /// At a root of `f` let `N = (C - B) x (D - B)`. If `N` is not 0, `A` is the sum of the corners by
-/// weights that sum up to 1, and the cross products that [`shares`] and [`of_edges`] take are the weights
-/// times `N`; the shares here are their products with some vector `w`. If `N` is 0, the face is a segment
+/// weights that sum up to 1, and the cross products that [`raw_weights`] and [`of_edges`] take are the weights
+/// times `N`; the values here are their products with some vector `w`. If `N` is 0, the face is a segment
 /// or a point, and if A is on that the cross products are 0.
 ///
-/// So if any of the shares is not 0 and A is in the face, `N . w` is not 0 and they have its sign or are 0:
+/// So if any of the values is not 0 and A is in the face, `N . w` is not 0 and they have its sign or are 0:
 /// two of opposite signs prove that A is outside. Three of the same sign prove that it is
 /// strictly inside: their sum is `N . w`, so that `N` is not 0 and the weights are their ratios to it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shares {
+pub(super) struct RawWeights {
     pub(super) values: [f64; 3],
     pub(super) errors: [f64; 3],
 }
 
-/// The shares at a root, from the motion of [`super::star`].
+/// The raw weights at a root, from the motion of [`super::separate::star`].
 ///
 /// With `K = C - B`, `L = D - B` and `M = A - B`: `M x L` is that of C, `K x M` that of D, and `K x L` less
 /// both that of B. Their products with `w`, the computed `K x L`, are those of [`Motion::meeting`]; the
 /// two sums add less than `2 u` of what they sum up, which is less than an eighth of the bounds.
 #[inline(always)]
-pub(super) fn shares<E: Ends>(motion: &Motion<E>, cubic: &Cubic, bracket: &Bracket) -> Shares {
+pub(super) fn raw_weights<E: Ends>(
+    motion: &Motion<E>,
+    cubic: &Cubic,
+    bracket: &Bracket,
+) -> RawWeights {
     let meeting = motion.meeting(cubic, bracket);
     let Meeting {
         error_n,
@@ -53,24 +57,24 @@ pub(super) fn shares<E: Ends>(motion: &Motion<E>, cubic: &Cubic, bracket: &Brack
         error_v,
         ..
     } = meeting;
-    Shares {
+    RawWeights {
         values: [meeting.before_b + meeting.v, meeting.u, -meeting.v],
         errors: [1.25 * (error_n + error_u + error_v), error_u, error_v],
     }
 }
 
-/// The shares from the lines of the edges BC and AD: with `K = C - B`, `L = D - A` and `M = A - B`, `M x L`
+/// The raw weights from the lines of the edges BC and AD: with `K = C - B`, `L = D - A` and `M = A - B`, `M x L`
 /// is that of C, `K x M` that of D, and `K x L - M x L` that of B (see the exact stage).
 ///
 /// The difference is rounded once: less than an eighth of the bound, as [`Meeting`] says.
-pub(super) fn of_edges(meeting: &Meeting) -> Shares {
+pub(super) fn of_edges(meeting: &Meeting) -> RawWeights {
     let Meeting {
         error_n,
         error_u,
         error_v,
         ..
     } = *meeting;
-    Shares {
+    RawWeights {
         values: [meeting.before_b, meeting.u, -meeting.v],
         errors: [1.25 * (error_n + error_u), error_u, error_v],
     }
@@ -83,11 +87,11 @@ pub(in crate::certified) fn is_apart_in<E: Ends>(
     cubic: &Cubic,
     half: &Half,
 ) -> bool {
-    half.has_none | (half.has_one & shares(motion, cubic, &half.bracket).are_apart())
+    half.has_none | (half.has_one & raw_weights(motion, cubic, &half.bracket).are_apart())
 }
 
-impl Shares {
-    /// Which shares are certainly above 0, and which are below.
+impl RawWeights {
+    /// Which raw weights are certainly above 0, and which are below.
     #[inline(always)]
     fn signs(&self) -> ([bool; 3], [bool; 3]) {
         let ([b, c, d], [error_b, error_c, error_d]) = (self.values, self.errors);
@@ -119,7 +123,7 @@ impl Shares {
         let sum = b + c + d;
         let error = self.errors.iter().sum::<f64>() * (1.0 + 8.0 * U);
         Place::Inside {
-            weights: self.values.map(|share| share / sum),
+            weights: self.values.map(|value| value / sum),
             error: 2.0 * error / (sum.abs() - error) + 8.0 * U,
         }
     }

@@ -4,12 +4,6 @@ use crate::certified::ends::Ends;
 use crate::certified::motion::{Motion, Vector, add, both, dot, sub};
 use crate::certified::separate::SweptBoxes;
 
-/// The boxes around the swept vertex A and the swept face BCD.
-#[inline(always)]
-pub(in crate::certified) fn boxes<E: Ends>([a, b, c, d]: &[[E; 3]; 4]) -> SweptBoxes {
-    SweptBoxes::around([a], [b, c, d], 0.0)
-}
-
 /// `K = C - B`, `L = D - B`, `M = A - B`.
 #[inline(always)]
 pub(in crate::certified) fn star<E: Ends>([a, b, c, d]: &[[E; 3]; 4]) -> Motion<E> {

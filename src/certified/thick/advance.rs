@@ -7,9 +7,9 @@
 //! dynamic simulation of rigid body systems", 1996, who advances by bounds on speeds).
 
 use super::instant::Instant;
-use super::shape::Shape;
 use super::turning::Turning;
 use crate::certified::ends::Ends;
+use crate::certified::kind::Kind;
 use crate::certified::motion::{Motion, Vector, add, both, dot, scaled, sub};
 use crate::certified::separate::{SweptBoxes, U};
 use crate::query::Radius;
@@ -38,16 +38,16 @@ const MOST_STEPS: u32 = 24;
 
 impl<E: Ends> Moving<E> {
     #[inline(always)]
-    pub(super) fn new<S: Shape>(points: &[[E; 3]; 4], radius: f64) -> Self {
+    pub(super) fn new<K: Kind>(points: &[[E; 3]; 4], radius: f64) -> Self {
         let way = |(from, to): (usize, usize)| sub(&points[to], &points[from]);
-        let [k, l, m] = S::WAYS;
+        let [k, l, m] = K::DIFFERENCES;
         Moving {
             motion: Motion {
                 k: way(k),
                 l: way(l),
                 m: way(m),
             },
-            boxes: S::boxes(points, radius * (1.0 + 4.0 * U)),
+            boxes: K::boxes(points, radius * (1.0 + 4.0 * U)),
             radius,
         }
     }
@@ -61,12 +61,12 @@ impl<E: Ends> Moving<E> {
     /// Error bound: the products with `n` at both ends are within [`SweptBoxes::bound`] of the exact ones,
     /// `|n|` within `4 u`. NaN and infinities prove nothing, nor does what underflows.
     #[inline(always)]
-    fn margins<S: Shape>(&self, n: &Vector) -> [f64; 2] {
+    fn margins<K: Kind>(&self, n: &Vector) -> [f64; 2] {
         let square = dot(n, n);
         let least = self.radius * square.sqrt() * (1.0 + 8.0 * U) + self.boxes.bound(n);
         let along = both(n);
         let Motion { k, l, m } = &self.motion;
-        let corner = S::least_corner(dot(k, &along), dot(l, &along), dot(m, &along));
+        let corner = K::least_corner(dot(k, &along), dot(l, &along), dot(m, &along));
         let is_proof = (square > SMALLEST) & (square < LARGEST) & (least < LARGEST);
         let least = if is_proof { least } else { f64::INFINITY };
         [corner.start() - least, corner.end() - least]
@@ -77,8 +77,8 @@ impl<E: Ends> Moving<E> {
     ///
     /// What is computed from the margins passes three roundings, which `8 u` outweigh.
     #[inline(always)]
-    pub(super) fn stays_apart_by<S: Shape>(&self, n: &Vector) -> f64 {
-        let [start, end] = self.margins::<S>(n);
+    pub(super) fn stays_apart_by<K: Kind>(&self, n: &Vector) -> f64 {
+        let [start, end] = self.margins::<K>(n);
         match (start > 0.0, end > 0.0) {
             (true, true) => 1.0,
             (true, false) => start / (start - end) * (1.0 - 8.0 * U),
@@ -88,33 +88,33 @@ impl<E: Ends> Moving<E> {
 
     /// Whether it does so for the whole step.
     #[inline(always)]
-    fn is_separated_by<S: Shape>(&self, n: &Vector) -> bool {
-        let [start, end] = self.margins::<S>(n);
+    fn is_separated_by<K: Kind>(&self, n: &Vector) -> bool {
+        let [start, end] = self.margins::<K>(n);
         (start > 0.0) & (end > 0.0)
     }
 
     /// The same as [`stays_apart_by`](Self::stays_apart_by) for the direction from the middle of one side's motion to
     /// that of the other.
     #[inline(always)]
-    pub(super) fn stays_apart_by_centres<S: Shape>(&self) -> f64 {
+    pub(super) fn stays_apart_by_centres<K: Kind>(&self) -> f64 {
         let Motion { k, l, m } = &self.motion;
         let sum = |[x, y, z]: &[E; 3]| [x.sum(), y.sum(), z.sum()];
-        let (u, v) = S::MIDDLE;
-        self.stays_apart_by::<S>(&way(&[sum(k), sum(l), sum(m)], u, v))
+        let (u, v) = K::MIDDLE;
+        self.stays_apart_by::<K>(&way(&[sum(k), sum(l), sum(m)], u, v))
     }
 
     /// Advances from a time up to which they are apart.
-    pub(super) fn advance<S: Shape>(&self, from: f64) -> Advance {
+    pub(super) fn advance<K: Kind>(&self, from: f64) -> Advance {
         let mut t = from;
-        let mut here = Instant::new::<S, E>(self, t);
+        let mut here = Instant::new::<K, E>(self, t);
         // Most sides that stay apart turn little.
-        if self.is_separated_by::<S>(&here.way) {
+        if self.is_separated_by::<K>(&here.way) {
             return Advance::Apart;
         }
         for _ in 0..MOST_STEPS {
             // Not below what is left.
             let left = (1.0 - t) * (1.0 + 2.0 * U);
-            let step = self.stays_apart_turning::<S>(&here, &Turning::new(&here), left);
+            let step = self.stays_apart_turning::<K>(&here, &Turning::new(&here), left);
             if step >= left {
                 return Advance::Apart;
             }
@@ -127,7 +127,7 @@ impl<E: Ends> Moving<E> {
             if step < t * SHORT {
                 break;
             }
-            here = Instant::new::<S, E>(self, t);
+            here = Instant::new::<K, E>(self, t);
         }
         if t > 0.0 {
             Advance::Until(t)

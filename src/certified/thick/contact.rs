@@ -3,43 +3,35 @@
 
 use wide::f64x2;
 
-use super::Kind;
 use super::advance::Moving;
 use super::settle::Settled;
-use super::shape::Spot;
 use crate::certified::cubic::Cubic;
 use crate::certified::exact::Passage;
+use crate::certified::kind::Kind;
 use crate::certified::motion::Positions;
-use crate::contact::{Case, ContactKind};
-
-/// A contact that is certain, in a place that is a single one.
-pub(in crate::certified) struct Contact {
-    pub(super) toi: [f64; 2],
-    pub(super) side: i8,
-    pub(super) spot: Spot,
-    pub(super) error: f64,
-    pub(super) passage: Passage,
-}
+use crate::contact::{Case, ContactKind, Flags, Hit};
 
 /// The whole answer for a contact; `None` if some of it is not certain.
 pub(super) fn contact<K: Kind>(
     positions: &Positions,
     moving: &Moving<f64x2>,
     &Settled { below, spot, error }: &Settled,
-) -> Option<Contact> {
+) -> Option<Hit<K::Place>> {
     let cubic = Cubic::new(&moving.motion);
-    let passage = passage::<K>(positions, cubic.as_ref());
-    let (toi, side) = match passage.case {
+    let Passage { case, kind } = passage::<K>(positions, cubic.as_ref());
+    let ([toi, toi_above], side) = match case {
         _ if below == 0.0 => ([0.0; 2], 0),
         Case::General => ([below, below.next_up()], side(&cubic?, below)?),
         _ => ([below, below.next_up()], 0),
     };
-    Some(Contact {
+    Some(Hit {
         toi,
+        toi_above,
+        kind,
         side,
-        spot,
-        error,
-        passage,
+        case,
+        flags: Flags::default(),
+        place: K::place(spot.u, spot.v, error),
     })
 }
 

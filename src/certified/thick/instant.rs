@@ -1,8 +1,9 @@
 //! The two sides at one time, about: where they are nearest, and how that moves.
 
 use super::advance::{Moving, way};
-use super::shape::{Gram, Shape, Spot, Way};
+use super::shape::{Gram, Spot, Way};
 use crate::certified::ends::Ends;
+use crate::certified::kind::Kind;
 use crate::certified::locate::at;
 use crate::certified::motion::{Motion, Vector, scaled, sub};
 
@@ -22,11 +23,11 @@ pub(super) struct Instant {
 
 impl Instant {
     #[inline(always)]
-    pub(super) fn new<S: Shape, E: Ends>(moving: &Moving<E>, t: f64) -> Self {
+    pub(super) fn new<K: Kind, E: Ends>(moving: &Moving<E>, t: f64) -> Self {
         let Motion { k, l, m } = &moving.motion;
         let vectors = [at(k, t), at(l, t), at(m, t)];
         let gram = Gram::new(&vectors);
-        let spot = S::nearest(&gram);
+        let spot = K::nearest(&gram);
         Instant {
             change: [change(k), change(l), change(m)],
             way: way(&vectors, spot.u, spot.v),

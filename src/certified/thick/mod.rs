@@ -26,80 +26,17 @@ mod turning;
 
 use wide::f64x2;
 
-use super::cascade::Stage;
-use super::cubic::Cubic;
-use super::exact::{self, Approach, Passage};
-use super::face::{self, FaceHit};
-use super::locate::Place;
-use super::motion::{Motion, Positions, dot};
-use super::root::Bracket;
+use super::kind::Kind;
+use super::motion::{Positions, dot};
 use super::separate::U;
-use super::verdict::{Hit, Parameters};
-use crate::contact::Flags;
+use super::stage::{Finding, Stage};
+use crate::contact::Hit;
 use crate::query::Radius;
 use advance::{Advance, Moving, rounded_up};
-use contact::{Contact, contact};
+use contact::contact;
 use instant::Instant;
 use settle::{Settled, settle};
-pub(super) use shape::{Edges, Face};
-use shape::{Shape, Spot};
-
-/// The first contact of two edges, by integers alone, and the case of the motion.
-pub(super) fn decide_edges_exactly(positions: &Positions, radius: Radius) -> exact::Decision {
-    let Passage { case, kind } = exact::passage_of_edges(positions);
-    let hit = exact::approach_of_edges(positions, radius.parts()).map(|approach| {
-        let parameters = |[u, v]: [f64; 2]| Parameters { u, v };
-        Hit {
-            toi: approach.toi[0],
-            toi_above: approach.toi[1],
-            kind,
-            side: approach.side,
-            first: parameters(approach.first),
-            second: approach.second.map(parameters),
-            parameter_error: exact::PARAMETER_ERROR,
-            case,
-            flags: approach.flags,
-        }
-    });
-    exact::Decision { case, hit }
-}
-
-/// The first contact of a vertex and a face, by integers alone.
-pub(super) fn decide_face_exactly(positions: &Positions, radius: Radius) -> Option<FaceHit> {
-    let Approach {
-        toi: [toi, toi_above],
-        side,
-        first,
-        second: _,
-        flags,
-    } = exact::approach_of_face(positions, radius.parts())?;
-    let Passage { case, kind } = exact::passage_of_face(&face::as_edges(positions));
-    Some(FaceHit {
-        toi,
-        toi_above,
-        kind,
-        side,
-        weights: first,
-        weight_error: exact::PARAMETER_ERROR,
-        case,
-        flags,
-    })
-}
-
-/// A kind of query.
-pub(super) trait Kind: Shape {
-    type Hit;
-
-    /// Where the midlines, or the vertex and the face, are at a root of `f`.
-    fn crosses_at(points: &[[f64x2; 3]; 4], cubic: &Cubic, bracket: &Bracket) -> Option<bool>;
-
-    /// What integers say of the midlines.
-    fn passage(positions: &Positions) -> Passage;
-
-    fn hit(contact: &Contact) -> Self::Hit;
-
-    fn decide_exactly(positions: &Positions, radius: Radius) -> Option<Self::Hit>;
-}
+pub(super) use shape::{Gram, Spot, nearest_on_edges, nearest_on_face};
 
 /// The first contact within a radius above 0, by all stages.
 #[inline(always)]
@@ -107,7 +44,7 @@ pub(super) fn decide<K: Kind>(
     positions: impl Fn() -> Positions,
     radius: Radius,
     observe: &mut impl FnMut(Stage),
-) -> Option<K::Hit> {
+) -> Option<Hit<K::Place>> {
     let moving = Moving::new::<K>(&positions().points::<f64x2>(), rounded_up(radius));
     if moving.boxes.are_disjoint {
         observe(Stage::Boxes);
@@ -129,38 +66,37 @@ fn decide_open<K: Kind>(
     radius: Radius,
     proved: f64,
     observe: &mut impl FnMut(Stage),
-) -> Option<K::Hit> {
-    if let Some(contact) = decide_by_planes::<K>(positions, moving, radius, proved) {
-        observe(Stage::Planes);
-        return contact.map(|contact| K::hit(&contact));
+) -> Option<Hit<K::Place>> {
+    match decide_by_planes::<K>(positions, moving, radius, proved) {
+        Finding::Hit(hit) => {
+            observe(Stage::Planes);
+            Some(hit)
+        }
+        Finding::Miss => {
+            observe(Stage::Planes);
+            None
+        }
+        Finding::Undecided => {
+            observe(Stage::Exact);
+            K::decide_thick_exactly(&positions(), radius)
+        }
     }
-    observe(Stage::Exact);
-    K::decide_exactly(&positions(), radius)
 }
 
-/// The contact, if any; `None` if something is not certain.
+/// The contact, if any, as far as `f64` and double-double arithmetic prove it.
 fn decide_by_planes<K: Kind>(
     positions: &impl Fn() -> Positions,
     moving: &Moving<f64x2>,
     radius: Radius,
     proved: f64,
-) -> Option<Option<Contact>> {
-    let contact = match moving.advance::<K>(proved) {
-        Advance::Apart => return Some(None),
-        _ if !moving.is_ordinary() => None,
-        Advance::Near => {
-            let start = moving.near_start::<K>(radius)?;
-            contact::<K>(&positions(), moving, &start)
-        }
-        Advance::Until(proved) => {
-            let positions = &positions();
-            match settle::<K>(positions, moving, radius, proved)? {
-                None => return Some(None),
-                Some(settled) => contact::<K>(positions, moving, &settled),
-            }
-        }
+) -> Finding<Hit<K::Place>> {
+    let settled = match moving.advance::<K>(proved) {
+        Advance::Apart => return Finding::Miss,
+        _ if !moving.is_ordinary() => return Finding::Undecided,
+        Advance::Near => Finding::of_certain(moving.near_start::<K>(radius)),
+        Advance::Until(proved) => settle::<K>(&positions(), moving, radius, proved),
     };
-    contact.map(Some)
+    settled.and_then(|settled| Finding::of_certain(contact::<K>(&positions(), moving, &settled)))
 }
 
 impl Moving<f64x2> {
@@ -173,8 +109,8 @@ impl Moving<f64x2> {
     ///
     /// With the size `e` of the box around all points, a component of the way is within `12 u e` of the exact one;
     /// its length then within `12 u |e|`, and computed with a relative error below `4 u`.
-    fn near_start<S: Shape>(&self, radius: Radius) -> Option<Settled> {
-        let start = Instant::new::<S, _>(self, 0.0);
+    fn near_start<K: Kind>(&self, radius: Radius) -> Option<Settled> {
+        let start = Instant::new::<K, _>(self, 0.0);
         let length = dot(&start.way, &start.way).sqrt();
         let high = (length + 16.0 * U * self.boxes.size()) * (1.0 + 16.0 * U) + f64::MIN_POSITIVE;
         let is_near = length.is_finite() && high <= radius.rounded().next_down();
@@ -188,71 +124,3 @@ const SMALLEST: f64 = f64::from_bits((1023 - 200) << 52);
 
 /// 2^180.
 const LARGEST: f64 = f64::from_bits((1023 + 180) << 52);
-
-impl Kind for Edges {
-    type Hit = Hit;
-
-    fn crosses_at(points: &[[f64x2; 3]; 4], cubic: &Cubic, bracket: &Bracket) -> Option<bool> {
-        match Motion::new(points).meeting(cubic, bracket).place() {
-            Place::Apart => Some(false),
-            Place::Inside { .. } => Some(true),
-            Place::Unclear => None,
-        }
-    }
-
-    fn passage(positions: &Positions) -> Passage {
-        exact::passage_of_edges(positions)
-    }
-
-    fn hit(contact: &Contact) -> Hit {
-        let Spot { u, v, .. } = contact.spot;
-        let Passage { case, kind } = contact.passage;
-        Hit {
-            toi: contact.toi[0],
-            toi_above: contact.toi[1],
-            kind,
-            side: contact.side,
-            first: Parameters { u, v },
-            second: None,
-            parameter_error: contact.error,
-            case,
-            flags: Flags::default(),
-        }
-    }
-
-    fn decide_exactly(positions: &Positions, radius: Radius) -> Option<Hit> {
-        decide_edges_exactly(positions, radius).hit
-    }
-}
-
-impl Kind for Face {
-    type Hit = FaceHit;
-
-    fn crosses_at(points: &[[f64x2; 3]; 4], cubic: &Cubic, bracket: &Bracket) -> Option<bool> {
-        face::is_inside_at(points, cubic, bracket)
-    }
-
-    fn passage(positions: &Positions) -> Passage {
-        exact::passage_of_face(&face::as_edges(positions))
-    }
-
-    /// The weight of B is what the others leave of 1, rounded twice.
-    fn hit(contact: &Contact) -> FaceHit {
-        let Spot { u, v, .. } = contact.spot;
-        let Passage { case, kind } = contact.passage;
-        FaceHit {
-            toi: contact.toi[0],
-            toi_above: contact.toi[1],
-            kind,
-            side: contact.side,
-            weights: [(1.0 - u - v).max(0.0), u, v],
-            weight_error: 2.0 * contact.error + 4.0 * U,
-            case,
-            flags: Flags::default(),
-        }
-    }
-
-    fn decide_exactly(positions: &Positions, radius: Radius) -> Option<FaceHit> {
-        decide_face_exactly(positions, radius)
-    }
-}

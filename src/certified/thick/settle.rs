@@ -9,13 +9,15 @@ use wide::f64x2;
 use super::advance::Moving;
 use super::instant::Instant;
 use super::nearness::Nearness;
-use super::shape::{Shape, Spot};
+use super::shape::Spot;
 use crate::certified::double::{Double, two_difference, two_sum};
 use crate::certified::ends::Ends;
+use crate::certified::kind::Kind;
 use crate::certified::motion::{Positions, Vector, dot};
 use crate::certified::refine::Root;
 use crate::certified::separate::U;
-use crate::certified::verdict::Hit;
+use crate::certified::stage::Finding;
+use crate::contact::PLACE_ERROR;
 use crate::query::Radius;
 
 /// A contact within the step.
@@ -33,7 +35,7 @@ impl Settled {
     /// A contact, if its place is known so well that what is computed from it is within what is promised.
     pub(super) fn new(below: f64, spot: Spot, nearness: &Nearness) -> Option<Self> {
         let error = nearness.error;
-        (error <= Hit::PARAMETER_ERROR / 4.0).then_some(Settled { below, spot, error })
+        (error <= PLACE_ERROR / 4.0).then_some(Settled { below, spot, error })
     }
 }
 
@@ -43,7 +45,7 @@ const MOST_STEPS: u32 = 4;
 /// `2^-106`.
 const H: f64 = U * U;
 
-/// The contact, if any, given that they are apart up to a time shortly before it. `None` if it is not certain.
+/// The contact, if any, given that they are apart up to a time shortly before it.
 ///
 /// # Proof
 ///
@@ -59,20 +61,20 @@ const H: f64 = U * U;
 /// at most `s` and `2 s` in magnitude: `w . w'` is within `64 u s . s`, and so is half of `w'^2`. With `q = x / 2 m` and `b = q w'^2 / 2 m`, now `m = -w . w'`, the root is `q (1 + b)`
 /// up to `3 b^2 q`, for `b < 1/16`. That is computed with the relative errors of `m` in `q`, once more in `b`, and fewer than 16 roundings; the
 /// error of `x` counts by `1 / 2 m`.
-pub(super) fn settle<S: Shape>(
+pub(super) fn settle<K: Kind>(
     positions: &Positions,
     moving: &Moving<f64x2>,
     radius: Radius,
     proved: f64,
-) -> Option<Option<Settled>> {
+) -> Finding<Settled> {
     let (_, size) = moving.reaches();
     let size2 = dot(&size, &size);
     let slope_error = 64.0 * U * size2;
     let mut t = proved;
     for _ in 0..MOST_STEPS {
-        let here = Instant::new::<S, _>(moving, t);
+        let here = Instant::new::<K, _>(moving, t);
         let velocity = here.velocity();
-        let (x, x_error) = excess::<S>(positions, radius, t, &here.spot, &size);
+        let (x, x_error) = excess::<K>(positions, radius, t, &here.spot, &size);
         let slope = -dot(&here.way, &velocity);
         let first = x / (2.0 * slope);
         let bend = first * dot(&velocity, &velocity) / (2.0 * slope);
@@ -82,30 +84,32 @@ pub(super) fn settle<S: Shape>(
         let least = slope - slope_error - 4.5 * size2 * while_;
         // The root is ahead, so that `least` is below the slope. Where rounding outweighs the slope it may have any sign.
         if !(x > 0.0 && slope > 0.0 && least > 0.0 && bend < 0.0625) {
-            return None;
+            return Finding::Undecided;
         }
-        let nearness = moving.nearness(&here, while_)?;
+        let Some(nearness) = moving.nearness(&here, while_) else {
+            return Finding::Undecided;
+        };
         let error = (nearness.excess + x_error) / (2.0 * least) * (1.0 + 8.0 * U)
             + delta * (4.0 * (slope_error / least) + 3.0 * bend * bend + 16.0 * U);
         if !(error < delta + 8.0 * U) {
-            return None;
+            return Finding::Undecided;
         }
         let root = Root::near(two_sum(t, delta), error);
         let settled = |below| Settled::new(below, here.spot, &nearness);
         if let Some(settled) = root.round_down().and_then(settled) {
-            return Some(Some(settled));
+            return Finding::Hit(settled);
         }
         // They are apart until then.
         let next = (t + (delta - error)) * (1.0 - 2.0 * U);
         if next >= 1.0 {
-            return Some(None);
+            return Finding::Miss;
         }
         if !(next > t) {
-            return None;
+            return Finding::Undecided;
         }
         t = next;
     }
-    None
+    Finding::Undecided
 }
 
 /// The squared distance less `R^2` of the points of a place at a time, in double-double arithmetic, and a bound on its error
@@ -115,7 +119,7 @@ pub(super) fn settle<S: Shape>(
 /// sums `16 h s`: below `32 h s` at each end of the step. The change is within `(64 + 24) h s`, the product with the time adds `16 h s`, the sum `24 h s`: below
 /// `160 h s`. So `w^2` is off by `320 h |w| s` and the square of that error; products, sums and the radius add `64 h` of both sides. What
 /// underflows is far below that of the radius.
-fn excess<S: Shape>(
+fn excess<K: Kind>(
     positions: &Positions,
     radius: Radius,
     t: f64,
@@ -131,7 +135,7 @@ fn excess<S: Shape>(
     // At both ends of the step.
     let axis = |i: usize| {
         let way = |(from, to): (usize, usize)| two_difference(points[to][i], points[from][i]);
-        let [k, l, m] = S::WAYS;
+        let [k, l, m] = K::DIFFERENCES;
         let (k, l, m) = (way(k), way(l), way(m));
         m.add(v.mul(l)).sub(u.mul(k))
     };

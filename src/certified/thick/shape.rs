@@ -4,30 +4,7 @@
 //! square for edges and in the triangle `u, v >= 0`, `u + v <= 1` for a face. They fill a parallelogram or a
 //! triangle whose corners move linearly; the distance of the two sides is its distance from 0.
 
-use crate::certified::ends::Ends;
 use crate::certified::motion::{Vector, dot, larger, smaller};
-use crate::certified::separate::SweptBoxes;
-
-/// What is different between edges and a face.
-pub(in crate::certified) trait Shape {
-    /// From which of A, B, C and D to which one `K`, `L` and `M` are.
-    const WAYS: [(usize, usize); 3];
-
-    /// The corners as `(u, v)`; each number is 0 or 1.
-    const CORNERS: &'static [(f64, f64)];
-
-    /// The mean of the corners.
-    const MIDDLE: (f64, f64);
-
-    /// The swept boxes, disjoint if they are farther apart than a distance.
-    fn boxes<E: Ends>(points: &[[E; 3]; 4], distance: f64) -> SweptBoxes;
-
-    /// The least product of a corner with a vector, from those of `K`, `L` and `M`.
-    fn least_corner<E: Ends>(k: E, l: E, m: E) -> E;
-
-    /// About where the difference is nearest to 0.
-    fn nearest(gram: &Gram) -> Spot;
-}
 
 /// Scalar products of `K`, `L` and `M` at one time.
 pub(in crate::certified) struct Gram {
@@ -82,108 +59,64 @@ impl Gram {
     }
 }
 
-/// Two edges: `K = B - A`, `L = D - C`, `M = C - A`.
-pub(in crate::certified) struct Edges;
-
-impl Shape for Edges {
-    const WAYS: [(usize, usize); 3] = [(0, 1), (2, 3), (0, 2)];
-
-    const CORNERS: &'static [(f64, f64)] = &[(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)];
-
-    const MIDDLE: (f64, f64) = (0.5, 0.5);
-
-    #[inline(always)]
-    fn boxes<E: Ends>([a, b, c, d]: &[[E; 3]; 4], distance: f64) -> SweptBoxes {
-        SweptBoxes::around([a, b], [c, d], distance)
-    }
-
-    #[inline(always)]
-    fn least_corner<E: Ends>(k: E, l: E, m: E) -> E {
-        let zero = E::both(0.0);
-        m + l.smaller(zero) - k.larger(zero)
-    }
-
-    /// The nearest `v` for the `u` of the lines' nearest points, then the nearest `u` for that (Ericson,
-    /// Real-Time Collision Detection, 5.1.9).
-    #[inline(always)]
-    fn nearest(gram: &Gram) -> Spot {
-        // Divisions that do not wait for each other.
-        let (of_k, of_l) = (1.0 / gram.kk, 1.0 / gram.ll);
-        let u = share(gram.centre().0 / gram.determinant());
-        let v = share((u * gram.kl - gram.ml) * of_l);
-        let u = share((gram.mk + v * gram.kl) * of_k);
-        // The sign of the way that leads inside, and whether the other one does too.
-        let inward = |x: f64| (if x == 1.0 { -1.0 } else { 1.0 }, x > 0.0 && x < 1.0);
-        let ((along_u, u_is_free), (along_v, v_is_free)) = (inward(u), inward(v));
-        let ways = [
-            Way::new(along_u, 0.0, u_is_free),
-            Way::new(0.0, along_v, v_is_free),
-        ];
-        Spot { u, v, ways }
-    }
+/// The nearest `v` for the `u` of the lines' nearest points, then the nearest `u` for that (Ericson,
+/// Real-Time Collision Detection, 5.1.9).
+#[inline(always)]
+pub(in crate::certified) fn nearest_on_edges(gram: &Gram) -> Spot {
+    // Divisions that do not wait for each other.
+    let (of_k, of_l) = (1.0 / gram.kk, 1.0 / gram.ll);
+    let u = share(gram.centre().0 / gram.determinant());
+    let v = share((u * gram.kl - gram.ml) * of_l);
+    let u = share((gram.mk + v * gram.kl) * of_k);
+    // The sign of the way that leads inside, and whether the other one does too.
+    let inward = |x: f64| (if x == 1.0 { -1.0 } else { 1.0 }, x > 0.0 && x < 1.0);
+    let ((along_u, u_is_free), (along_v, v_is_free)) = (inward(u), inward(v));
+    let ways = [
+        Way::new(along_u, 0.0, u_is_free),
+        Way::new(0.0, along_v, v_is_free),
+    ];
+    Spot { u, v, ways }
 }
 
-/// A vertex A and a face BCD, with the weights `u` of C and `v` of D: `K = B - C`, `L = D - B`, `M = B - A`.
-pub(in crate::certified) struct Face;
-
-impl Shape for Face {
-    const WAYS: [(usize, usize); 3] = [(2, 1), (1, 3), (0, 1)];
-
-    const CORNERS: &'static [(f64, f64)] = &[(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)];
-
-    const MIDDLE: (f64, f64) = (1.0 / 3.0, 1.0 / 3.0);
-
-    #[inline(always)]
-    fn boxes<E: Ends>([a, b, c, d]: &[[E; 3]; 4], distance: f64) -> SweptBoxes {
-        SweptBoxes::around([a], [b, c, d], distance)
+/// The foot in the plane, or the nearest of the nearest points of the sides.
+pub(in crate::certified) fn nearest_on_face(gram: &Gram) -> Spot {
+    let (determinant, centre) = (gram.determinant(), gram.centre());
+    let (u, v) = (centre.0 / determinant, centre.1 / determinant);
+    if u > 0.0 && v > 0.0 && u + v < 1.0 {
+        let ways = [Way::new(1.0, 0.0, true), Way::new(0.0, 1.0, true)];
+        return Spot { u, v, ways };
     }
-
-    #[inline(always)]
-    fn least_corner<E: Ends>(k: E, l: E, m: E) -> E {
-        let zero = E::both(0.0);
-        m + l.smaller(zero - k).smaller(zero)
-    }
-
-    /// The foot in the plane, or the nearest of the nearest points of the sides.
-    fn nearest(gram: &Gram) -> Spot {
-        let (determinant, centre) = (gram.determinant(), gram.centre());
-        let (u, v) = (centre.0 / determinant, centre.1 / determinant);
-        if u > 0.0 && v > 0.0 && u + v < 1.0 {
-            let ways = [Way::new(1.0, 0.0, true), Way::new(0.0, 1.0, true)];
+    let Gram { kk, ll, kl, mk, ml } = gram;
+    let third = share((kk - mk - ml + kl) / (ll + kk + 2.0 * kl));
+    // One and what is left of it add up to 1 exactly.
+    let rest = 1.0 - third;
+    // Each side with the way along it and one into the face.
+    let places = [
+        (share(mk / kk), 0.0, [(1.0, 0.0), (0.0, 1.0)]),
+        (0.0, share(-ml / ll), [(0.0, 1.0), (1.0, 0.0)]),
+        (rest, 1.0 - rest, [(1.0, -1.0), (-1.0, 0.0)]),
+    ];
+    let height = |&(u, v, _): &(f64, f64, _)| {
+        u * (u * kk - 2.0 * mk) + v * (v * ll + 2.0 * ml) - 2.0 * u * v * kl
+    };
+    let [first, second, third] = places;
+    let nearer = |x, y| if height(&y) < height(&x) { y } else { x };
+    let (u, v, [along, inward]) = nearer(nearer(first, second), third);
+    // At a corner, the ways along both of its sides.
+    let [along, inward] = match (u, v) {
+        (0.0, 0.0) => [(1.0, 0.0), (0.0, 1.0)],
+        (1.0, 0.0) => [(-1.0, 0.0), (-1.0, 1.0)],
+        (0.0, 1.0) => [(0.0, -1.0), (1.0, -1.0)],
+        _ => {
+            let ways = [
+                Way::new(along.0, along.1, true),
+                Way::new(inward.0, inward.1, false),
+            ];
             return Spot { u, v, ways };
         }
-        let Gram { kk, ll, kl, mk, ml } = gram;
-        let third = share((kk - mk - ml + kl) / (ll + kk + 2.0 * kl));
-        // One and what is left of it add up to 1 exactly.
-        let rest = 1.0 - third;
-        // Each side with the way along it and one into the face.
-        let places = [
-            (share(mk / kk), 0.0, [(1.0, 0.0), (0.0, 1.0)]),
-            (0.0, share(-ml / ll), [(0.0, 1.0), (1.0, 0.0)]),
-            (rest, 1.0 - rest, [(1.0, -1.0), (-1.0, 0.0)]),
-        ];
-        let height = |&(u, v, _): &(f64, f64, _)| {
-            u * (u * kk - 2.0 * mk) + v * (v * ll + 2.0 * ml) - 2.0 * u * v * kl
-        };
-        let [first, second, third] = places;
-        let nearer = |x, y| if height(&y) < height(&x) { y } else { x };
-        let (u, v, [along, inward]) = nearer(nearer(first, second), third);
-        // At a corner, the ways along both of its sides.
-        let [along, inward] = match (u, v) {
-            (0.0, 0.0) => [(1.0, 0.0), (0.0, 1.0)],
-            (1.0, 0.0) => [(-1.0, 0.0), (-1.0, 1.0)],
-            (0.0, 1.0) => [(0.0, -1.0), (1.0, -1.0)],
-            _ => {
-                let ways = [
-                    Way::new(along.0, along.1, true),
-                    Way::new(inward.0, inward.1, false),
-                ];
-                return Spot { u, v, ways };
-            }
-        };
-        let ways = [along, inward].map(|(u, v)| Way::new(u, v, false));
-        Spot { u, v, ways }
-    }
+    };
+    let ways = [along, inward].map(|(u, v)| Way::new(u, v, false));
+    Spot { u, v, ways }
 }
 
 impl Way {

@@ -3,7 +3,7 @@
 use wide::f64x2;
 
 use super::advance::Moving;
-use super::shape::Shape;
+use crate::certified::kind::Kind;
 use crate::certified::motion::Positions;
 use crate::certified::testing::{Exact, Number, Search, dot, layout};
 
@@ -25,11 +25,11 @@ pub(super) struct Sample {
 
 impl Sample {
     /// From 24 coordinates.
-    pub(super) fn new<S: Shape>(coordinates: &[f64], radius: f64) -> Self {
+    pub(super) fn new<K: Kind>(coordinates: &[f64], radius: f64) -> Self {
         let positions = layout(coordinates);
         Sample {
-            moving: Moving::new::<S>(&positions.points(), radius),
-            exact: Exact::of(&positions, S::WAYS.map(|(from, to)| (to, from))),
+            moving: Moving::new::<K>(&positions.points(), radius),
+            exact: Exact::of(&positions, K::DIFFERENCES.map(|(from, to)| (to, from))),
             positions,
         }
     }
@@ -47,8 +47,8 @@ impl Sample {
     }
 
     /// The least exact product of a corner with a vector at a time.
-    pub(super) fn least_corner<S: Shape>(&self, t: &Number, n: &[Number; 3]) -> Number {
-        let corners = S::CORNERS.iter().map(|&(u, v)| {
+    pub(super) fn least_corner<K: Kind>(&self, t: &Number, n: &[Number; 3]) -> Number {
+        let corners = K::CORNERS.iter().map(|&(u, v)| {
             let way = self.way(t, &[u, v].map(Number::from));
             dot(&way, n)
         });

@@ -6,8 +6,9 @@
 
 use super::advance::{LARGEST, Moving, SMALLEST, way};
 use super::instant::Instant;
-use super::shape::{Gram, Shape, Way};
+use super::shape::{Gram, Way};
 use crate::certified::ends::Ends;
+use crate::certified::kind::Kind;
 use crate::certified::motion::{Vector, both, dot, scaled, smaller, sub};
 use crate::certified::separate::U;
 
@@ -83,7 +84,7 @@ impl<E: Ends> Moving<E> {
     /// [`SweptBoxes::is_certain`]: crate::certified::separate::SweptBoxes::is_certain
     /// [`SweptBoxes::bound`]: crate::certified::separate::SweptBoxes::bound
     #[inline(always)]
-    pub(super) fn stays_apart_turning<S: Shape>(
+    pub(super) fn stays_apart_turning<K: Kind>(
         &self,
         here: &Instant,
         Turning { normal, turn }: &Turning,
@@ -116,7 +117,7 @@ impl<E: Ends> Moving<E> {
         let vectors = [coefficients(0), coefficients(1), coefficients(2)];
         // All of them before any is compared, so that roots and quotients overlap.
         let mut times = [longest; 4];
-        for (time, &(u, v)) in times.iter_mut().zip(S::CORNERS) {
+        for (time, &(u, v)) in times.iter_mut().zip(K::CORNERS) {
             *time = stays_positive(&sub(&way(&vectors, u, v), &least));
         }
         times.into_iter().fold(longest, smaller)

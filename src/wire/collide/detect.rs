@@ -5,7 +5,7 @@ use super::record::{CollisionRecord, Crossing, Outcome, PairAnswer, PairRecord};
 use super::segment::{Closest, SegmentId, Site, between, direction, joined, reach};
 use super::{CollisionError, PairFilter};
 use crate::broad::{Aabb, Method, SlowPairs};
-use crate::contact::{self, Verdict};
+use crate::contact::{self, EdgePoint, Verdict};
 use crate::narrow::{NarrowPhase, Report};
 use crate::query::{EdgeEdge, Point};
 use crate::wire::Vector;
@@ -139,7 +139,8 @@ impl Found {
         let sites = |[u, v]: [f64; 2]| [a.id.site(world, u), b.id.site(world, v)];
         match report.verdict {
             Verdict::Hit(contact) => {
-                let sites = sites([contact.first.u, contact.first.v]);
+                let EdgePoint { u, v } = contact.first.on_edges();
+                let sites = sites([u, v]);
                 self.hits.push(Hit {
                     sites,
                     query,
@@ -179,7 +180,8 @@ impl Hit {
     /// step starts; if they touch there, against their motion.
     pub(super) fn normal(&self) -> Option<(Vector, f64)> {
         const TENTH: f64 = 0.1;
-        let shares = [self.contact.first.u, self.contact.first.v];
+        let EdgePoint { u, v } = self.contact.first.on_edges();
+        let shares = [u, v];
         let apart = between(self.query.start(), shares);
         if let Some(across) = self.across() {
             let along = across.dot(&apart);
@@ -200,7 +202,8 @@ impl Hit {
         const ANGLE: f64 = 1e-6;
         let contact = &self.contact;
         let inside = |share: f64| share > 0.0 && share < 1.0;
-        if !(inside(contact.first.u) && inside(contact.first.v)) {
+        let EdgePoint { u, v } = contact.first.on_edges();
+        if !(inside(u) && inside(v)) {
             return None;
         }
         let at = |k: usize| {

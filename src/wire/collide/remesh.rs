@@ -4,7 +4,7 @@ use super::PairFilter;
 use super::error::CollisionError;
 use super::segment::{SegmentId, joined};
 use crate::broad::Aabb;
-use crate::certified::{Verdict, decide};
+use crate::certified::decide;
 use crate::query::EdgeEdge;
 use crate::wire::model::{NodeKind, WireId, World};
 use crate::wire::resolution::Remesh;
@@ -37,7 +37,7 @@ pub(super) fn meets(
             }
             let [p, q] = ends;
             let query = EdgeEdge::new([b, c, p, q], [a, c, p, q], 0.0)?;
-            if matches!(decide(&query), Verdict::Hit(_)) {
+            if decide(&query).is_some() {
                 return Ok(true);
             }
         }

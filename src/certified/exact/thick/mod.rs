@@ -26,11 +26,14 @@ mod vector;
 
 use std::cmp::Ordering;
 
+use super::PLACE_ERROR;
 use super::moment::Moment;
 use super::near::{Point, in_unit, radius_in_unit, sub, unit};
+use super::passage::{Passage, passage_of_edges};
 use super::poly;
 use crate::certified::motion::Positions;
-use crate::contact::Flags;
+use crate::contact::{EdgePlace, EdgePoint, FacePlace, Flags, Hit};
+use crate::query::Radius;
 use edges::Edges;
 use face::Face;
 use pair::{Pair, Place};
@@ -47,35 +50,63 @@ type Poly = poly::Poly<0>;
 type Time<'a> = Moment<'a, 0>;
 
 /// The first contact at a distance. A place has `W` numbers: `u` and `v`, or the weights of B, C and D.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::certified) struct Approach<const W: usize> {
+struct Approach<const W: usize> {
     /// The neighbours in `f64` of the time of impact.
-    pub(in crate::certified) toi: [f64; 2],
+    toi: [f64; 2],
     /// The sign of `f` just before it; 0 at the start.
-    pub(in crate::certified) side: i8,
-    /// The nearest points; each number is within [`PARAMETER_ERROR`](super::PARAMETER_ERROR).
-    pub(in crate::certified) first: [f64; W],
+    side: i8,
+    /// The nearest points; each number is within [`PLACE_ERROR`].
+    first: [f64; W],
     /// The other end of the part along which parallel edges are nearest.
-    pub(in crate::certified) second: Option<[f64; W]>,
-    pub(in crate::certified) flags: Flags,
+    second: Option<[f64; W]>,
+    flags: Flags,
 }
 
-/// The first contact of two edges at most the sum of two radii apart.
-pub(in crate::certified) fn approach_of_edges(
-    positions: &Positions,
-    radii: [f64; 2],
-) -> Option<Approach<2>> {
-    let (points, reach) = integers(positions, radii);
-    first_approach(&Edges::new(&points), &reach)
+impl<const W: usize> Approach<W> {
+    /// The contact of two sides that pass each other like this without their radius.
+    fn hit<P>(self, Passage { case, kind }: Passage, place: P) -> Hit<P> {
+        let [toi, toi_above] = self.toi;
+        Hit {
+            toi,
+            toi_above,
+            kind,
+            side: self.side,
+            case,
+            flags: self.flags,
+            place,
+        }
+    }
 }
 
-/// The same of a vertex A and a face BCD.
-pub(in crate::certified) fn approach_of_face(
+/// The first contact of two edges at most a radius apart.
+pub(in crate::certified) fn decide_thick_edges(
     positions: &Positions,
-    radii: [f64; 2],
-) -> Option<Approach<3>> {
-    let (points, reach) = integers(positions, radii);
-    first_approach(&Face::new(&points), &reach)
+    radius: Radius,
+) -> Option<Hit<EdgePlace>> {
+    let (points, reach) = integers(positions, radius.parts());
+    let approach = first_approach(&Edges::new(&points), &reach)?;
+    let point = |[u, v]: [f64; 2]| EdgePoint { u, v };
+    let place = EdgePlace {
+        first: point(approach.first),
+        second: approach.second.map(point),
+        error: PLACE_ERROR,
+    };
+    Some(approach.hit(passage_of_edges(positions), place))
+}
+
+/// The same of a vertex A and a face BCD, of which it is known how they pass each other.
+pub(in crate::certified) fn decide_thick_face(
+    positions: &Positions,
+    radius: Radius,
+    passage: impl FnOnce() -> Passage,
+) -> Option<Hit<FacePlace>> {
+    let (points, reach) = integers(positions, radius.parts());
+    let approach = first_approach(&Face::new(&points), &reach)?;
+    let place = FacePlace {
+        weights: approach.first,
+        error: PLACE_ERROR,
+    };
+    Some(approach.hit(passage(), place))
 }
 
 /// Two sides that may come near each other.

@@ -1,23 +1,23 @@
 use std::cell::Cell;
 
-use super::super::shape::{Edges, Face};
 use super::super::testing::{Sample, search};
 use super::*;
 use crate::certified::testing::{Claim, Number, Random, dot as exact_dot, points_and_direction};
+use crate::query::{EdgeEdge, VertexFace};
 
-fn directions_are_proved<S: Shape>(seed: u64, side: &[usize]) {
+fn directions_are_proved<K: Kind>(seed: u64, side: &[usize]) {
     let parts = Cell::new(0);
     let claims = |x: &[f64; 28]| {
         let (n, radius) = ([x[24], x[25], x[26]], x[27].abs());
-        let sample = Sample::new::<S>(&x[..24], radius);
-        let until = sample.moving.stays_apart_by::<S>(&n);
+        let sample = Sample::new::<K>(&x[..24], radius);
+        let until = sample.moving.stays_apart_by::<K>(&n);
         if until <= 0.0 {
             return None;
         }
         parts.set(parts.get() + u32::from(until < 1.0));
         let n = n.map(Number::from);
         let claim = |t: f64| {
-            let least = sample.least_corner::<S>(&Number::from(t), &n);
+            let least = sample.least_corner::<K>(&Number::from(t), &n);
             assert!(least.sign().is_gt());
             let reach = &Number::from(radius) * &Number::from(radius);
             Claim {
@@ -43,10 +43,10 @@ fn directions_are_proved<S: Shape>(seed: u64, side: &[usize]) {
 
 #[test]
 fn thick_directions_separate_edges_as_long_as_they_say() {
-    directions_are_proved::<Edges>(1, &[0, 1]);
+    directions_are_proved::<EdgeEdge>(1, &[0, 1]);
 }
 
 #[test]
 fn thick_directions_separate_a_face_as_long_as_they_say() {
-    directions_are_proved::<Face>(2, &[0]);
+    directions_are_proved::<VertexFace>(2, &[0]);
 }

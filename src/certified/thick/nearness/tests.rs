@@ -1,9 +1,10 @@
 use std::cell::Cell;
 
-use super::super::shape::{Edges, Face, Shape};
 use super::super::testing::{Sample, search};
 use super::*;
+use crate::certified::kind::Kind;
 use crate::certified::testing::{Claim, Number, Random, dot as exact_dot, points};
+use crate::query::{EdgeEdge, VertexFace};
 
 /// Where the difference is nearest to 0 on the line or plane of one part of the boundary: `u`, `v` and the squared distance,
 /// all times `scale`.
@@ -30,7 +31,7 @@ impl Foot {
     }
 
     /// In the plane; `None` outside, or if there is none.
-    fn inside<S: Shape>(sample: &Sample, t: &Number) -> Option<Foot> {
+    fn inside<K: Kind>(sample: &Sample, t: &Number) -> Option<Foot> {
         let [k, l, m] = sample.at(t);
         let (kk, ll, kl) = (exact_dot(&k, &k), exact_dot(&l, &l), exact_dot(&k, &l));
         let (mk, ml, mm) = (exact_dot(&m, &k), exact_dot(&m, &l), exact_dot(&m, &m));
@@ -39,7 +40,7 @@ impl Foot {
         let v = &(&mk * &kl) - &(&ml * &kk);
         let rest = |x: &Number| &scale - x;
         let mut parts = vec![u.clone(), v.clone(), rest(&u), rest(&v)];
-        if S::CORNERS.len() == 3 {
+        if K::CORNERS.len() == 3 {
             parts.push(&rest(&u) - &v);
         }
         let is_inside = parts.iter().all(|x| x.sign().is_ge()) && scale.sign().is_gt();
@@ -51,13 +52,13 @@ impl Foot {
     }
 
     /// The nearest place, exactly.
-    fn nearest<S: Shape>(sample: &Sample, t: &Number) -> Foot {
-        let pairs = S::CORNERS
+    fn nearest<K: Kind>(sample: &Sample, t: &Number) -> Foot {
+        let pairs = K::CORNERS
             .iter()
-            .flat_map(|from| S::CORNERS.iter().map(move |to| (from, to)));
+            .flat_map(|from| K::CORNERS.iter().map(move |to| (from, to)));
         // The diagonals of a square are no sides, but in the set.
         let sides = pairs.filter_map(|(from, to)| Foot::on_side(sample, t, *from, *to));
-        let corners = S::CORNERS.iter().map(|&(u, v)| {
+        let corners = K::CORNERS.iter().map(|&(u, v)| {
             let place = [u, v].map(Number::from);
             let way = sample.way(t, &place);
             Foot {
@@ -66,7 +67,7 @@ impl Foot {
                 scale: Number::from(1.0),
             }
         });
-        let feet = sides.chain(corners).chain(Foot::inside::<S>(sample, t));
+        let feet = sides.chain(corners).chain(Foot::inside::<K>(sample, t));
         let nearer = |x: Foot, y: Foot| {
             if &y.square * &x.scale < &x.square * &y.scale {
                 y
@@ -78,13 +79,13 @@ impl Foot {
     }
 }
 
-fn nearest_places_are_within_their_bounds<S: Shape>(seed: u64) {
+fn nearest_places_are_within_their_bounds<K: Kind>(seed: u64) {
     // Inside, on a side, at a corner.
     let counts = Cell::new([0; 3]);
     let claims = |x: &[f64; 26]| {
         let (t, while_) = (x[24].abs().min(1.0), x[25].abs().min(0.1));
-        let sample = Sample::new::<S>(&x[..24], 1.0);
-        let here = Instant::new::<S, _>(&sample.moving, t);
+        let sample = Sample::new::<K>(&x[..24], 1.0);
+        let here = Instant::new::<K, _>(&sample.moving, t);
         let nearness = sample.moving.nearness(&here, while_)?;
         if !nearness.error.is_finite() {
             return None;
@@ -95,7 +96,7 @@ fn nearest_places_are_within_their_bounds<S: Shape>(seed: u64) {
         counts.set(count);
         let spot = [here.spot.u, here.spot.v].map(Number::from);
         let at = |t: &Number| {
-            let foot = Foot::nearest::<S>(&sample, t);
+            let foot = Foot::nearest::<K>(&sample, t);
             let way = sample.way(t, &spot);
             let fall = &(&exact_dot(&way, &way) * &foot.scale) - &foot.square;
             let shift = |i: usize| Claim {
@@ -129,10 +130,10 @@ fn nearest_places_are_within_their_bounds<S: Shape>(seed: u64) {
 
 #[test]
 fn thick_nearest_places_of_edges_are_within_their_bounds() {
-    nearest_places_are_within_their_bounds::<Edges>(1);
+    nearest_places_are_within_their_bounds::<EdgeEdge>(1);
 }
 
 #[test]
 fn thick_nearest_places_in_a_face_are_within_their_bounds() {
-    nearest_places_are_within_their_bounds::<Face>(2);
+    nearest_places_are_within_their_bounds::<VertexFace>(2);
 }

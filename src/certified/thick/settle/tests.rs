@@ -1,19 +1,19 @@
-use super::super::shape::{Edges, Face};
 use super::super::testing::{Sample, search};
 use super::*;
 use crate::certified::testing::{Claim, Number, Random, dot as exact_dot, points};
+use crate::query::{EdgeEdge, VertexFace};
 
 /// The squared distance less that of the radius, to twice the precision, against the exact one.
-fn excess_is_within_its_bound<S: Shape>(seed: u64) {
+fn excess_is_within_its_bound<K: Kind>(seed: u64) {
     let claims = |x: &[f64; 29]| {
         let t = x[24].abs().min(1.0);
         let [u, v] = [x[25], x[26]].map(|x| x.abs().min(1.0));
         let parts = [x[27], x[28]].map(f64::abs);
-        let sample = Sample::new::<S>(&x[..24], parts[0] + parts[1]);
+        let sample = Sample::new::<K>(&x[..24], parts[0] + parts[1]);
         let (_, size) = sample.moving.reaches();
-        let here = Instant::new::<S, _>(&sample.moving, t);
+        let here = Instant::new::<K, _>(&sample.moving, t);
         let spot = Spot { u, v, ..here.spot };
-        let (value, error) = excess::<S>(&sample.positions, Radius::from(parts), t, &spot, &size);
+        let (value, error) = excess::<K>(&sample.positions, Radius::from(parts), t, &spot, &size);
         let way = sample.way(&Number::from(t), &[u, v].map(Number::from));
         let radius = &Number::from(parts[0]) + &Number::from(parts[1]);
         let exact = &exact_dot(&way, &way) - &(&radius * &radius);
@@ -34,10 +34,10 @@ fn excess_is_within_its_bound<S: Shape>(seed: u64) {
 
 #[test]
 fn thick_squares_of_edges_are_within_their_bound() {
-    excess_is_within_its_bound::<Edges>(1);
+    excess_is_within_its_bound::<EdgeEdge>(1);
 }
 
 #[test]
 fn thick_squares_of_a_face_are_within_their_bound() {
-    excess_is_within_its_bound::<Face>(2);
+    excess_is_within_its_bound::<VertexFace>(2);
 }

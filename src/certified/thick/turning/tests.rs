@@ -1,19 +1,19 @@
 use std::cell::Cell;
 
-use super::super::shape::{Edges, Face};
 use super::super::testing::{Sample, search};
 use super::*;
 use crate::certified::testing::{
     Claim, Number, Random, dot as exact_dot, points, points_and_direction,
 };
+use crate::query::{EdgeEdge, VertexFace};
 
 /// That a plane keeps all corners more than the radius away a time `s` after `t`: the square of what is asked is at most
 /// that of the least corner.
-fn separation<S: Shape>(sample: &Sample, plane: &Turning, t: f64, s: &Number) -> Claim {
+fn separation<K: Kind>(sample: &Sample, plane: &Turning, t: f64, s: &Number) -> Claim {
     let exact = |x: &Vector| x.map(Number::from);
     let (normal, turn) = (exact(&plane.normal), exact(&plane.turn));
     let n = [0, 1, 2].map(|i| &normal[i] + &(s * &turn[i]));
-    let least = sample.least_corner::<S>(&(&Number::from(t) + s), &n);
+    let least = sample.least_corner::<K>(&(&Number::from(t) + s), &n);
     assert!(least.sign().is_gt());
     let reach = Number::from(sample.moving.radius);
     Claim {
@@ -23,12 +23,12 @@ fn separation<S: Shape>(sample: &Sample, plane: &Turning, t: f64, s: &Number) ->
 }
 
 /// Any planes, and those between nearest points.
-fn planes_are_proved<S: Shape>(seed: u64, is_own: bool, side: &[usize]) {
+fn planes_are_proved<K: Kind>(seed: u64, is_own: bool, side: &[usize]) {
     let parts = Cell::new(0);
     let claims = |x: &[f64; 32]| {
         let (t, radius) = (x[30].abs().min(1.0), x[31].abs());
-        let sample = Sample::new::<S>(&x[..24], radius);
-        let here = Instant::new::<S, _>(&sample.moving, t);
+        let sample = Sample::new::<K>(&x[..24], radius);
+        let here = Instant::new::<K, _>(&sample.moving, t);
         let plane = if is_own {
             Turning::new(&here)
         } else {
@@ -37,7 +37,7 @@ fn planes_are_proved<S: Shape>(seed: u64, is_own: bool, side: &[usize]) {
         let longest = 1.0 - t;
         let while_ = sample
             .moving
-            .stays_apart_turning::<S>(&here, &plane, longest);
+            .stays_apart_turning::<K>(&here, &plane, longest);
         assert!(while_ <= longest, "not beyond what is asked");
         if !(while_ > 0.0) {
             return None;
@@ -45,7 +45,7 @@ fn planes_are_proved<S: Shape>(seed: u64, is_own: bool, side: &[usize]) {
         parts.set(parts.get() + u32::from(while_ < longest));
         let claim = |share: f64| {
             let s = &Number::from(while_) * &Number::from(share);
-            separation::<S>(&sample, &plane, t, &s)
+            separation::<K>(&sample, &plane, t, &s)
         };
         Some([claim(0.0), claim(0.5).worse(claim(0.875)), claim(1.0)])
     };
@@ -71,14 +71,14 @@ fn planes_are_proved<S: Shape>(seed: u64, is_own: bool, side: &[usize]) {
 
 #[test]
 fn thick_planes_of_edges_separate_as_long_as_they_say() {
-    planes_are_proved::<Edges>(1, false, &[0, 1]);
-    planes_are_proved::<Edges>(2, true, &[0, 1]);
+    planes_are_proved::<EdgeEdge>(1, false, &[0, 1]);
+    planes_are_proved::<EdgeEdge>(2, true, &[0, 1]);
 }
 
 #[test]
 fn thick_planes_of_a_face_separate_as_long_as_they_say() {
-    planes_are_proved::<Face>(3, false, &[0]);
-    planes_are_proved::<Face>(4, true, &[0]);
+    planes_are_proved::<VertexFace>(3, false, &[0]);
+    planes_are_proved::<VertexFace>(4, true, &[0]);
 }
 
 /// Edges that turn about the line through their nearest points, at a distance of 1: no fixed plane keeps them apart, the
@@ -95,13 +95,13 @@ fn thick_planes_turn_with_the_edges() {
     // CD tilts: C goes up, D down.
     let end = [start[0], start[1], [0.0, -1.0, 1.5], [0.0, 1.0, 0.5]];
     let coordinates: Vec<f64> = [start, end].as_flattened().as_flattened().to_vec();
-    let sample = Sample::new::<Edges>(&coordinates, 0.8);
-    let here = Instant::new::<Edges, _>(&sample.moving, 0.0);
+    let sample = Sample::new::<EdgeEdge>(&coordinates, 0.8);
+    let here = Instant::new::<EdgeEdge, _>(&sample.moving, 0.0);
     let with = |turn: Vector| {
         let plane = Turning::between(here.way, turn);
         sample
             .moving
-            .stays_apart_turning::<Edges>(&here, &plane, 1.0)
+            .stays_apart_turning::<EdgeEdge>(&here, &plane, 1.0)
     };
     let fixed = with([0.0; 3]);
     assert!((0.39..0.41).contains(&fixed), "{fixed}");

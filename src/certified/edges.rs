@@ -1,0 +1,245 @@
+//! Two edges: where they are at the roots of the cubic.
+
+use super::cubic::Cubic;
+use super::ends::Ends;
+use super::exact::{self, Passage};
+use super::kind::{Kind, Stages, query_parts};
+use super::locate::Place;
+use super::motion::{Motion, Positions};
+use super::normal::{self, Normal};
+use super::refine::Root;
+use super::root::{Bracket, Half};
+use super::separate::SweptBoxes;
+use super::stage::{Finding, Stage};
+use super::start;
+use super::thick::{self, Gram, Spot};
+use crate::contact::{Case, ContactKind, EdgePlace, EdgePoint, Flags, Hit, PLACE_ERROR};
+use crate::query::{EdgeEdge, Point, QueryError, Radius};
+
+impl Kind for EdgeEdge {
+    type Place = EdgePlace;
+}
+
+#[allow(private_bounds, private_interfaces, reason = "as of the trait")]
+impl Stages<EdgePlace> for EdgeEdge {
+    const FIRST: usize = 2;
+
+    query_parts!();
+
+    fn normal(&self, hit: &Hit<EdgePlace>) -> Option<Normal> {
+        normal::of_edges(self, hit)
+    }
+
+    fn weights(place: &EdgePlace) -> ([f64; 4], Option<[f64; 4]>) {
+        (place.first.weights(), place.second.map(EdgePoint::weights))
+    }
+
+    #[inline(always)]
+    fn boxes<E: Ends>([a, b, c, d]: &[[E; 3]; 4], distance: f64) -> SweptBoxes {
+        SweptBoxes::around([a, b], [c, d], distance)
+    }
+
+    #[inline(always)]
+    fn motion<E: Ends>(points: &[[E; 3]; 4]) -> Motion<E> {
+        Motion::new(points)
+    }
+
+    #[inline(always)]
+    fn is_separated_by_centres<E: Ends>(motion: &Motion<E>, boxes: &SweptBoxes) -> bool {
+        motion.is_separated_by_centres(boxes)
+    }
+
+    #[inline(always)]
+    fn is_apart_in<E: Ends>(motion: &Motion<E>, cubic: &Cubic, half: &Half) -> bool {
+        motion.is_apart_in(cubic, half)
+    }
+
+    #[inline(never)]
+    fn decide_by_roots<E: Ends>(
+        positions: impl Fn() -> Positions,
+        boxes: &SweptBoxes,
+        motion: &Motion<E>,
+        cubic: Option<&Cubic>,
+        observe: &mut impl FnMut(Stage),
+    ) -> Option<Hit<EdgePlace>> {
+        if let Some(hit) = start::contact(&positions, motion, cubic) {
+            observe(Stage::Roots);
+            return Some(hit);
+        }
+        let finding = cubic.map_or(Finding::Undecided, |cubic| {
+            decide_by_cubic(&positions, motion, cubic)
+        });
+        match finding {
+            Finding::Hit(hit) => {
+                observe(Stage::Roots);
+                return Some(hit);
+            }
+            Finding::Miss => {
+                observe(Stage::Roots);
+                return None;
+            }
+            Finding::Undecided => {}
+        }
+        if motion.is_separated_by_search(boxes) {
+            observe(Stage::Search);
+            return None;
+        }
+        observe(Stage::Exact);
+        exact::decide_edges(&positions())
+    }
+
+    fn decide_exactly(positions: &Positions) -> Option<Hit<EdgePlace>> {
+        exact::decide_edges(positions)
+    }
+
+    fn case(positions: &Positions) -> Case {
+        exact::case_of_edges(positions)
+    }
+
+    /// `K = B - A`, `L = D - C`, `M = C - A`.
+    const DIFFERENCES: [(usize, usize); 3] = [(0, 1), (2, 3), (0, 2)];
+
+    const CORNERS: &'static [(f64, f64)] = &[(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)];
+
+    const MIDDLE: (f64, f64) = (0.5, 0.5);
+
+    #[inline(always)]
+    fn least_corner<E: Ends>(k: E, l: E, m: E) -> E {
+        let zero = E::both(0.0);
+        m + l.smaller(zero) - k.larger(zero)
+    }
+
+    #[inline(always)]
+    fn nearest(gram: &Gram) -> Spot {
+        thick::nearest_on_edges(gram)
+    }
+
+    fn place(u: f64, v: f64, error: f64) -> EdgePlace {
+        EdgePlace {
+            first: EdgePoint { u, v },
+            second: None,
+            error,
+        }
+    }
+
+    fn crosses_at<E: Ends>(points: &[[E; 3]; 4], cubic: &Cubic, bracket: &Bracket) -> Option<bool> {
+        match Motion::new(points).meeting(cubic, bracket).place() {
+            Place::Apart => Some(false),
+            Place::Inside { .. } => Some(true),
+            Place::Unclear => None,
+        }
+    }
+
+    fn passage(positions: &Positions) -> Passage {
+        exact::passage_of_edges(positions)
+    }
+
+    fn decide_thick_exactly(positions: &Positions, radius: Radius) -> Option<Hit<EdgePlace>> {
+        exact::decide_thick_edges(positions, radius)
+    }
+}
+
+/// Edges that touch are coplanar: the first root of the cubic at which the lines meet inside both
+/// edges is the contact. Undecided as soon as one root is not certain.
+fn decide_by_cubic<E: Ends>(
+    positions: &impl Fn() -> Positions,
+    motion: &Motion<E>,
+    cubic: &Cubic,
+) -> Finding<Hit<EdgePlace>> {
+    let is_apart = |low, high| {
+        motion
+            .meeting(cubic, &Bracket::around(low, high))
+            .is_apart()
+    };
+    let Some(brackets) = cubic.isolate(is_apart) else {
+        return Finding::Undecided;
+    };
+    for bracket in brackets.as_slice() {
+        match decide_at_root(positions, motion, cubic, bracket) {
+            Finding::Miss => continue,
+            finding => return finding,
+        }
+    }
+    Finding::Miss
+}
+
+/// Whether the edges touch at the root in a bracket.
+#[inline(always)]
+fn decide_at_root<E: Ends>(
+    positions: &impl Fn() -> Positions,
+    motion: &Motion<E>,
+    cubic: &Cubic,
+    bracket: &Bracket,
+) -> Finding<Hit<EdgePlace>> {
+    let mut bracket = *bracket;
+    let mut place = motion.meeting(cubic, &bracket).place();
+    if let Place::Unclear = place {
+        let Some((sharp, _)) = cubic.sharpen(&bracket) else {
+            return Finding::Undecided;
+        };
+        bracket = sharp;
+        place = motion.meeting(cubic, &bracket).place();
+    }
+    match place {
+        Place::Apart => Finding::Miss,
+        Place::Inside { .. } => Finding::of_certain(hit(positions, motion, cubic, &bracket)),
+        Place::Unclear => decide_near_end(&positions(), motion, cubic, &bracket),
+    }
+}
+
+/// Whether the edges touch at the root in a sharpened bracket where the lines meet near an edge's end.
+#[inline(never)]
+fn decide_near_end<E: Ends>(
+    positions: &Positions,
+    motion: &Motion<E>,
+    cubic: &Cubic,
+    bracket: &Bracket,
+) -> Finding<Hit<EdgePlace>> {
+    let Some(root) = Root::new(positions, cubic, bracket) else {
+        return Finding::Undecided;
+    };
+    match root.meeting(positions, motion, cubic).place() {
+        Place::Apart => Finding::Miss,
+        place => {
+            let toi = root.round_down();
+            Finding::of_certain(toi.and_then(|toi| crossing(toi, bracket, place)))
+        }
+    }
+}
+
+/// The contact at a root at which the lines meet inside both edges, if its time is certain.
+fn hit<E: Ends>(
+    positions: &impl Fn() -> Positions,
+    motion: &Motion<E>,
+    cubic: &Cubic,
+    bracket: &Bracket,
+) -> Option<Hit<EdgePlace>> {
+    let toi = Root::new(&positions(), cubic, bracket)?.round_down()?;
+    let at_toi = Bracket {
+        low: toi,
+        high: toi.next_up(),
+        ..*bracket
+    };
+    crossing(toi, bracket, motion.meeting(cubic, &at_toi).place())
+}
+
+/// The contact at a simple root strictly inside the step, strictly inside both edges.
+///
+/// `f` changes sign there and the lines meet at an angle: a crossing of general motion.
+fn crossing(toi: f64, bracket: &Bracket, place: Place) -> Option<Hit<EdgePlace>> {
+    let Place::Inside { u, v, error } = place else {
+        return None;
+    };
+    if error > PLACE_ERROR {
+        return None;
+    }
+    Some(Hit {
+        toi,
+        toi_above: toi.next_up(),
+        kind: ContactKind::Crossing,
+        side: if bracket.is_rising { -1 } else { 1 },
+        case: Case::General,
+        flags: Flags::default(),
+        place: EdgeEdge::place(u, v, error),
+    })
+}

@@ -1,0 +1,123 @@
+//! The two kinds of queries, two edges or a vertex and a face: what the stages ask of them.
+
+use super::cubic::Cubic;
+use super::ends::Ends;
+use super::exact::Passage;
+use super::motion::{Motion, Positions};
+use super::normal::Normal;
+use super::root::{Bracket, Half};
+use super::separate::SweptBoxes;
+use super::stage::Stage;
+use super::thick::{Gram, Spot};
+use crate::contact::{Case, Hit};
+use crate::query::{Point, QueryError, Radius};
+
+/// A kind of query that the certified path decides: [`EdgeEdge`](crate::query::EdgeEdge) or
+/// [`VertexFace`](crate::query::VertexFace).
+///
+/// The trait is sealed: no other type can be one. `decide(&query)` and `Batch` take either.
+pub trait Kind: Stages<<Self as Kind>::Place> + Copy + Send + Sync + 'static {
+    /// Where the two sides touch: [`EdgePlace`](crate::contact::EdgePlace) or
+    /// [`FacePlace`](crate::contact::FacePlace).
+    type Place: Copy + Send;
+}
+
+/// A kind of query, as the stages see it. `P` is its place.
+///
+/// The first methods are of a query, those after them of a motion without a radius, the last ones of a
+/// motion with one.
+#[allow(
+    private_bounds,
+    private_interfaces,
+    reason = "it seals `Kind`: nobody outside can name it"
+)]
+pub trait Stages<P>: Sized {
+    /// How many of the four points are of the first side.
+    const FIRST: usize;
+
+    /// The query of four points given at `t = 0` and `t = 1`.
+    fn of_points(start: [Point; 4], end: [Point; 4], radius: Radius) -> Result<Self, QueryError>;
+
+    /// The points at both ends of the step and the radius.
+    fn parts(&self) -> ([&[Point; 4]; 2], Radius);
+
+    /// The direction in which they touch, and where they do.
+    fn normal(&self, hit: &Hit<P>) -> Option<Normal>;
+
+    /// The weights of A, B, C and D in the places of a contact.
+    fn weights(place: &P) -> ([f64; 4], Option<[f64; 4]>);
+
+    /// The swept boxes, disjoint if they are farther apart than a distance.
+    fn boxes<E: Ends>(points: &[[E; 3]; 4], distance: f64) -> SweptBoxes;
+
+    /// The differences with which contact is where `f` is 0.
+    fn motion<E: Ends>(points: &[[E; 3]; 4]) -> Motion<E>;
+
+    /// Whether the direction from one middle to the other separates the two.
+    fn is_separated_by_centres<E: Ends>(motion: &Motion<E>, boxes: &SweptBoxes) -> bool;
+
+    /// Whether the two certainly do not touch at a root in a half of the step.
+    fn is_apart_in<E: Ends>(motion: &Motion<E>, cubic: &Cubic, half: &Half) -> bool;
+
+    /// The stages from the roots of the cubic on.
+    fn decide_by_roots<E: Ends>(
+        positions: impl Fn() -> Positions,
+        boxes: &SweptBoxes,
+        motion: &Motion<E>,
+        cubic: Option<&Cubic>,
+        observe: &mut impl FnMut(Stage),
+    ) -> Option<Hit<P>>;
+
+    /// The answer of integers.
+    fn decide_exactly(positions: &Positions) -> Option<Hit<P>>;
+
+    /// The case of the motion, decided in integers.
+    fn case(positions: &Positions) -> Case;
+
+    /// From which of A, B, C and D to which one `K`, `L` and `M` are with a radius: the vectors from a point of
+    /// the first side to one of the second are `M + v L - u K`.
+    const DIFFERENCES: [(usize, usize); 3];
+
+    /// The corners of the set of `(u, v)`; each number is 0 or 1.
+    const CORNERS: &'static [(f64, f64)];
+
+    /// The mean of the corners.
+    const MIDDLE: (f64, f64);
+
+    /// The least product of a corner with a vector, from those of `K`, `L` and `M`.
+    fn least_corner<E: Ends>(k: E, l: E, m: E) -> E;
+
+    /// About where the difference is nearest to 0.
+    fn nearest(gram: &Gram) -> Spot;
+
+    /// The place of `(u, v)` up to an error.
+    fn place(u: f64, v: f64, error: f64) -> P;
+
+    /// Whether the two sides without their radius touch strictly inside at a root of `f`, if that is certain.
+    fn crosses_at<E: Ends>(points: &[[E; 3]; 4], cubic: &Cubic, bracket: &Bracket) -> Option<bool>;
+
+    /// What integers say of the two sides without their radius.
+    fn passage(positions: &Positions) -> Passage;
+
+    /// The answer of integers with a radius above 0.
+    fn decide_thick_exactly(positions: &Positions, radius: Radius) -> Option<Hit<P>>;
+}
+
+/// The parts of a query that its type itself knows.
+macro_rules! query_parts {
+    () => {
+        fn of_points(
+            start: [Point; 4],
+            end: [Point; 4],
+            radius: Radius,
+        ) -> Result<Self, QueryError> {
+            Self::new(start, end, radius)
+        }
+
+        fn parts(&self) -> ([&[Point; 4]; 2], Radius) {
+            ([self.start(), self.end()], self.radius())
+        }
+    };
+}
+
+pub(super) use query_parts;
