@@ -4,17 +4,21 @@
 
 use std::error::Error;
 
-use tunnelproof::scenario::analytic::CASES;
+#[path = "../tests/analytic/mod.rs"]
+mod analytic;
+
+use analytic::CASES;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    println!("| case | what | expected | measured | deviation | tolerance |");
-    println!("| --- | --- | --- | --- | --- | --- |");
+    println!("| case | formula | what | expected | measured | deviation | tolerance |");
+    println!("| --- | --- | --- | --- | --- | --- | --- |");
     let mut missed = 0;
     for case in CASES {
         for row in (case.run)()? {
             println!(
-                "| {} | {} | {:.6e} | {:.6e} | {:.1e} | {:.0e} |{}",
+                "| {} | {} | {} | {:.6e} | {:.6e} | {:.1e} | {:.0e} |{}",
                 case.name,
+                case.formula,
                 row.what,
                 row.expected,
                 row.measured,

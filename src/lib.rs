@@ -13,7 +13,6 @@ mod closest;
 pub mod contact;
 pub mod narrow;
 pub mod query;
-pub mod scenario;
 pub mod thesis;
 #[cfg(feature = "wire")]
 pub mod wire;

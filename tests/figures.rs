@@ -3,8 +3,8 @@
 
 use num_bigint::BigInt;
 use tunnelproof::query::{Query, QueryKind};
-use tunnelproof::scenario::figures::FIGURES;
 use tunnelproof_reference::field::{self, Integer, Ratio};
+use tunnelproof_reference::figures::FIGURES;
 use tunnelproof_reference::{difference, oracle};
 
 fn oracle_confirms_every_figure<Z: Integer>() {

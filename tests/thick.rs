@@ -11,8 +11,8 @@ use tunnelproof::certified::{
     decide_vertex_face_exactly,
 };
 use tunnelproof::query::{Point, Query, QueryKind};
-use tunnelproof::scenario::figures::FIGURES;
 use tunnelproof_reference::answer::{Enclosure, ExactAnswer, Parameters};
+use tunnelproof_reference::figures::FIGURES;
 use tunnelproof_reference::generate::{Family, OTHER_KINDS};
 use tunnelproof_reference::oracle;
 

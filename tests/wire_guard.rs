@@ -3,7 +3,6 @@
 //!
 //! `TUNNELPROOF_SCENES=10000 cargo test --release --test wire_guard` for more scenes.
 
-#![cfg(feature = "wire")]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -1,9 +1,10 @@
 //! Every case with a known answer, within its tolerance.
 
-#![cfg(feature = "wire")]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use tunnelproof::scenario::analytic::CASES;
+mod analytic;
+
+use analytic::CASES;
 
 /// One test for each case, so that they run side by side and fail one by one.
 macro_rules! cases {
@@ -14,7 +15,7 @@ macro_rules! cases {
             let rows = (case.run)().unwrap();
             assert!(!rows.is_empty());
             for row in rows {
-                assert!(row.holds(), "{}: {row:?}, off by {:e}", case.name, row.deviation());
+                assert!(row.holds(), "{} ({}): {row:?}, off by {:e}", case.name, case.formula, row.deviation());
             }
         })*
 

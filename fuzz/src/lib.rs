@@ -1,7 +1,7 @@
 //! What the programs in `fuzz_targets/` have in common. The targets themselves are
-//! `tunnelproof_reference::fuzz`.
+//! `tunnelproof_cli::fuzz`.
 
-use tunnelproof_reference::fuzz;
+use tunnelproof_cli::fuzz;
 
 /// Runs a target on the bytes of the fuzzer.
 ///

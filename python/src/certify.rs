@@ -13,7 +13,7 @@ use tunnelproof_reference::certify::source::Source;
 use tunnelproof_reference::certify::table;
 use tunnelproof_reference::generate;
 use tunnelproof_reference::report::merge::{Kept, merge as join};
-use tunnelproof_reference::report::page;
+use tunnelproof_cli::report::page;
 use tunnelproof_reference::report::results::Results;
 
 use crate::method::Method;

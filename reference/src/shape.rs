@@ -6,15 +6,18 @@ use tunnelproof::query::{Point, Query, QueryKind};
 
 /// The numbers of a query.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Shape {
-    pub(crate) kind: QueryKind,
+pub struct Shape {
+    /// Edges, or a vertex and a face.
+    pub kind: QueryKind,
     /// x, y and z of A, B, C and D at `t = 0`, then at `t = 1`.
-    pub(crate) numbers: [f64; 24],
-    pub(crate) radii: [f64; 2],
+    pub numbers: [f64; 24],
+    /// In metres, of the first side and of the second.
+    pub radii: [f64; 2],
 }
 
 impl Shape {
-    pub(crate) fn new(query: &Query) -> Self {
+    /// The numbers of a query.
+    pub fn new(query: &Query) -> Self {
         let mut numbers = [0.0; 24];
         let points = query.start().iter().chain(query.end());
         for (place, number) in numbers
@@ -31,23 +34,24 @@ impl Shape {
     }
 
     /// The query, if the numbers are those of one.
-    pub(crate) fn query(&self) -> Option<Query> {
+    pub fn query(&self) -> Option<Query> {
         let point = |index: usize| Point::from(self.position(index));
         let (start, end) = ([0, 1, 2, 3].map(point), [4, 5, 6, 7].map(point));
         Query::new(self.kind, start, end, self.radii).ok()
     }
 
     /// One of eight positions: A, B, C, D at the start and A, B, C, D at the end.
-    pub(crate) fn position(&self, index: usize) -> [f64; 3] {
+    pub fn position(&self, index: usize) -> [f64; 3] {
         [0, 1, 2].map(|axis| self.numbers[3 * index + axis])
     }
 
-    pub(crate) fn set_position(&mut self, index: usize, position: [f64; 3]) {
+    /// Puts one of the eight positions elsewhere.
+    pub fn set_position(&mut self, index: usize, position: [f64; 3]) {
         self.numbers[3 * index..][..3].copy_from_slice(&position);
     }
 
     /// The same with another position at each index.
-    pub(crate) fn permuted(&self, index: [usize; 8]) -> Self {
+    pub fn permuted(&self, index: [usize; 8]) -> Self {
         let mut shape = *self;
         for (to, from) in index.into_iter().enumerate() {
             shape.set_position(to, self.position(from));
@@ -56,7 +60,7 @@ impl Shape {
     }
 
     /// The same with these numbers, by their index, changed; a 0 is always the positive one.
-    pub(crate) fn changed(
+    pub fn changed(
         &self,
         indices: impl IntoIterator<Item = usize>,
         change: impl Fn(f64) -> f64,

@@ -33,9 +33,6 @@ mod settings;
 mod solve;
 mod step;
 
-#[cfg(feature = "scenes")]
-pub(crate) use model::check;
-
 pub use collide::{
     CollisionError, CollisionRecord, Collisions, Crossing, Held, Mode, Outcome, PairAnswer,
     PairFilter, PairRecord, SegmentId, Site,

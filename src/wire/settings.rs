@@ -8,12 +8,10 @@ use super::model::check::{finite_vector, not_negative, positive};
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
-#[cfg_attr(feature = "scenes", derive(schemars::JsonSchema))]
 pub struct Settings {
     /// Time step `h` in s; usual value 1/60.
     pub step: f64,
     /// Acceleration of free fall in m/s^2; usual value (0, 0, -9.80665).
-    #[cfg_attr(feature = "scenes", schemars(with = "[f64; 3]"))]
     pub gravity: Vector,
     /// How far a penetrating contact gives way, in m/N; usual value 1e-8.
     pub contact_compliance: f64,

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use crate::figures::FIGURES;
 use tunnelproof::query::Query;
-use tunnelproof::scenario::figures::FIGURES;
 
 use crate::corpus::{self, CorpusError, Entries, Entry, ReadOptions};
 use crate::generate::{Family, GeneratedId};

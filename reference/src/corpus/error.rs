@@ -3,8 +3,8 @@
 use std::fmt;
 use std::io;
 
+use crate::figures::FIGURES;
 use tunnelproof::query::{QueryError, QueryKind};
-use tunnelproof::scenario::figures::FIGURES;
 
 use super::csv::LONGEST_INTEGER;
 use super::dyadic::NotF64;

@@ -1,7 +1,7 @@
 //! The cases of thesis section 4.1 as queries, named `figure:4.1` to `figure:4.12`.
 
+use crate::figures::{FIGURES, Figure};
 use tunnelproof::query::Query;
-use tunnelproof::scenario::figures::{FIGURES, Figure};
 
 use super::Entry;
 

@@ -55,7 +55,7 @@ pub fn write(entry: &Entry, numbers: Numbers) -> String {
 }
 
 /// A radius as JSON: the number, or the two whose sum it is.
-pub(crate) fn radius(radius: Radius, numbers: Numbers) -> Value {
+pub fn radius(radius: Radius, numbers: Numbers) -> Value {
     match radius.parts() {
         [radius, 0.0] => number(radius, numbers),
         parts => json!(parts.map(|part| number(part, numbers))),

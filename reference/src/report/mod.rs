@@ -1,17 +1,5 @@
-//! What is written down about queries and answers: lines of JSON, text and pictures.
+//! Answers and certificates as JSON, which is read again and merged.
 
 pub mod answer;
-pub mod audit;
-mod caption;
-pub mod explanation;
-pub mod junit;
-mod labels;
 pub mod merge;
-mod number;
-pub mod page;
-pub mod picture;
-pub mod prices;
 pub mod results;
-mod svg;
-pub mod tuning;
-mod view;

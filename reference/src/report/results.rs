@@ -262,7 +262,7 @@ fn subject(judged: &Judged, tally: &Tally) -> SubjectRow {
 }
 
 /// What a subject says, as JSON.
-pub(super) fn written(answer: &Statement) -> Value {
+pub fn written(answer: &Statement) -> Value {
     match answer {
         Statement::Answer(answer) => json!(Fields::new(answer)),
         Statement::Written(answer) => answer.clone(),

@@ -3,15 +3,22 @@
 use super::segment::Closest;
 use super::*;
 use crate::query::Point;
-use crate::scenario::scenes::Scene;
 use crate::wire::{
     BodyId, BodyPlan, Drive, Material, Phase, Reason, Remesh, RemeshKind, Settings, Shape, Stop,
     Vector, WireId, WirePlan,
 };
 
+/// Scene 1 of the thesis (4.2.1.1): a wire falls on two others at 10 m/s.
 fn basic_collision() -> World {
-    let scene = Scene::embedded("basic-collision").unwrap();
-    scene.world().unwrap()
+    let mut world = World::new(Settings::default()).unwrap();
+    for x in [-0.5, 0.5] {
+        let fixed = straight([x, -1.0, 0.0], [x, 1.0, 0.0], Stop::Pinned);
+        world.add_wire(&fixed).unwrap();
+    }
+    let mut falling = straight([-1.0, 0.0, 0.1], [1.0, 0.0, 0.1], Stop::Free);
+    falling.velocity = Vector::new(0.0, 0.0, -10.0);
+    world.add_wire(&falling).unwrap();
+    world
 }
 
 fn weightless() -> World {
@@ -28,7 +35,7 @@ fn straight(from: [f64; 3], to: [f64; 3], stop: fn(Point) -> Stop) -> WirePlan {
     WirePlan::new(Material::steel(0.02), 0.25, route.to_vec())
 }
 
-/// `scenario::rows` has how many of each; here is their order.
+/// `cli/src/rows` has how many of each; here is their order.
 #[test]
 fn basic_collision_in_thesis_mode_tunnels_twice_and_is_pushed_back_twice() {
     let mut world = basic_collision();

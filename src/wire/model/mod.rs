@@ -1,7 +1,7 @@
 //! What is simulated: bodies, wires, and the world that holds them.
 
 mod body;
-pub(crate) mod check;
+pub(super) mod check;
 mod error;
 mod material;
 mod mesh;

@@ -1,0 +1,151 @@
+//! What an audit finds.
+
+use std::fmt;
+
+use serde::{Serialize, Serializer};
+use tunnelproof::query::{EdgeEdge, Query};
+use tunnelproof::wire::SegmentId;
+
+use tunnelproof_reference::certify::table;
+use tunnelproof_reference::corpus::Entry;
+use tunnelproof_reference::corpus::jsonl::{self, Numbers};
+
+/// Something that is not as it has to be.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Finding {
+    /// The step, from 0.
+    pub step: u64,
+    /// What is wrong.
+    #[serde(flatten)]
+    pub what: What,
+    /// The segments, numbered as before the motion; of a change of resolution, the one that is met.
+    #[serde(serialize_with = "as_text")]
+    pub segments: Vec<SegmentId>,
+    /// The witness, as a line that every command reads.
+    #[serde(serialize_with = "as_line")]
+    pub query: Option<EdgeEdge>,
+}
+
+/// What is wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(tag = "what", rename_all = "snake_case")]
+pub enum What {
+    /// Midlines meet in the motion that was made, and it was not reported.
+    Missed {
+        /// Who missed it.
+        by: Culprit,
+        /// Whether they pass through each other inside both segments. A contact at a node may be a passage too.
+        crossing: bool,
+    },
+    /// The time of impact that was reported is after the exact one: by how much, as a part of the step.
+    Late {
+        /// How much.
+        by: f64,
+    },
+    /// The time of impact that was reported is before the exact one, rounded down.
+    Early {
+        /// How much.
+        by: f64,
+    },
+    /// Midlines were reported to meet, and do not.
+    False,
+    /// A change of resolution passes through another segment.
+    Remesh,
+    /// A wire does not start where the step before left it.
+    Jump {
+        /// The wire.
+        wire: usize,
+    },
+    /// Numbers that are no motion: not finite, or too few.
+    Unsound {
+        /// The wire.
+        wire: usize,
+    },
+}
+
+/// Who missed a contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Culprit {
+    /// The broad phase did not name the pair.
+    Broad,
+    /// The pair was excluded as too slow.
+    Exclusion,
+    /// The narrow phase said that they do not meet.
+    Narrow,
+}
+
+impl Finding {
+    /// Whether something passed, or may have passed, unnoticed: the others are about numbers.
+    pub fn is_tunnel(&self) -> bool {
+        !matches!(
+            self.what,
+            What::Late { .. } | What::Early { .. } | What::False
+        )
+    }
+
+    fn entry(&self) -> Option<Entry> {
+        let id = format!("step-{}", self.step);
+        self.query
+            .map(|query| Entry::unlabelled(id, Query::EdgeEdge(query)))
+    }
+
+    /// The command that explains the witness, ready to paste into a shell.
+    pub fn command(&self) -> Option<String> {
+        self.entry().map(|entry| table::explain_line(&entry))
+    }
+}
+
+fn as_text<S: Serializer>(segments: &[SegmentId], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(segments.iter().map(|id| [id.wire.0, id.segment]))
+}
+
+fn as_line<S: Serializer>(query: &Option<EdgeEdge>, serializer: S) -> Result<S::Ok, S::Error> {
+    let entry = query.map(|query| Entry::unlabelled("witness", Query::EdgeEdge(query)));
+    entry
+        .map(|entry| jsonl::write(&entry, Numbers::Decimal))
+        .serialize(serializer)
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "step {}: {}", self.step, self.what)?;
+        for (k, SegmentId { wire, segment }) in self.segments.iter().enumerate() {
+            let word = if k == 0 { ":" } else { " and" };
+            write!(f, "{word} wire {} segment {segment}", wire.0)?;
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for What {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            What::Missed { by, crossing } => {
+                let what = if *crossing { "crossing" } else { "contact" };
+                write!(f, "{what} missed by {by}")
+            }
+            What::Late { by } => write!(f, "time of impact {by:e} of a step late"),
+            What::Early { by } => write!(f, "time of impact {by:e} of a step early"),
+            What::False => f.write_str("reported to meet, and do not"),
+            What::Remesh => f.write_str("a change of resolution passes through"),
+            What::Jump { wire } => {
+                write!(
+                    f,
+                    "wire {wire} does not start where the step before left it"
+                )
+            }
+            What::Unsound { wire } => write!(f, "wire {wire} has numbers that are no motion"),
+        }
+    }
+}
+
+impl fmt::Display for Culprit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Culprit::Broad => "the broad phase",
+            Culprit::Exclusion => "the exclusion of slow pairs",
+            Culprit::Narrow => "the narrow phase",
+        })
+    }
+}

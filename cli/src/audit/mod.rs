@@ -1,0 +1,297 @@
+//! Simulations checked for missed tunnels.
+//!
+//! An [`Audit`] reads the records of a simulation and knows nothing else of it. In every step it asks the oracle about
+//! every pair of segments whose swept boxes meet, of one wire too, and about every change of resolution, and compares with what
+//! the simulation reported:
+//!
+//! - a contact in the motion that was made and that was not reported is *missed*: by the broad phase, which did not name
+//!   the pair, by the exclusion of slow pairs, or by the narrow phase;
+//! - a time of impact that was reported, also in a motion that was tried and not made, is right, early or late;
+//! - a wire that does not start where the step before left it *jumped*: nobody has looked at how it got there;
+//! - the ledger sums up signed passages of each pair of wires. What is not 0 at the end is a *standing tunnel*.
+//!
+//! Pairs that share a node or are fixed to one point are left out. Boxes are compared and not computed, so
+//! nothing is rounded anywhere; the ledger alone looks at wires moved aside by a millionth of their radius.
+
+mod finding;
+mod ledger;
+mod remesh;
+mod segments;
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+use serde::Serialize;
+use tunnelproof::contact::ContactKind;
+use tunnelproof::query::{EdgeEdge, Point, Query};
+use tunnelproof::wire::{Outcome, PairAnswer, SegmentId, StepRecord};
+
+use ledger::Ledger;
+use remesh::Wires;
+use segments::{Segment, candidates, moving, query};
+use tunnelproof_reference::answer::ExactHit;
+use tunnelproof_reference::oracle::decide_query;
+
+pub use finding::{Culprit, Finding, What};
+
+/// How many findings are kept; the others are counted.
+pub const MOST_FINDINGS: usize = 1000;
+
+/// An audit under way.
+pub struct Audit {
+    ledger: Ledger,
+    left: Option<Wires>,
+    report: Report,
+}
+
+/// What an audit came to.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Report {
+    /// Steps looked at.
+    pub steps: u64,
+    /// Pairs of segments whose swept boxes met: the questions to the oracle.
+    pub pairs: u64,
+    /// Changes of resolution.
+    pub remeshes: u64,
+    /// Contacts in the motions that were made.
+    pub contacts: u64,
+    /// Of these, crossings.
+    pub crossings: u64,
+    /// Crossings that were reported in motions that were tried and not made.
+    pub prevented: u64,
+    /// Contacts missed by the broad phase, the exclusion of slow pairs and the narrow phase.
+    pub missed: [u64; 3],
+    /// Of all contacts missed, crossings.
+    pub missed_crossings: u64,
+    /// Changes of resolution that passed through a segment.
+    pub remeshes_through: u64,
+    /// Wires that jumped, or had numbers that are no motion.
+    pub jumps: u64,
+    /// Times of impact that were late, and the worst.
+    pub late: (u64, f64),
+    /// Times of impact that were early, and the worst.
+    pub early: (u64, f64),
+    /// Contacts reported that are none.
+    pub false_hits: u64,
+    /// Pairs of wires that have passed through each other at the end: wires and signed number.
+    pub standing: Vec<([usize; 2], i64)>,
+    /// The first of all that is wrong, at most [`MOST_FINDINGS`].
+    pub findings: Vec<Finding>,
+}
+
+impl Report {
+    /// Whether nothing passed unnoticed and nothing stands on the wrong side.
+    pub fn is_clean(&self) -> bool {
+        self.unnoticed() == 0 && self.standing.is_empty()
+    }
+
+    /// Whether every time of impact was right as well, to the last bit, and no contact made up.
+    pub fn is_exact(&self) -> bool {
+        self.is_clean() && self.inexact() == 0
+    }
+
+    /// How much passed unnoticed, and how often a wire jumped.
+    pub fn unnoticed(&self) -> u64 {
+        self.missed.iter().sum::<u64>() + self.remeshes_through + self.jumps
+    }
+
+    /// How often what was reported is not exact: late, early or no contact.
+    pub fn inexact(&self) -> u64 {
+        self.late.0 + self.early.0 + self.false_hits
+    }
+
+    fn add(&mut self, finding: Finding) {
+        let worst = |worst: &mut (u64, f64), by: f64| *worst = (worst.0 + 1, worst.1.max(by));
+        match finding.what {
+            What::Missed { by, crossing } => {
+                self.missed[by as usize] += 1;
+                self.missed_crossings += u64::from(crossing);
+            }
+            What::Late { by } => worst(&mut self.late, by),
+            What::Early { by } => worst(&mut self.early, by),
+            What::False => self.false_hits += 1,
+            What::Remesh => self.remeshes_through += 1,
+            What::Jump { .. } | What::Unsound { .. } => self.jumps += 1,
+        }
+        if self.findings.len() < MOST_FINDINGS {
+            self.findings.push(finding);
+        }
+    }
+}
+
+impl Audit {
+    /// An audit of wires with these radii in m.
+    pub fn new(radii: Vec<f64>) -> Self {
+        Audit {
+            ledger: Ledger::new(radii),
+            left: None,
+            report: Report::default(),
+        }
+    }
+
+    /// Looks at the next step.
+    pub fn step(&mut self, record: &StepRecord) {
+        self.report.steps += 1;
+        let unsound = unsound(record);
+        for &wire in &unsound {
+            self.find(record, What::Unsound { wire }, &[], None);
+        }
+        if let Some(left) = self.left.take() {
+            for wire in left.jumped(record) {
+                self.find(record, What::Jump { wire }, &[], None);
+            }
+        }
+        if unsound.is_empty() {
+            self.motion(record);
+            self.prevented(record);
+            self.ledger.step(record);
+            self.left = Some(self.remeshes(record));
+        }
+    }
+
+    /// What it came to.
+    pub fn finish(mut self) -> Report {
+        self.report.standing = self.ledger.standing();
+        self.report
+    }
+
+    fn find(
+        &mut self,
+        record: &StepRecord,
+        what: What,
+        segments: &[SegmentId],
+        query: Option<EdgeEdge>,
+    ) {
+        self.report.add(Finding {
+            step: record.step,
+            what,
+            segments: segments.to_vec(),
+            query,
+        });
+    }
+
+    /// The motion that was made, pair by pair.
+    fn motion(&mut self, record: &StepRecord) {
+        let segments = moving(record, |_, _, at| at);
+        let pairs = candidates(&segments);
+        self.report.pairs += pairs.len() as u64;
+        let mut said: BTreeMap<_, _> = (record.collisions.pairs.iter())
+            .map(|said| (ordered(said.pair), said.answer))
+            .collect();
+        let asked = |pair: [usize; 2]| {
+            let [a, b] = pair.map(|k| &segments[k]);
+            Some(([a.id, b.id], exact(a, b)?))
+        };
+        let met: Vec<_> = pairs.into_par_iter().filter_map(asked).collect();
+        for (pair, (query, hit)) in met {
+            self.report.contacts += 1;
+            let crossing = hit.kind == ContactKind::Crossing || hit.crosses;
+            self.report.crossings += u64::from(crossing);
+            let missed = |by| Some(What::Missed { by, crossing });
+            let what = match said.remove(&pair) {
+                Some(PairAnswer::Met { toi }) => timed(toi, &hit),
+                Some(PairAnswer::Apart) => missed(Culprit::Narrow),
+                Some(PairAnswer::Excluded) => missed(Culprit::Exclusion),
+                None => missed(Culprit::Broad),
+            };
+            if let Some(what) = what {
+                self.find(record, what, &pair, Some(query));
+            }
+        }
+        // Those that meet are taken out.
+        for (pair, answer) in said {
+            if let PairAnswer::Met { .. } = answer {
+                let of = |id: &SegmentId| segments.iter().find(|segment| segment.id == *id);
+                let two = of(&pair[0]).zip(of(&pair[1]));
+                let query = two.and_then(|(a, b)| query(a, b).ok());
+                self.find(record, What::False, &pair, query);
+            }
+        }
+    }
+
+    /// Contacts in motions that were tried and not made.
+    fn prevented(&mut self, record: &StepRecord) {
+        let crossings = record.collisions.crossings.iter();
+        for crossing in crossings.filter(|crossing| crossing.outcome == Outcome::Prevented) {
+            self.report.prevented += 1;
+            let query = EdgeEdge::new(crossing.start, crossing.end, 0.0).ok();
+            let hit = query.and_then(first_contact);
+            let what = match hit {
+                Some(hit) => timed(crossing.toi, &hit),
+                None => Some(What::False),
+            };
+            if let Some(what) = what {
+                self.find(record, what, &[], query);
+            }
+        }
+    }
+
+    /// The changes of resolution one by one; where they leave the wires.
+    fn remeshes(&mut self, record: &StepRecord) -> Wires {
+        let mut wires = Wires::after(record);
+        for change in &record.remeshes {
+            self.report.remeshes += 1;
+            match wires.meetings(change) {
+                None => self.find(
+                    record,
+                    What::Jump {
+                        wire: change.wire.0,
+                    },
+                    &[],
+                    None,
+                ),
+                Some(met) => {
+                    for (id, query) in met {
+                        self.find(record, What::Remesh, &[id], Some(query));
+                    }
+                    self.ledger.remesh(&wires, change);
+                    wires.make(change);
+                }
+            }
+        }
+        wires
+    }
+}
+
+/// Wires with numbers that are no motion.
+fn unsound(record: &StepRecord) -> Vec<usize> {
+    let sound = |(_, wire): &(usize, &tunnelproof::wire::WireRecord)| {
+        let finite = |points: &[Point]| {
+            points
+                .iter()
+                .all(|point| point.iter().all(|x| x.is_finite()))
+        };
+        let nodes = wire.before.len();
+        let even = [wire.after.len(), wire.arcs.len(), wire.kinds.len()] == [nodes; 3];
+        even && nodes >= 2 && finite(&wire.before) && finite(&wire.after)
+    };
+    let wires = record.wires.iter().enumerate();
+    wires.filter(|wire| !sound(wire)).map(|(w, _)| w).collect()
+}
+
+fn ordered([a, b]: [SegmentId; 2]) -> [SegmentId; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// The exact contact of two segments, if there is one.
+fn exact(a: &Segment, b: &Segment) -> Option<(EdgeEdge, ExactHit)> {
+    let query = query(a, b).ok()?;
+    Some((query, first_contact(query)?))
+}
+
+/// The exact first contact.
+fn first_contact(query: EdgeEdge) -> Option<ExactHit> {
+    decide_query(&Query::EdgeEdge(query)).hit
+}
+
+/// What is wrong with a time of impact; right is the exact one rounded down.
+fn timed(toi: f64, hit: &ExactHit) -> Option<What> {
+    let by = (toi - hit.toi.below).abs();
+    match toi.partial_cmp(&hit.toi.below) {
+        Some(std::cmp::Ordering::Equal) => None,
+        Some(std::cmp::Ordering::Less) => Some(What::Early { by }),
+        _ => Some(What::Late { by }),
+    }
+}

@@ -1,0 +1,308 @@
+//! Faults are planted, and found; where there are none, nothing is found.
+
+use std::cell::Cell;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use crate::scenes::Scene;
+use tunnelproof::broad::Method;
+use tunnelproof::certified::Certified;
+use tunnelproof::contact::{Contact, Verdict};
+use tunnelproof::narrow::{self, NarrowPhase, Unsupported};
+use tunnelproof::wire::{
+    Collisions, Mode, NodeKind, Remesh, RemeshKind, WireId, WireRecord, World,
+};
+
+use super::*;
+
+/// A chain in the form of an alpha, whose free end is thrown at the other one, which is fixed.
+const ALPHA: &str = r#"
+title = "alpha"
+duration = 1
+settings = { gravity = [0, 0, 0] }
+[[wires]]
+name = "chain"
+material = { radius = 0.02, bend_modulus = 0 }
+resolution = 3
+adaptive = false
+velocity = [0, 0, -20]
+route = [{ pinned = [0, 0, 0] }, { pinned = [2, 0, 0] }, { free = [2, 1, 0.2] }, { free = [0.9, 1, 0.2] }, { free = [0.9, -0.5, 0.2] }]
+"#;
+
+/// A chain that slides over the edge of a cube, and two that fall on it, across it and over the edge.
+const EDGE: &str = r#"
+title = "edge"
+duration = 2
+friction = 0.1
+contact_nodes = true
+[[bodies]]
+name = "cube"
+shape = { box = { half = [0.5, 0.5, 0.5] } }
+position = [0, 0, -0.5]
+[[wires]]
+name = "over the edge"
+material = { radius = 0.005, bend_modulus = 0 }
+resolution = 0.2
+route = [{ free = [0, 0, 0.005] }, { free = [0.505, 0, 0.005] }, { free = [0.505, 0, -1.5] }]
+[[wires]]
+name = "across"
+material = { radius = 0.005, bend_modulus = 0 }
+resolution = 0.2
+velocity = [1, 0, -5]
+route = [{ free = [0.1, -0.8, 0.06] }, { free = [0.1, 0.8, 0.06] }]
+[[wires]]
+name = "askew"
+material = { radius = 0.005 }
+resolution = 0.2
+velocity = [0, 0, -10]
+route = [{ free = [-0.5, -0.3, 0.1] }, { free = [1, 0.3, 0.1] }]
+"#;
+
+fn basic_collision() -> World {
+    Scene::embedded("basic-collision").unwrap().world().unwrap()
+}
+
+fn records(mut world: World, mut collisions: Collisions<'_>, steps: usize) -> Vec<StepRecord> {
+    (0..steps)
+        .map(|_| world.step_colliding(&mut collisions, &[]).unwrap())
+        .collect()
+}
+
+fn audited(records: &[StepRecord]) -> Report {
+    let mut audit = Audit::new(vec![0.02; records[0].wires.len()]);
+    records.iter().for_each(|record| audit.step(record));
+    audit.finish()
+}
+
+fn in_thesis_mode(narrow: &dyn NarrowPhase) -> Collisions<'_> {
+    Collisions::new(Mode::Thesis, Method::default(), narrow)
+}
+
+#[test]
+fn audit_of_guard_mode_finds_nothing_and_every_time_exact() {
+    let report = audited(&records(basic_collision(), Collisions::default(), 60));
+    assert!(report.is_exact(), "{report:?}");
+    assert_eq!(report.contacts, 0);
+    assert!(report.prevented > 0 && report.steps == 60);
+}
+
+#[test]
+fn audit_of_contact_nodes_that_come_and_go_finds_nothing() {
+    let scene = Scene::from_toml(EDGE).unwrap();
+    let mut collisions = scene.collisions(Mode::Guard, &Certified).unwrap();
+    let mut world = scene.world().unwrap();
+    let records: Vec<StepRecord> = (0..scene.steps())
+        .map(|_| world.step_colliding(&mut collisions, &[]).unwrap())
+        .collect();
+    let report = audited(&records);
+    assert!(report.is_exact() && report.prevented > 0, "{report:?}");
+    let over = |kind: &&NodeKind| matches!(kind, NodeKind::Contact { .. });
+    let rode = |record: &StepRecord| {
+        let kinds = record.wires.iter().flat_map(|wire| &wire.kinds);
+        kinds.filter(over).count()
+    };
+    let left = |record: &StepRecord| record.slides.iter().filter(|slide| slide.left).count();
+    let [rode, left] = [
+        records.iter().map(rode).sum::<usize>(),
+        records.iter().map(left).sum(),
+    ];
+    assert!(rode > 50 && left > 0, "{rode} {left}");
+}
+
+#[test]
+fn audit_of_thesis_mode_counts_passages_at_nodes_once_and_back_again() {
+    let records = records(basic_collision(), in_thesis_mode(&Certified), 30);
+    let whole = audited(&records);
+    assert!(whole.is_exact(), "{whole:?}");
+    assert!(whole.contacts >= 4, "{whole:?}");
+    // The first step ends on the wrong sides of both.
+    let first = audited(&records[..1]);
+    let wires: Vec<_> = first
+        .standing
+        .iter()
+        .map(|(wires, sum)| (*wires, sum.abs()))
+        .collect();
+    assert_eq!(wires, [([0, 2], 1), ([1, 2], 1)]);
+    assert!(!first.is_clean());
+}
+
+#[test]
+fn audit_finds_the_passage_of_a_wire_through_itself() {
+    let world = Scene::from_toml(ALPHA).unwrap().world().unwrap();
+    let report = audited(&records(
+        world,
+        in_thesis_mode(&crate::simulate::Discrete),
+        1,
+    ));
+    assert_eq!(report.missed, [0, 0, 1]);
+    assert_eq!(report.missed_crossings, 1);
+    assert_eq!(report.standing.len(), 1);
+    assert_eq!(report.standing[0].0, [0, 0]);
+    let [finding] = report.findings.as_slice() else {
+        unreachable!("one finding")
+    };
+    assert_eq!(finding.segments.len(), 2);
+    assert!(finding.command().unwrap().contains("explain -"));
+}
+
+#[test]
+fn audit_finds_a_broad_phase_that_drops_pairs() {
+    let asked = Cell::new(0);
+    let drops = |_, _| {
+        asked.set(asked.get() + 1);
+        asked.get() % 3 != 0
+    };
+    let collisions = in_thesis_mode(&Certified).with_filter(&drops);
+    let report = audited(&records(basic_collision(), collisions, 30));
+    assert!(report.missed[0] > 0, "{report:?}");
+    assert_eq!(report.missed[1..], [0, 0]);
+    assert!(!report.is_clean());
+}
+
+#[test]
+fn audit_finds_an_exclusion_that_is_too_bold() {
+    let mut records = records(basic_collision(), in_thesis_mode(&Certified), 1);
+    let said = &mut records[0].collisions.pairs;
+    let met = said
+        .iter_mut()
+        .find(|said| matches!(said.answer, PairAnswer::Met { .. }));
+    met.unwrap().answer = PairAnswer::Excluded;
+    assert_eq!(audited(&records).missed, [0, 1, 0]);
+}
+
+/// The certified path, but one hit of all is a miss, or all are late.
+struct Faulty {
+    missed: Option<u64>,
+    late: f64,
+    hits: AtomicU64,
+}
+
+impl NarrowPhase for Faulty {
+    fn name(&self) -> &str {
+        "faulty"
+    }
+
+    fn edge_edge(&self, query: &EdgeEdge) -> Result<narrow::Report, Unsupported> {
+        let mut report = Certified.edge_edge(query)?;
+        if let Verdict::Hit(contact) = report.verdict {
+            let hit = self.hits.fetch_add(1, Ordering::Relaxed);
+            let toi = contact.toi + self.late;
+            report.verdict = match self.missed {
+                Some(missed) if missed == hit => Verdict::Miss,
+                _ => Verdict::Hit(Contact { toi, ..contact }),
+            };
+        }
+        Ok(report)
+    }
+}
+
+fn faulty(missed: Option<u64>, late: f64) -> Faulty {
+    let hits = AtomicU64::new(0);
+    Faulty { missed, late, hits }
+}
+
+#[test]
+fn audit_finds_a_narrow_phase_that_misses_once() {
+    let narrow = faulty(Some(1), 0.0);
+    let report = audited(&records(basic_collision(), in_thesis_mode(&narrow), 1));
+    assert_eq!(report.missed, [0, 0, 1]);
+}
+
+#[test]
+fn audit_finds_times_of_impact_late_and_early_also_of_what_was_prevented() {
+    for mode in [Mode::Guard, Mode::Thesis] {
+        let of = |late| {
+            let narrow = faulty(None, late);
+            let collisions = Collisions::new(mode, Method::default(), &narrow);
+            audited(&records(basic_collision(), collisions, 1))
+        };
+        let (late, early) = (of(1e-9), of(-1e-9));
+        assert!(late.late.0 > 0 && late.early.0 == 0, "{late:?}");
+        assert!((late.late.1 - 1e-9).abs() < 1e-15);
+        assert!(early.early.0 > 0 && early.late.0 == 0, "{early:?}");
+        assert!(!late.is_exact() && !early.is_exact());
+        assert_eq!(late.missed, [0; 3]);
+    }
+}
+
+#[test]
+fn audit_finds_contacts_made_up() {
+    let mut records = records(basic_collision(), Collisions::default(), 1);
+    let apart = records[0].collisions.pairs.iter_mut();
+    let mut apart = apart.filter(|said| said.answer == PairAnswer::Apart);
+    apart.next().unwrap().answer = PairAnswer::Met { toi: 0.5 };
+    records[0].collisions.crossings[0].end = records[0].collisions.crossings[0].start;
+    let report = audited(&records);
+    assert_eq!(report.false_hits, 2);
+    assert!(report.is_clean() && !report.is_exact());
+}
+
+#[test]
+fn audit_finds_a_step_that_nobody_saw() {
+    let mut records = records(basic_collision(), Collisions::default(), 3);
+    records.remove(1);
+    let report = audited(&records);
+    // All of them, as the ones that are fixed sag.
+    assert_eq!(report.jumps, 3);
+    assert_eq!(report.findings[0].what, What::Jump { wire: 0 });
+    records[0].wires[1].after[0].x = f64::NAN;
+    assert!(
+        audited(&records)
+            .findings
+            .iter()
+            .any(|f| f.what == What::Unsound { wire: 1 })
+    );
+}
+
+/// A wire with a corner and a wire that stands at `x`, both still; and then the corner is taken out or put in.
+fn remeshed(x: f64, kind: RemeshKind) -> Report {
+    let triangle = [[0.0, 0.0, 0.0], [1.0, 0.3, 0.0], [2.0, 0.0, 0.0]].map(Point::from);
+    let wire = |arcs: &[f64], points: &[Point]| WireRecord {
+        arcs: arcs.to_vec(),
+        kinds: vec![NodeKind::Free; arcs.len()],
+        before: points.to_vec(),
+        after: points.to_vec(),
+        tensions: vec![0.0; arcs.len() - 1],
+    };
+    let (arcs, straight) = ([0.0, 1.0, 2.0], [triangle[0], triangle[2]]);
+    let bent = wire(&arcs, &triangle);
+    let straight = wire(&[0.0, 2.0], &straight);
+    let standing = [[x, 0.1, -0.3], [x, 0.1, 0.4]].map(Point::from);
+    let standing = wire(&[0.0, 0.7], &standing);
+    let (before, after) = match kind {
+        RemeshKind::Merge => (bent, straight),
+        RemeshKind::Split => (straight, bent),
+    };
+    let first = StepRecord {
+        wires: vec![before, standing.clone()],
+        remeshes: vec![Remesh {
+            wire: WireId(0),
+            kind,
+            triangle,
+            arcs,
+        }],
+        ..StepRecord::default()
+    };
+    let second = StepRecord {
+        step: 1,
+        wires: vec![after, standing],
+        ..StepRecord::default()
+    };
+    audited(&[first, second])
+}
+
+#[test]
+fn audit_finds_a_change_of_resolution_that_jumps_through() {
+    for kind in [RemeshKind::Merge, RemeshKind::Split] {
+        let through = remeshed(1.0, kind);
+        assert_eq!(
+            (through.remeshes_through, through.jumps),
+            (1, 0),
+            "{through:?}"
+        );
+        assert_eq!(through.standing.len(), 1);
+        let beside = remeshed(-0.1, kind);
+        assert!(beside.is_exact() && beside.remeshes == 1, "{beside:?}");
+    }
+    let sum = |kind| remeshed(1.0, kind).standing[0].1;
+    assert_eq!(sum(RemeshKind::Merge), -sum(RemeshKind::Split));
+}

@@ -1,0 +1,80 @@
+//! What `certify` and `merge` write.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+use tunnelproof_cli::report::{junit, page};
+use tunnelproof_reference::certify::findings::Findings;
+use tunnelproof_reference::certify::strict::failures;
+use tunnelproof_reference::certify::table;
+use tunnelproof_reference::report::results::Results;
+
+use super::Failure;
+use super::output::{OutputFile, print};
+
+/// Where the findings are written, and whether they decide the exit code.
+#[derive(Args)]
+pub(super) struct Certificate {
+    /// Write the whole result to this file, as JSON
+    #[arg(long, value_name = "OUT")]
+    pub(super) json: Option<PathBuf>,
+    /// Write the certificate to this file: a page with pictures of the worst; it needs no network
+    #[arg(long, value_name = "OUT")]
+    html: Option<PathBuf>,
+    /// Write what passes and what fails to this file, as JUnit XML
+    #[arg(long, value_name = "OUT")]
+    junit: Option<PathBuf>,
+    /// Exit with 1 unless every subject passes and all judges and labels agree
+    #[arg(long)]
+    strict: bool,
+}
+
+/// The files, seen to be writable.
+pub(super) struct Prepared {
+    json: Option<OutputFile>,
+    html: Option<OutputFile>,
+    junit: Option<OutputFile>,
+}
+
+impl Certificate {
+    /// Sees to it that the files can be made.
+    pub(super) fn prepare(&self) -> Result<Prepared, Failure> {
+        let file = |path: &Option<PathBuf>| path.as_deref().map(OutputFile::create).transpose();
+        Ok(Prepared {
+            json: file(&self.json)?,
+            html: file(&self.html)?,
+            junit: file(&self.junit)?,
+        })
+    }
+}
+
+impl Prepared {
+    /// Writes the findings, to the standard output as well.
+    pub(super) fn write(self, findings: &Findings) -> Result<(), Failure> {
+        if let Some(file) = self.json {
+            file.write(&Results::new(findings).text())?;
+        }
+        if let Some(file) = self.html {
+            file.write(&page::certificate(findings))?;
+        }
+        if let Some(file) = self.junit {
+            file.write(&junit::text(findings))?;
+        }
+        print(&table::text(findings))
+    }
+}
+
+impl Certificate {
+    /// How the command ends.
+    pub(super) fn code(&self, findings: &Findings) -> ExitCode {
+        let failures = failures(&findings.panel, &findings.total);
+        if !self.strict || failures.is_empty() {
+            return ExitCode::SUCCESS;
+        }
+        failures
+            .iter()
+            .for_each(|failure| eprintln!("--strict: {failure}"));
+        ExitCode::FAILURE
+    }
+}

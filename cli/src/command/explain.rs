@@ -1,0 +1,57 @@
+//! `explain`: one query, its exact answer, what everyone says of it, and a picture.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+use tunnelproof_cli::report::{explanation, picture};
+use tunnelproof_reference::corpus::locate::locate;
+use tunnelproof_reference::oracle::decide_query;
+use tunnelproof_reference::registry;
+
+use super::output::{OutputFile, print};
+use super::subjects::{Answering, AskedList, Programs, asked_list};
+use super::{Failure, Reading, certify};
+
+/// Explain the exact answer to one query, and what every subject says
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  tunnelproof explain figure:4.3
+  tunnelproof explain lattice:1:4711 --svg picture.svg
+  tunnelproof explain 'unit-tests/edge-edge/data_0_1.csv#12'
+  tunnelproof explain vectors/errata.json#erratum:strict-skip --svg picture.svg
+  head -1 queries.jsonl | tunnelproof explain -")]
+pub(super) struct Explain {
+    /// figure:NAME, FAMILY:SEED:INDEX, PATH.csv#INDEX, PATH.jsonl#ID, PATH.json#ID of a test vector, or
+    /// - for a line on the standard input
+    query: String,
+    /// Write a picture to this file
+    #[arg(long, value_name = "OUT")]
+    svg: Option<PathBuf>,
+    /// More subjects to ask, such as cmd: and the command of a program
+    #[arg(long, value_parser = asked_list)]
+    subject: Vec<AskedList>,
+    #[command(flatten)]
+    programs: Programs,
+    #[command(flatten)]
+    reading: Reading,
+}
+
+impl Explain {
+    pub(super) fn run(self) -> Result<ExitCode, Failure> {
+        let entry = locate(&self.query, self.reading.options())?;
+        let svg = self.svg.as_deref().map(OutputFile::create).transpose()?;
+        let more = self.programs.start_all(&self.subject)?;
+        let subjects = registry::subjects().into_iter();
+        let subjects = subjects.chain(more.iter().map(Answering::subject));
+        let subjects: Vec<_> = subjects.map(certify::judged).collect();
+        let text = explanation::explain(&entry.id, &entry.query, &subjects);
+        if let Some(file) = svg {
+            let answer = decide_query(&entry.query);
+            file.write(&picture::draw(&entry.id, &entry.query, &answer))?;
+        }
+        print(&text)?;
+        Ok(ExitCode::SUCCESS)
+    }
+}

@@ -1,0 +1,258 @@
+//! The commands, what they have in common, and how they end.
+//!
+//! Exit code 0 is success, 1 a judged failure, 2 bad input or output that cannot be written, 130 that
+//! Ctrl-C ended it; then one line on the standard error says what is wrong. Whoever closes the standard output early wants no
+//! more: that is success.
+
+use std::fmt;
+use std::io;
+use std::num::{NonZeroUsize, ParseFloatError};
+use std::process::ExitCode;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand};
+use tunnelproof::query::{QueryKind, Radius};
+use tunnelproof_cli::scenes::SceneError;
+use tunnelproof_cli::sweep::{AxisError, DomainError};
+use tunnelproof_reference::certify::run::RunError;
+use tunnelproof_reference::corpus::{CorpusError, ReadOptions};
+use tunnelproof_reference::report::merge::MergeError;
+
+mod audit;
+mod axes;
+mod certificate;
+mod certify;
+mod eval;
+mod explain;
+mod gap;
+mod keeping;
+mod lib_host;
+mod merge;
+mod output;
+mod pages;
+mod progress;
+mod replay;
+mod shrink;
+mod simulate;
+mod sources;
+mod subjects;
+mod sweep;
+mod table;
+mod tune;
+mod vectors;
+
+/// Judges continuous collision detection of moving edges against exact arithmetic.
+#[derive(Parser)]
+#[command(name = "tunnelproof", version, arg_required_else_help = true)]
+pub(crate) struct Cli {
+    /// Threads to work on; by default RAYON_NUM_THREADS, or one for each core
+    #[arg(long, global = true, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Eval(eval::Eval),
+    Certify(certify::Certify),
+    Merge(merge::Merge),
+    #[command(hide = true)]
+    LibHost(lib_host::LibHost),
+    Explain(explain::Explain),
+    Gap(gap::Gap),
+    Shrink(shrink::Shrink),
+    Replay(replay::Replay),
+    Vectors(vectors::Vectors),
+    Sweep(sweep::Sweep),
+    Tune(tune::Tune),
+    Simulate(simulate::Simulate),
+    Audit(audit::Audit),
+    Table(table::Table),
+}
+
+/// How files are read.
+#[derive(Args)]
+struct Reading {
+    /// The kind of the queries, where neither the file's path nor the query says it
+    #[arg(long, value_parser = kind())]
+    kind: Option<QueryKind>,
+    /// Ask for a distance of at most R metres, whatever the queries say
+    ///
+    /// A number, or two whose exact sum is meant: 0.01+0.02
+    #[arg(long, value_name = "R", value_parser = radius)]
+    radius: Option<Radius>,
+}
+
+/// Why a command ends early.
+enum Failure {
+    /// Bad input.
+    Input(RunError),
+    /// The output cannot be written.
+    Output {
+        /// What is written.
+        name: String,
+        /// Why it cannot be.
+        error: io::Error,
+    },
+    /// A program that is to be judged cannot be started.
+    Program {
+        /// What asks for it.
+        name: String,
+        /// Why it cannot be started.
+        reason: String,
+    },
+    /// A result cannot be read or put together with others.
+    Merge {
+        /// The file of the result.
+        path: String,
+        /// What is wrong with it.
+        error: MergeError,
+    },
+    /// A file that is not what it should be.
+    File {
+        /// Its path, or the name of a scene.
+        path: String,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// There is nothing to do.
+    Nothing,
+    /// Nothing says which fuzz target the file at this path is for.
+    Target(String),
+    /// The thresholds cannot be swept like that.
+    Axis(AxisError),
+    /// There is no such scene.
+    Domain(DomainError),
+    /// How bad a missed crossing is, is no such number.
+    Penalty(f64),
+    /// Ctrl-C cannot be listened to.
+    Interruption(ctrlc::Error),
+    /// The threads cannot be started.
+    Threads(rayon::ThreadPoolBuildError),
+}
+
+impl Cli {
+    pub(crate) fn run(self) -> ExitCode {
+        match self.start() {
+            Ok(code) => code,
+            Err(Failure::Output { error, .. }) if error.kind() == io::ErrorKind::BrokenPipe => {
+                ExitCode::SUCCESS
+            }
+            Err(failure) => {
+                eprintln!("{failure}");
+                ExitCode::from(2)
+            }
+        }
+    }
+
+    fn start(self) -> Result<ExitCode, Failure> {
+        if let Some(threads) = self.threads {
+            rayon::ThreadPoolBuilder::new()
+                .num_threads(threads.get())
+                .build_global()
+                .map_err(Failure::Threads)?;
+        }
+        match self.command {
+            Command::Eval(eval) => eval.run(),
+            Command::Certify(certify) => certify.run(),
+            Command::Merge(merge) => merge.run(),
+            Command::LibHost(host) => host.run(),
+            Command::Explain(explain) => explain.run(),
+            Command::Gap(gap) => gap.run(),
+            Command::Shrink(shrink) => shrink.run(),
+            Command::Replay(replay) => replay.run(),
+            Command::Vectors(vectors) => vectors.run(),
+            Command::Sweep(sweep) => sweep.run(),
+            Command::Tune(tune) => tune.run(),
+            Command::Simulate(simulate) => simulate.run(),
+            Command::Audit(audit) => audit.run(),
+            Command::Table(table) => table.run(),
+        }
+    }
+}
+
+impl Failure {
+    fn merge(path: &str, error: MergeError) -> Self {
+        let path = path.to_owned();
+        Failure::Merge { path, error }
+    }
+}
+
+impl Reading {
+    fn options(&self) -> ReadOptions {
+        ReadOptions {
+            kind: self.kind,
+            radius: self.radius,
+        }
+    }
+}
+
+fn radius(text: &str) -> Result<Radius, ParseFloatError> {
+    Ok(match text.split_once('+') {
+        Some((first, second)) => [first.trim().parse()?, second.trim().parse()?].into(),
+        None => text.parse::<f64>()?.into(),
+    })
+}
+
+fn kind() -> impl TypedValueParser<Value = QueryKind> {
+    let kinds = [QueryKind::EdgeEdge, QueryKind::VertexFace];
+    PossibleValuesParser::new(kinds.map(QueryKind::name))
+        .try_map(|name| QueryKind::from_name(&name).ok_or("unknown kind"))
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        Failure::Input(error)
+    }
+}
+
+impl From<CorpusError> for Failure {
+    fn from(error: CorpusError) -> Self {
+        Failure::Input(error.into())
+    }
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        Failure::File {
+            path: "scene".to_owned(),
+            problem: error.to_string(),
+        }
+    }
+}
+
+impl From<AxisError> for Failure {
+    fn from(error: AxisError) -> Self {
+        Failure::Axis(error)
+    }
+}
+
+impl From<DomainError> for Failure {
+    fn from(error: DomainError) -> Self {
+        Failure::Domain(error)
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Failure::Input(error) => error.fmt(f),
+            Failure::Output { name, error } => write!(f, "{name}: cannot be written: {error}"),
+            Failure::Program { name, reason } => write!(f, "{name}: {reason}"),
+            Failure::Merge { path, error } => write!(f, "{path}: {error}"),
+            Failure::File { path, problem } => write!(f, "{path}: {problem}"),
+            Failure::Nothing => f.write_str("--count 0: no query is left to judge"),
+            Failure::Target(path) => {
+                write!(f, "{path}: is in no folder of a fuzz target; pass --target")
+            }
+            Failure::Axis(error) => error.fmt(f),
+            Failure::Domain(error) => error.fmt(f),
+            Failure::Penalty(value) => {
+                write!(f, "--penalty is {value}, not a finite number above 0")
+            }
+            Failure::Interruption(error) => write!(f, "Ctrl-C: {error}"),
+            Failure::Threads(error) => write!(f, "--threads: {error}"),
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! Which queries a command is about, and how large the scene is.
+
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use tunnelproof_cli::sweep::{Domain, DomainError, Precision};
+use tunnelproof_reference::certify::source::Source;
+use tunnelproof_reference::generate::{self, FAMILIES, Family};
+
+use super::Reading;
+
+/// Queries of families and files.
+#[derive(Args)]
+pub(super) struct Sources {
+    /// Families of generated queries; by default all but scales, or none if files are given
+    #[arg(long, value_delimiter = ',', value_parser = family())]
+    family: Vec<&'static Family>,
+    /// Files of queries (.jsonl or .csv); - is the standard input
+    #[arg(long, value_name = "FILE", num_args = 1..)]
+    corpus: Vec<String>,
+    #[command(flatten)]
+    reading: Reading,
+}
+
+/// How large the scene is, and how precise.
+#[derive(Args)]
+pub(super) struct Scene {
+    /// A metre of the queries becomes so many: the nearest power of two, which keeps every degeneracy
+    #[arg(
+        long,
+        value_name = "METRES",
+        default_value_t = 1.0,
+        allow_negative_numbers = true
+    )]
+    scale: f64,
+    /// Round coordinates to single precision, as if born of an f32 scene
+    #[arg(long, value_name = "PRECISION", default_value = "f64", value_parser = precision())]
+    precision: Precision,
+}
+
+impl Sources {
+    pub(super) fn sources(&self, seed: u64, count: u64) -> Vec<Source> {
+        let families = match self.family.is_empty() && self.corpus.is_empty() {
+            true => FAMILIES
+                .iter()
+                .filter(|family| has_a_scale(family))
+                .collect(),
+            false => self.family.clone(),
+        };
+        let families = of_families(&families, seed, count);
+        let files = of_files(&self.corpus, &self.reading);
+        families.into_iter().chain(files).collect()
+    }
+}
+
+/// The first queries of families.
+pub(super) fn of_families(families: &[&'static Family], seed: u64, count: u64) -> Vec<Source> {
+    let families = families.iter().filter(|_| count > 0);
+    families
+        .map(|family| Source::Family {
+            family,
+            seed,
+            count,
+        })
+        .collect()
+}
+
+/// The queries of files.
+pub(super) fn of_files(files: &[String], reading: &Reading) -> Vec<Source> {
+    let file = |path: &String| Source::File {
+        path: path.clone(),
+        options: reading.options(),
+    };
+    files.iter().map(file).collect()
+}
+
+impl Scene {
+    pub(super) fn domain(&self) -> Result<Domain, DomainError> {
+        Domain::new(self.scale, self.precision)
+    }
+}
+
+/// Whether the queries of a family are of scenes of one size, so that a threshold can suit them.
+pub(super) fn has_a_scale(family: &Family) -> bool {
+    family.name() != "scales"
+}
+
+fn precision() -> impl TypedValueParser<Value = Precision> {
+    PossibleValuesParser::new(Precision::ALL.map(Precision::name))
+        .try_map(|name| Precision::from_name(&name).ok_or("unknown precision"))
+}
+
+pub(super) fn family() -> impl TypedValueParser<Value = &'static Family> {
+    PossibleValuesParser::new(generate::all().map(Family::name))
+        .try_map(|name| generate::by_name(&name).ok_or("unknown family"))
+}

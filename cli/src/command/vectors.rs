@@ -1,0 +1,105 @@
+//! `vectors`: test vectors for every implementation of continuous collision detection.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+use tunnelproof_cli::vectors::{self, VectorFile};
+use tunnelproof_reference::corpus::{CorpusError, Problem};
+
+use super::Failure;
+use super::output::{OutputFile, print, unwritable};
+
+/// What is in the folder besides vectors.
+const SCHEMA: &str = "schema.json";
+
+/// Write test vectors: queries with their exact answers, as JSON
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  tunnelproof vectors
+  tunnelproof vectors --out /tmp/vectors
+  tunnelproof vectors --check
+
+One file for each source: figures, errata, reports, and a selection of each family. The files are the
+same on every machine; vectors/README.md says what is in them. With --check nothing is written: each
+difference between the folder and what would be written is a line on the standard error, and the exit
+code is 1 if there is any.")]
+pub(super) struct Vectors {
+    /// The folder of the files
+    #[arg(long, value_name = "FOLDER", default_value = "vectors")]
+    out: PathBuf,
+    /// Compare the files with what would be written
+    #[arg(long)]
+    check: bool,
+}
+
+impl Vectors {
+    pub(super) fn run(self) -> Result<ExitCode, Failure> {
+        let files = vectors::files();
+        if self.check {
+            return self.check(&files);
+        }
+        fs::create_dir_all(&self.out).map_err(|error| unwritable(&self.out, error))?;
+        for file in &files {
+            OutputFile::create(&self.out.join(&file.name))?.write(&file.text)?;
+        }
+        print(&summary(&files))?;
+        Ok(ExitCode::SUCCESS)
+    }
+
+    fn check(&self, files: &[VectorFile]) -> Result<ExitCode, Failure> {
+        let mut differences = Vec::new();
+        for file in files {
+            match fs::read(self.out.join(&file.name)) {
+                Ok(bytes) if bytes == file.text.as_bytes() => {}
+                Ok(_) => differences.push((&file.name, "is not what would be written")),
+                Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                    differences.push((&file.name, "is missing"));
+                }
+                Err(error) => return Err(unreadable(&self.out.join(&file.name), error)),
+            }
+        }
+        let surplus = self.surplus(files)?;
+        differences.extend(surplus.iter().map(|name| (name, "would not be written")));
+        for (name, what) in &differences {
+            eprintln!("{}: {what}", self.out.join(name).display());
+        }
+        if !differences.is_empty() {
+            return Ok(ExitCode::FAILURE);
+        }
+        print(&summary(files))?;
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// The names of `.json` files in the folder that are neither vectors nor their schema.
+    fn surplus(&self, files: &[VectorFile]) -> Result<BTreeSet<String>, Failure> {
+        let entries = match fs::read_dir(&self.out) {
+            Ok(entries) => entries,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(BTreeSet::new()),
+            Err(error) => return Err(unreadable(&self.out, error)),
+        };
+        let mut surplus = BTreeSet::new();
+        for entry in entries {
+            let entry = entry.map_err(|error| unreadable(&self.out, error))?;
+            let name = entry.file_name().to_string_lossy().into_owned();
+            let is_known = name == SCHEMA || files.iter().any(|file| file.name == name);
+            if name.ends_with(".json") && !is_known {
+                surplus.insert(name);
+            }
+        }
+        Ok(surplus)
+    }
+}
+
+fn summary(files: &[VectorFile]) -> String {
+    let vectors: usize = files.iter().map(|file| file.vectors).sum();
+    format!("{vectors} vectors in {} files\n", files.len())
+}
+
+fn unreadable(path: &Path, error: io::Error) -> Failure {
+    CorpusError::new(&path.display().to_string(), Problem::Io(error)).into()
+}

@@ -1,0 +1,16 @@
+//! What the command `tunnelproof` is made of: sweeps and searches over the thesis' thresholds, scenes and
+//! their audit, pages, test vectors and fuzz targets.
+
+pub mod audit;
+pub mod fuzz;
+pub mod perturb;
+pub mod replay;
+pub mod report;
+pub mod rows;
+pub mod scenes;
+pub mod simulate;
+pub mod sweep;
+pub mod tables;
+pub mod tune;
+pub mod vectors;
+pub mod vtk;

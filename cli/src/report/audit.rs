@@ -1,0 +1,58 @@
+//! What an audit came to, as text.
+
+use crate::audit::Report;
+use tunnelproof_reference::certify::table::grouped;
+
+/// Findings that are shown.
+const SHOWN: usize = 10;
+
+/// Counts, then the first findings with the commands that explain them.
+pub fn text(report: &Report) -> String {
+    let [broad, exclusion, narrow] = report.missed.map(grouped);
+    let worst = |(count, by): (u64, f64)| match count {
+        0 => "0".to_owned(),
+        count => format!("{}, worst {by:.1e} of a step", grouped(count)),
+    };
+    let rows = [
+        ("steps", grouped(report.steps)),
+        ("pairs asked about", grouped(report.pairs)),
+        (
+            "contacts made",
+            format!(
+                "{}, of them crossings {}",
+                grouped(report.contacts),
+                grouped(report.crossings)
+            ),
+        ),
+        ("contacts prevented", grouped(report.prevented)),
+        ("changes of resolution", grouped(report.remeshes)),
+        ("missed by broad phase", broad),
+        ("missed by exclusion", exclusion),
+        ("missed by narrow phase", narrow),
+        ("missed crossings", grouped(report.missed_crossings)),
+        ("changes that pass", grouped(report.remeshes_through)),
+        ("jumps", grouped(report.jumps)),
+        ("times late", worst(report.late)),
+        ("times early", worst(report.early)),
+        ("contacts made up", grouped(report.false_hits)),
+        ("standing tunnels", grouped(report.standing.len() as u64)),
+    ];
+    let mut text = String::from("Audit by the exact oracle\n");
+    for (name, value) in rows {
+        text += &format!("  {name:<24}{value}\n");
+    }
+    for ([a, b], passages) in &report.standing {
+        text += &format!("  wires {a} and {b} have passed through each other: {passages:+}\n");
+    }
+    let (tunnels, others): (Vec<_>, Vec<_>) = report
+        .findings
+        .iter()
+        .partition(|finding| finding.is_tunnel());
+    for finding in tunnels.into_iter().chain(others).take(SHOWN) {
+        text += &format!("  {finding}\n");
+        if let Some(command) = finding.command() {
+            text += &format!("    {command}\n");
+        }
+    }
+    text
+}

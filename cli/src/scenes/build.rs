@@ -1,0 +1,286 @@
+//! From a scene to its world.
+
+use std::fmt::Display;
+
+use nalgebra::{Quaternion, UnitQuaternion};
+
+use super::check;
+use super::error::{Reason, SceneError};
+use super::file::{Body, Drive, Material, Scene, Shape, Stop, Turn, Wire};
+use super::hang::hang;
+use tunnelproof::broad::Method;
+use tunnelproof::narrow::NarrowPhase;
+use tunnelproof::query::Point;
+use tunnelproof::wire::{
+    self, BodyId, BodyPlan, Collisions, Mesh, Mode, ModelError, WirePlan, World,
+};
+
+/// The most parts of a catenary; where a wire is resolved more finely, they are straight.
+const MOST_PARTS: f64 = 1e4;
+
+impl Scene {
+    /// The world as it starts. Bodies and wires have the order of the file.
+    ///
+    /// # Errors
+    ///
+    /// The value that is refused, and where it is. None for a scene as it was read.
+    pub fn world(&self) -> Result<World, SceneError> {
+        check::positive("duration", self.duration)
+            .and_then(|()| check::not_negative("friction", self.friction))
+            .map_err(|error| refused(&[], error))?;
+        let settings = self.settings.clone();
+        let mut world = World::new(settings).map_err(|error| refused(&[&"settings"], error))?;
+        once("bodies", self.bodies.iter().map(|body| &body.name))?;
+        once("wires", self.wires.iter().map(|wire| &wire.name))?;
+        for (k, body) in self.bodies.iter().enumerate() {
+            let add = |plan| world.add_body(plan);
+            body.plan()
+                .and_then(add)
+                .map_err(|error| refused(&[&"bodies", &k], error))?;
+        }
+        for (k, wire) in self.wires.iter().enumerate() {
+            let (plan, entries) = self.plan(&world, k, wire)?;
+            world
+                .add_wire(&plan)
+                .map_err(|error| on_route(k, &entries, error))?;
+        }
+        Ok(world)
+    }
+
+    /// How its wires and bodies collide.
+    ///
+    /// # Errors
+    ///
+    /// A friction that is refused. None for a scene as it was read.
+    pub fn collisions<'n>(
+        &self,
+        mode: Mode,
+        narrow: &'n dyn NarrowPhase,
+    ) -> Result<Collisions<'n>, SceneError> {
+        let collisions = Collisions::new(mode, Method::default(), narrow);
+        let collisions = collisions.with_friction(self.friction);
+        let collisions = collisions.map_err(|error| refused(&[&"friction"], error))?;
+        Ok(if self.contact_nodes {
+            collisions.with_contact_nodes()
+        } else {
+            collisions
+        })
+    }
+
+    /// The plan of a wire, and of each stop of its route the entry of the file.
+    fn plan(
+        &self,
+        world: &World,
+        k: usize,
+        wire: &Wire,
+    ) -> Result<(WirePlan, Vec<usize>), SceneError> {
+        let mut route = Vec::new();
+        let mut entries = Vec::new();
+        for (at, stop) in wire.route.iter().enumerate() {
+            let wrong = |reason| SceneError::new(&[&"wires", &k, &"route", &at], reason);
+            match self.stop(stop) {
+                Err(name) => return Err(wrong(Reason::NoBody(name))),
+                Ok(Some(stop)) => {
+                    route.push(stop);
+                    entries.push(at);
+                }
+                Ok(None) => {
+                    let Stop::Hang(length) = *stop else { continue };
+                    let points = self
+                        .hanging(world, wire, at, length)
+                        .ok_or_else(|| wrong(Reason::Hang(length)))?;
+                    entries.extend(points.iter().map(|_| at));
+                    route.extend(points.into_iter().map(wire::Stop::Free));
+                }
+            }
+        }
+        let mut plan = WirePlan::new(wire.material.plan(), wire.resolution, route);
+        plan.resolution.adaptive = wire.adaptive;
+        plan.length = wire.length;
+        plan.velocity = wire.velocity.into();
+        Ok((plan, entries))
+    }
+
+    /// A stop of a route, none where the wire hangs; or the body that is not there.
+    fn stop(&self, stop: &Stop) -> Result<Option<wire::Stop>, String> {
+        let body = |name: &String| {
+            let found = self.bodies.iter().position(|body| body.name == *name);
+            found.map(BodyId).ok_or_else(|| name.clone())
+        };
+        Ok(Some(match stop {
+            Stop::Free(at) => wire::Stop::Free((*at).into()),
+            Stop::Pinned(at) => wire::Stop::Pinned((*at).into()),
+            Stop::Eye { body: name, local } => wire::Stop::Eye {
+                body: body(name)?,
+                local: (*local).into(),
+            },
+            Stop::Contact {
+                body: name,
+                local,
+                normal,
+                friction,
+            } => wire::Stop::Contact {
+                body: body(name)?,
+                local: (*local).into(),
+                normal: (*normal).into(),
+                friction: *friction,
+            },
+            Stop::Hang(_) => return Ok(None),
+        }))
+    }
+
+    /// Free nodes between the stops before and after a place of a route.
+    fn hanging(&self, world: &World, wire: &Wire, at: usize, length: f64) -> Option<Vec<Point>> {
+        let point = |stop: Option<&Stop>| match self.stop(stop?).ok()?? {
+            wire::Stop::Free(at) | wire::Stop::Pinned(at) => Some(at),
+            wire::Stop::Eye { body, local } | wire::Stop::Contact { body, local, .. } => {
+                Some(world.bodies().get(body.0)?.point(&local))
+            }
+        };
+        let ends = [
+            point(wire.route.get(at.checked_sub(1)?))?,
+            point(wire.route.get(at + 1))?,
+        ];
+        let count = (length / wire.resolution).clamp(1.0, MOST_PARTS) as usize;
+        hang(ends, length, &self.settings.gravity, count)
+    }
+}
+
+impl Body {
+    fn plan(&self) -> Result<BodyPlan, ModelError> {
+        let fixed = BodyPlan::fixed(self.shape.plan()?, self.position.into());
+        Ok(BodyPlan {
+            drive: self.drive.plan(),
+            orientation: self
+                .turn
+                .map_or(Ok(fixed.orientation), |turn| turn.plan())?,
+            ..fixed
+        })
+    }
+}
+
+impl Turn {
+    fn plan(&self) -> Result<UnitQuaternion<f64>, ModelError> {
+        check::finite("degrees", self.degrees)?;
+        let half = self.degrees.to_radians() / 2.0;
+        let axis = check::direction("axis", &self.axis.into())?;
+        let quaternion = Quaternion::from_parts(libm::cos(half), axis * libm::sin(half));
+        Ok(UnitQuaternion::new_normalize(quaternion))
+    }
+}
+
+impl Shape {
+    fn plan(&self) -> Result<wire::Shape, ModelError> {
+        Ok(match *self {
+            Shape::Box { half } => wire::Shape::Box { half: half.into() },
+            Shape::Cylinder {
+                radius,
+                half_height,
+            } => wire::Shape::Cylinder {
+                radius,
+                half_height,
+            },
+            Shape::Sphere { radius } => wire::Shape::Sphere { radius },
+            Shape::Capsule {
+                radius,
+                half_height,
+            } => wire::Shape::Capsule {
+                radius,
+                half_height,
+            },
+            Shape::Plane => wire::Shape::Plane,
+            Shape::Mesh {
+                ref vertices,
+                ref triangles,
+            } => {
+                let vertices = vertices.iter().map(|&vertex| vertex.into()).collect();
+                wire::Shape::Mesh(Mesh::new(vertices, triangles.clone())?)
+            }
+        })
+    }
+}
+
+impl Drive {
+    fn plan(&self) -> wire::Drive {
+        match self {
+            Drive::Static => wire::Drive::Static,
+            Drive::Kinematic(phases) => {
+                let phases = phases.iter().map(|phase| wire::Phase {
+                    from: phase.from,
+                    velocity: phase.velocity.into(),
+                    angular_velocity: phase.angular_velocity.into(),
+                });
+                wire::Drive::Kinematic(phases.collect())
+            }
+            Drive::Dynamic(start) => wire::Drive::Dynamic {
+                density: start.density,
+                velocity: start.velocity.into(),
+                angular_velocity: start.angular_velocity.into(),
+            },
+        }
+    }
+}
+
+impl Material {
+    fn plan(&self) -> wire::Material {
+        let steel = wire::Material::steel(self.radius);
+        wire::Material {
+            density: self.density.unwrap_or(steel.density),
+            radius: steel.radius,
+            stretch_modulus: self.stretch_modulus.unwrap_or(steel.stretch_modulus),
+            bend_modulus: self.bend_modulus.unwrap_or(steel.bend_modulus),
+            stretch_damping: self.stretch_damping.unwrap_or(steel.stretch_damping),
+            bend_damping: self.bend_damping.unwrap_or(steel.bend_damping),
+        }
+    }
+}
+
+/// No name is there twice.
+fn once<'a>(list: &'static str, names: impl Iterator<Item = &'a String>) -> Result<(), SceneError> {
+    let mut seen = std::collections::BTreeSet::new();
+    for (k, name) in names.enumerate() {
+        if !seen.insert(name) {
+            let reason = Reason::Twice(name.clone());
+            return Err(SceneError::new(&[&list, &k, &"name"], reason));
+        }
+    }
+    Ok(())
+}
+
+/// An error of the model at a path, with the field that it names.
+fn refused(path: &[&dyn Display], error: ModelError) -> SceneError {
+    let mut path = path.to_vec();
+    let field = match error {
+        // What the model calls otherwise than the file.
+        ModelError::Value { field, .. } => match field {
+            "half edge" => Some("half"),
+            "vertex" | "volume of the mesh" => Some("vertices"),
+            "mass" | "inertia" => Some("shape"),
+            "length of the route" => Some("route"),
+            field => Some(field),
+        },
+        ModelError::Vertex { .. } | ModelError::OpenMesh { .. } => Some("triangles"),
+        ModelError::Massless { .. } => Some("shape"),
+        ModelError::PhaseOrder { .. } => Some("kinematic"),
+        ModelError::ShortRoute { .. } => Some("route"),
+        _ => None,
+    };
+    path.extend(field.iter().map(|field| field as &dyn Display));
+    SceneError::new(&path, Reason::Model(error))
+}
+
+/// An error of the model in a wire; its stops are counted as in the file.
+fn on_route(k: usize, entries: &[usize], error: ModelError) -> SceneError {
+    match error {
+        ModelError::ZeroLength { stop } | ModelError::ContactAtEnd { stop } => {
+            let entry = entries.get(stop).copied().unwrap_or(stop);
+            let error = match error {
+                ModelError::ZeroLength { .. } => ModelError::ZeroLength { stop: entry },
+                _ => ModelError::ContactAtEnd { stop: entry },
+            };
+            let path: [&dyn Display; 4] = [&"wires", &k, &"route", &entry];
+            SceneError::new(&path, Reason::Model(error))
+        }
+        error => refused(&[&"wires", &k], error),
+    }
+}

@@ -1,0 +1,249 @@
+//! Scene files: what they build, and what is said of wrong ones.
+
+use super::*;
+use tunnelproof::certified::Certified;
+use tunnelproof::wire::{self, Mode, NodeKind, Vector, World};
+
+const FILE: &str = r#"
+title = "All that there is"
+duration = 1.5
+
+[settings]
+step = 0.01
+gravity = [0, 0, -1]
+
+[[bodies]]
+name = "deck"
+shape = "plane"
+position = [0, 0, 0]
+turn = { axis = [0, 0, 2], degrees = 90 }
+
+[[bodies]]
+name = "cart"
+shape = { mesh = { vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], triangles = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]] } }
+position = [1, 2, 3]
+drive = { kinematic = [{ from = 1, velocity = [1, 0, 0] }, { from = 2 }] }
+
+[[bodies]]
+name = "load"
+shape = { capsule = { radius = 0.5, half_height = 0.25 } }
+position = [0, 0, -5]
+drive = { dynamic = { density = 10, velocity = [0, 1, 0], angular_velocity = [0, 0, 3] } }
+
+[[wires]]
+name = "rope"
+material = { radius = 0.01, bend_modulus = 0, density = 1000 }
+resolution = 0.5
+adaptive = false
+length = 9
+velocity = [1, 0, 0]
+route = [
+  { pinned = [0, 0, 0] },
+  { hang = 5 },
+  { contact = { body = "cart", local = [0, 0, 0], normal = [0, 0, 2], friction = 0.25 } },
+  { free = [0, 2, 0] },
+  { eye = { body = "load", local = [0, 0, 0.75] } },
+]
+"#;
+
+fn refused(from: &str, to: &str) -> String {
+    assert!(FILE.contains(from), "{from}");
+    let error = Scene::from_toml(&FILE.replacen(from, to, 1)).unwrap_err();
+    error.to_string()
+}
+
+#[test]
+fn chain_of_the_example_scene_slides_over_both_edges() {
+    let scene = include_str!("../../scenes/over-the-edge.toml");
+    let scene = Scene::from_toml(scene).unwrap();
+    let mut world = scene.world().unwrap();
+    let mut collisions = scene.collisions(Mode::Guard, &Certified).unwrap();
+    let heights = |world: &World| [1, 2].map(|ball| world.bodies()[ball].position().z);
+    let start = heights(&world);
+    for _ in 0..scene.steps() / 4 {
+        world.step_colliding(&mut collisions, &[]).unwrap();
+    }
+    let slid = heights(&world);
+    let over = |node: &&wire::Node| matches!(node.kind, NodeKind::Contact { .. });
+    assert_eq!(world.wires()[0].nodes().iter().filter(over).count(), 2);
+    assert!(
+        slid[0] - start[0] > 0.2 && start[1] - slid[1] > 0.2,
+        "{start:?} {slid:?}"
+    );
+}
+
+#[test]
+fn scene_file_builds_all_that_the_model_has() {
+    let scene = Scene::from_toml(FILE).unwrap();
+    assert_eq!((scene.steps(), scene.friction), (150, 0.5));
+    let more = FILE.replacen("duration", "contact_nodes = true\nduration", 1);
+    let with = Scene::from_toml(&more).unwrap();
+    assert!(with.contact_nodes && !scene.contact_nodes);
+    let world = scene.world().unwrap();
+    assert_eq!(world.settings().step, 0.01);
+    assert_eq!(world.settings().sweeps, 200);
+    let [deck, cart, load] = [0, 1, 2].map(|k| &world.bodies()[k]);
+    let ahead = deck.orientation() * Vector::x();
+    assert!((ahead - Vector::y()).norm() < 1e-15);
+    assert!(!cart.is_dynamic() && load.is_dynamic());
+    assert_eq!(cart.position(), [1.0, 2.0, 3.0].into());
+    assert_eq!(load.angular_velocity(), Vector::new(0.0, 0.0, 3.0));
+    let wire = &world.wires()[0];
+    assert!(wire.material().is_chain());
+    assert_eq!(wire.material().density, 1000.0);
+    let last = wire.nodes().last().unwrap();
+    assert!((last.arc - 9.0).abs() < 1e-12);
+    assert_eq!(last.position, load.point(&Vector::new(0.0, 0.0, 0.75)));
+    // The catenary hangs below both its ends.
+    let over = |node: &&wire::Node| matches!(node.kind, NodeKind::Contact { .. });
+    let turn = wire.nodes().iter().position(|node| over(&node)).unwrap();
+    assert_eq!(turn, 10);
+    assert!(
+        wire.nodes()[..turn]
+            .iter()
+            .any(|node| node.position.z < -0.01)
+    );
+}
+
+#[test]
+fn scene_file_written_reads_back() {
+    for (_, text) in EMBEDDED {
+        let scene = Scene::from_toml(text).unwrap();
+        let json = serde_json::to_string(&scene).unwrap();
+        assert_eq!(scene, serde_json::from_str(&json).unwrap());
+    }
+}
+
+#[test]
+fn scene_file_errors_name_line_and_field() {
+    let cases = [
+        (
+            "duration = 1.5",
+            "duration = 0",
+            "line 3: duration: duration is 0, it must be finite and above 0",
+        ),
+        (
+            "step = 0.01",
+            "step = -1",
+            "line 6: settings.step: step is -1, it must be finite and above 0",
+        ),
+        (
+            "density = 10,",
+            "density = nan,",
+            "line 25: bodies[2].density: density is NaN, it must be finite and above 0",
+        ),
+        (
+            "[0, 0, 2], degrees",
+            "[0, 0, 0], degrees",
+            "line 13: bodies[0].axis: axis is 0, it must be finite and above 0",
+        ),
+        (
+            "[1, 2, 3]]",
+            "[1, 2, 7]]",
+            "line 17: bodies[1].triangles: triangle 3 has corner 7: vertices are 0 to 4 (excluded)",
+        ),
+        (
+            "from = 2",
+            "from = 1",
+            "line 19: bodies[1].kinematic: phase 1 of the kinematic body must start after the phase before it",
+        ),
+        (
+            "radius = 0.01",
+            "radius = 0",
+            "line 29: wires[0].radius: radius is 0, it must be finite and above 0",
+        ),
+        (
+            "resolution = 0.5",
+            "resolution = 1e-9",
+            "line 30: wires[0].resolution: resolution is 0.000000001, it must be at least a millionth of the wire's length",
+        ),
+        (
+            "\"load\", local",
+            "\"ghost\", local",
+            "line 39: wires[0].route[4]: there is no body \"ghost\"",
+        ),
+        (
+            "\"cart\"",
+            "\"deck\"",
+            "line 16: bodies[1].name: the name \"deck\" is there twice",
+        ),
+        (
+            "hang = 5 ",
+            "hang = 1 ",
+            "line 36: wires[0].route[1]: hang is 1; it must be longer than the way between the stops before and after it, which must not be one above the other, and there must be gravity",
+        ),
+        (
+            "{ pinned = [0, 0, 0] },",
+            "{ pinned = [0, 0, 0] }, { free = [0, 0, 0] },",
+            "line 35: wires[0].route[0]: stops 0 and 1 of the route are at the same place, their distance must be above 0",
+        ),
+    ];
+    for (from, to, message) in cases {
+        assert_eq!(refused(from, to), message);
+    }
+}
+
+#[test]
+fn scene_file_that_is_not_understood_is_shown() {
+    let text = refused("adaptive = false", "adaptve = false");
+    assert!(text.contains("line 31, column 1"), "{text}");
+    assert!(text.contains("unknown field `adaptve`"), "{text}");
+    let text = refused("gravity = [0, 0, -1]", "gravity = [0, 0]");
+    assert!(text.contains("line 7"), "{text}");
+    let text = refused("shape = \"plane\"\n", "");
+    assert!(text.contains("missing field `shape`"), "{text}");
+    assert_eq!(
+        Scene::embedded("moon").unwrap_err().to_string(),
+        "there is no scene \"moon\"; there are basic-collision, pulling-anchor, twisting-under-load, chains-on-deck"
+    );
+}
+
+/// The numbers of the thesis, where the file gives others from which they follow.
+#[test]
+fn scenes_of_the_thesis_have_its_numbers() {
+    let world = |k: usize| -> (u64, World) {
+        let scene = Scene::from_toml(EMBEDDED[k].1).unwrap();
+        (scene.steps(), scene.world().unwrap())
+    };
+    let length = |world: &World, wire: usize| world.wires()[wire].nodes().last().unwrap().arc;
+    let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-3, "{a} {b}");
+
+    let (steps, basic) = world(0);
+    assert_eq!(steps, 300);
+    (0..3).for_each(|wire| near(length(&basic, wire), 2.0));
+
+    let (steps, anchor) = world(1);
+    assert_eq!(steps, 1920);
+    near(anchor.bodies()[0].mass(), 1570.796);
+    near(length(&anchor, 0), 25.0);
+    near(length(&anchor, 1), 50.0);
+    near(-anchor.bodies()[1].position().x / 2.0, 8.85);
+    // At the end the pulled wire still reaches the end of the hanging one where that is straight towards it.
+    let boxes = anchor.bodies()[1].position() + Vector::x() * 2.0 * 32.0;
+    assert!((boxes.coords - Vector::x() * 25.0).norm() < 25.0);
+
+    let (steps, twisting) = world(2);
+    assert_eq!(steps, 300);
+    near(twisting.bodies()[1].mass(), 8000.0);
+    let weight = 8000.0 * 9.80665 / 4.0;
+    for wire in twisting.wires() {
+        let strain = weight / wire.material().stretch_stiffness();
+        near(
+            wire.nodes()[0].position.z - wire.nodes().last().unwrap().position.z,
+            12.0,
+        );
+        assert!((wire.nodes().last().unwrap().arc * (1.0 + strain) - 12.0).abs() < 1e-9);
+    }
+
+    let (steps, chains) = world(3);
+    assert_eq!(steps, 540);
+    near(chains.bodies()[3].mass(), 200.0);
+    near(chains.bodies()[1].position().z, 0.8);
+    for wire in chains.wires() {
+        assert!(wire.material().is_chain());
+        assert!(wire.nodes().iter().all(|node| node.position.z >= 0.01));
+    }
+    // The brown box passes the blue one after the chains have met and before they meet near both.
+    let passes = 0.5 - chains.bodies()[2].position().x / 0.6;
+    assert!((2.1..3.083).contains(&passes), "{passes}");
+}

@@ -1,0 +1,279 @@
+//! Scenes run from start to end, and what is counted on the way.
+
+use std::fmt;
+use std::time::Instant;
+
+use crate::scenes::{Scene, SceneError};
+use serde::Serialize;
+use tunnelproof::additive::Additive;
+use tunnelproof::certified::Certified;
+use tunnelproof::contact::{Case, Flags, Verdict};
+use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
+use tunnelproof::query::EdgeEdge;
+use tunnelproof::thesis::Thesis;
+use tunnelproof::wire::{Mode, Outcome, StepError, StepRecord, World};
+
+use crate::sweep::Setting;
+use tunnelproof_reference::certify::table::grouped;
+
+/// No continuous detection at all: wires get contacts where they overlap at the end of a step. In guard mode changes of
+/// resolution are tested still: no time passes in them.
+pub struct Discrete;
+
+impl NarrowPhase for Discrete {
+    fn name(&self) -> &str {
+        "discrete"
+    }
+
+    fn edge_edge(&self, _query: &EdgeEdge) -> Result<Report, Unsupported> {
+        Ok(Report {
+            verdict: Verdict::Miss,
+            case: None,
+            flags: Flags::default(),
+        })
+    }
+}
+
+/// The thresholds that `tune` recommends for metres in `f64` (docs/thresholds.md).
+const TUNED: Setting = Setting([1e-4, 1e-4, 1e-15, 1e-5, 1e-12]);
+
+/// A narrow phase that a simulation can use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Narrow {
+    /// The certified path.
+    Certified,
+    /// The thesis path with the thresholds of table 3.1.
+    Thesis,
+    /// The thesis path with the thresholds that `tune` recommends for metres in `f64`.
+    Tuned,
+    /// Additive CCD.
+    Additive,
+    /// [`Discrete`].
+    Discrete,
+}
+
+impl Narrow {
+    /// All of them.
+    pub const ALL: [Narrow; 5] = [
+        Narrow::Certified,
+        Narrow::Thesis,
+        Narrow::Tuned,
+        Narrow::Additive,
+        Narrow::Discrete,
+    ];
+
+    /// Its name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Narrow::Certified => "certified",
+            Narrow::Thesis => "thesis",
+            Narrow::Tuned => "tuned",
+            Narrow::Additive => "additive",
+            Narrow::Discrete => "discrete",
+        }
+    }
+
+    /// Who answers.
+    pub fn phase(self) -> Box<dyn NarrowPhase> {
+        match self {
+            Narrow::Certified => Box::new(Certified),
+            Narrow::Thesis => Box::new(Thesis::default()),
+            Narrow::Tuned => Box::new(Thesis {
+                options: TUNED.options(),
+            }),
+            Narrow::Additive => Box::new(Additive::default()),
+            Narrow::Discrete => Box::new(Discrete),
+        }
+    }
+}
+
+/// What is run.
+pub struct Run<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// How pairs are tested.
+    pub narrow: &'a dyn NarrowPhase,
+    /// What becomes of crossings.
+    pub mode: Mode,
+}
+
+/// What happened in a run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Summary {
+    /// The title of the scene.
+    pub title: String,
+    /// Steps done.
+    pub steps: u64,
+    /// Simulated time in s.
+    pub time: f64,
+    /// Wall-clock time in s.
+    pub wall: f64,
+    /// Of this, collision detection.
+    pub wall_collision: f64,
+    /// Of this, the narrow phase: tests of pairs, and the contacts that come of them.
+    pub wall_narrow: f64,
+    /// Pairs that the broad phase named.
+    pub named: usize,
+    /// Of these, excluded as too slow.
+    pub excluded: usize,
+    /// Of these, tested.
+    pub tested: usize,
+    /// Pairs with a body that were tested.
+    pub tested_bodies: usize,
+    /// Tests by case, in the order of [`Case::ALL`].
+    pub cases: [usize; Case::ALL.len()],
+    /// Contacts at which the segments are parallel for an instant.
+    pub temporarily_parallel: usize,
+    /// Guard mode: crossings prevented.
+    pub prevented: usize,
+    /// Thesis mode: wires that passed through.
+    pub tunnelled: usize,
+    /// Thesis mode: wires that came back.
+    pub returned: usize,
+    /// Contacts without passage.
+    pub grazed: usize,
+    /// Motions shortened.
+    pub held: usize,
+    /// Changes of resolution.
+    pub remeshes: usize,
+    /// Changes of resolution refused.
+    pub refused: usize,
+    /// The largest tension in N.
+    pub tension: f64,
+    /// The largest number of contacts in a step.
+    pub contacts: usize,
+    /// Why the run ended before its time.
+    pub stopped: Option<String>,
+}
+
+impl Run<'_> {
+    /// Runs the scene to its end, and shows every step to `observe`. A step that cannot be done ends the run.
+    ///
+    /// # Errors
+    ///
+    /// The scene cannot be built, or what `observe` returns.
+    pub fn go<E: From<SceneError>>(
+        &self,
+        mut observe: impl FnMut(&World, &StepRecord) -> Result<(), E>,
+    ) -> Result<Summary, E> {
+        let mut world = self.scene.world()?;
+        let mut collisions = self.scene.collisions(self.mode, self.narrow)?;
+        let mut summary = Summary {
+            title: self.scene.title.clone(),
+            ..Summary::default()
+        };
+        for _ in 0..self.scene.steps() {
+            let started = Instant::now();
+            let record = world.step_colliding(&mut collisions, &[]);
+            summary.wall += started.elapsed().as_secs_f64();
+            match record {
+                Ok(record) => {
+                    summary.add(&record);
+                    observe(&world, &record)?;
+                }
+                Err(error) => {
+                    summary.stop(&error);
+                    break;
+                }
+            }
+        }
+        Ok(summary)
+    }
+}
+
+impl Summary {
+    /// Tests of these cases.
+    pub fn of_case(&self, cases: &[Case]) -> usize {
+        let all = Case::ALL.iter().zip(self.cases);
+        all.filter(|(case, _)| cases.contains(case))
+            .map(|(_, count)| count)
+            .sum()
+    }
+
+    fn stop(&mut self, error: &StepError) {
+        self.stopped = Some(error.to_string());
+    }
+
+    fn add(&mut self, record: &StepRecord) {
+        self.steps += 1;
+        self.time = record.time;
+        self.wall_collision += record.phases.broad + record.phases.narrow;
+        self.wall_narrow += record.phases.narrow;
+        let found = &record.collisions;
+        self.named += found.named;
+        self.excluded += found.excluded;
+        self.tested += found.tested;
+        self.tested_bodies += found.tested_bodies;
+        for (sum, count) in self.cases.iter_mut().zip(found.cases) {
+            *sum += count;
+        }
+        self.temporarily_parallel += found.temporarily_parallel;
+        for crossing in &found.crossings {
+            *match crossing.outcome {
+                Outcome::Prevented => &mut self.prevented,
+                Outcome::Tunnelled => &mut self.tunnelled,
+                Outcome::Returned => &mut self.returned,
+                Outcome::Grazed => &mut self.grazed,
+            } += 1;
+        }
+        self.held += found.held.len();
+        self.remeshes += record.remeshes.len();
+        self.refused += found.refused;
+        let tensions = record.wires.iter().flat_map(|wire| &wire.tensions);
+        self.tension = tensions.fold(self.tension, |a: f64, &b| a.max(b));
+        self.contacts = self.contacts.max(record.contacts.len());
+    }
+}
+
+impl fmt::Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let count = |number: usize| grouped(number as u64);
+        let rows = [
+            (
+                "steps",
+                format!("{} ({:.3} s)", grouped(self.steps), self.time),
+            ),
+            (
+                "run time",
+                format!(
+                    "{:.3} s, of it collisions {:.3} s",
+                    self.wall, self.wall_collision
+                ),
+            ),
+            ("pairs named", count(self.named)),
+            ("excluded", count(self.excluded)),
+            ("tested", count(self.tested)),
+            (
+                "cases",
+                format!(
+                    "{} general, {} parallel, {} coplanar",
+                    count(self.of_case(&[Case::General])),
+                    count(self.of_case(&[Case::Parallel, Case::Collinear])),
+                    count(self.of_case(&[Case::Coplanar]))
+                ),
+            ),
+            ("temporarily parallel", count(self.temporarily_parallel)),
+            ("crossings prevented", count(self.prevented)),
+            (
+                "tunnelled, returned",
+                format!("{}, {}", count(self.tunnelled), count(self.returned)),
+            ),
+            ("grazed", count(self.grazed)),
+            ("motions held", count(self.held)),
+            (
+                "resolution changed",
+                format!("{}, refused {}", count(self.remeshes), count(self.refused)),
+            ),
+            ("largest tension", format!("{:.0} N", self.tension)),
+            ("most contacts", count(self.contacts)),
+        ];
+        writeln!(f, "{}", self.title)?;
+        for (name, value) in rows {
+            writeln!(f, "  {name:<22}{value}")?;
+        }
+        match &self.stopped {
+            Some(error) => writeln!(f, "  {:<22}{error}", "stopped"),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! Test vectors: queries with their exact answers as JSON, against which any implementation of
+//! continuous collision detection can be checked, in any language.
+//!
+//! `vectors/README.md` describes the format, `vectors/schema.json` states it. One file for each
+//! source: the figures of the thesis, the witnesses of its errata, public bug reports, and a
+//! selection of each [family](tunnelproof_reference::generate). All of it is computed from the sources here, the same
+//! on every machine; nothing is edited by hand.
+
+use std::collections::{BTreeMap, HashSet};
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use tunnelproof_reference::generate;
+use tunnelproof_reference::shape::Shape;
+
+mod assessment;
+mod exact_time;
+mod families;
+mod flag;
+mod given;
+mod layout;
+mod method;
+mod reports;
+mod vector;
+
+use flag::Note;
+use vector::{Described, Vector};
+
+/// A file of vectors.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct VectorFile {
+    /// The name of the file, such as `lattice.json`.
+    pub name: String,
+    /// What is in it.
+    pub text: String,
+    /// How many vectors there are in it.
+    pub vectors: usize,
+}
+
+/// The queries of one source, still without their answers.
+struct Source {
+    name: String,
+    description: String,
+    queries: Vec<Described>,
+}
+
+/// A whole file as JSON has it.
+#[derive(Serialize)]
+struct Document {
+    schema: &'static str,
+    generator: &'static str,
+    source: String,
+    number_of_vectors: usize,
+    notes: BTreeMap<String, Note>,
+    vectors: Vec<Vector>,
+}
+
+/// Every file of vectors. No query is in two of them, but those that belong to a wire.
+pub fn files() -> Vec<VectorFile> {
+    let mut sources = vec![given::figures(), given::errata(), reports::reports()];
+    let families: Vec<_> = generate::all().collect();
+    let families: Vec<_> = families.into_par_iter().map(families::selection).collect();
+    sources.extend(families);
+    without_repetition(&mut sources);
+    sources.into_iter().map(Source::file).collect()
+}
+
+/// Leaves of equal queries the first one.
+fn without_repetition(sources: &mut [Source]) {
+    let mut seen = HashSet::new();
+    for source in sources {
+        source.queries.retain(|described| {
+            let is_new = seen.insert(Shape::new(&described.query));
+            is_new || described.wire.is_some()
+        });
+    }
+}
+
+impl Source {
+    fn file(self) -> VectorFile {
+        let vectors: Vec<_> = self.queries.into_par_iter().map(Vector::new).collect();
+        let flags = vectors.iter().flat_map(Vector::flags);
+        let document = Document {
+            schema: "schema.json",
+            generator: concat!("tunnelproof ", env!("CARGO_PKG_VERSION"), " vectors"),
+            source: self.description,
+            number_of_vectors: vectors.len(),
+            notes: flags.map(|flag| (flag.name(), flag.note())).collect(),
+            vectors,
+        };
+        VectorFile {
+            name: format!("{}.json", self.name),
+            text: layout::text(&document),
+            vectors: document.number_of_vectors,
+        }
+    }
+}

@@ -1,0 +1,284 @@
+//! What `certify` and `merge` write: JSON with its schema, JUnit, shards put together.
+
+use std::fs;
+use std::io::Write;
+use std::process::Output;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::run::{stderr, stdout, tunnelproof};
+
+/// Small, with wires of two queries each, faults of each kind, and a number of queries that shards do not divide.
+const FAMILIES: [&str; 6] = [
+    "--family",
+    "lattice,joint,slow",
+    "--count",
+    "211",
+    "--seed",
+    "5",
+];
+
+struct Folder(TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Folder(tempfile::tempdir().unwrap())
+    }
+
+    fn path(&self, name: &str) -> String {
+        self.0.path().join(name).to_str().unwrap().to_owned()
+    }
+
+    fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap()
+    }
+
+    fn json(&self, name: &str) -> Value {
+        serde_json::from_str(&self.read(name)).unwrap()
+    }
+
+    /// Runs with the names of files in this folder after each option that writes one.
+    fn run(&self, arguments: &[&str]) -> Output {
+        let path = |argument: &&str| match argument.strip_prefix('@') {
+            Some(name) => self.path(name),
+            None => (*argument).to_owned(),
+        };
+        let arguments: Vec<_> = arguments.iter().map(path).collect();
+        let arguments: Vec<_> = arguments.iter().map(String::as_str).collect();
+        tunnelproof(&arguments)
+    }
+
+    fn certify(&self, arguments: &[&str]) -> Output {
+        let output = self.run(&[&["certify"], arguments].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        output
+    }
+
+    /// Judges the families in so many shards, in `0.json` and so on.
+    fn shards(&self, of: usize) -> Vec<String> {
+        let names = (0..of).map(|index| format!("@{index}.json"));
+        let names: Vec<_> = names.collect();
+        for (index, name) in names.iter().enumerate() {
+            let shard = format!("{}/{of}", index + 1);
+            self.certify(&[&FAMILIES[..], &["--shard", &shard, "--json", name]].concat());
+        }
+        names
+    }
+}
+
+fn assert_is_valid(result: &Value) {
+    let schema =
+        serde_json::from_str(include_str!("../../../reference/schema/certificate.json")).unwrap();
+    let schema = jsonschema::validator_for(&schema).unwrap();
+    let errors: Vec<_> = schema.iter_errors(result).map(|e| e.to_string()).collect();
+    assert!(errors.is_empty(), "{errors:?}");
+}
+
+#[test]
+fn merge_of_shards_is_the_whole_to_the_last_byte() {
+    let folder = Folder::new();
+    let whole = folder.certify(
+        &[
+            &FAMILIES[..],
+            &["--json", "@whole.json", "--html", "@whole.html"],
+        ]
+        .concat(),
+    );
+    let mut names = folder.shards(3);
+    names.reverse();
+    let names: Vec<_> = names.iter().map(String::as_str).collect();
+    let merged = folder.run(
+        &[
+            &["merge"],
+            &names[..],
+            &["--json", "@merged.json", "--html", "@merged.html"],
+        ]
+        .concat(),
+    );
+    assert_eq!(merged.status.code(), Some(0), "{}", stderr(&merged));
+    assert_eq!(stdout(&merged), stdout(&whole));
+    for kind in ["json", "html"] {
+        let [merged, whole] =
+            ["merged", "whole"].map(|name| folder.read(&format!("{name}.{kind}")));
+        assert!(merged == whole, "{kind} differs");
+    }
+    // The shards have different queries, all of them together.
+    let queries = |name: &str| folder.json(name)["total"]["queries"].as_u64().unwrap();
+    assert_eq!(
+        ["0.json", "1.json", "2.json"]
+            .map(queries)
+            .iter()
+            .sum::<u64>(),
+        633
+    );
+    assert_eq!(queries("whole.json"), 633);
+    assert!(queries("0.json") < 300);
+    assert_is_valid(&folder.json("whole.json"));
+    assert_is_valid(&folder.json("0.json"));
+}
+
+#[test]
+fn merge_of_what_is_not_one_certification_is_refused() {
+    let folder = Folder::new();
+    folder.shards(2);
+    folder.certify(&["--family", "slow", "--count", "5", "--json", "@other.json"]);
+    fs::write(folder.path("broken.json"), "{}").unwrap();
+    let doctored = folder.read("1.json").replace("\"differs\"", "\"odd\"");
+    fs::write(folder.path("doctored.json"), doctored).unwrap();
+    for (names, at, what) in [
+        (&["@0.json"][..], "0.json", "shard 2/2 is missing"),
+        (
+            &["@0.json", "@0.json"],
+            "0.json",
+            "shard 1/2 is there twice",
+        ),
+        (
+            &["@1.json", "@other.json"],
+            "other.json",
+            "is of another number of shards than the first",
+        ),
+        (
+            &["@0.json", "@broken.json"],
+            "broken.json",
+            "not a result of this version of certify",
+        ),
+        (
+            &["@0.json", "@doctored.json"],
+            "doctored.json",
+            "fault is \"odd\"",
+        ),
+        (&["@none.json"], "none.json", "no such file"),
+    ] {
+        let output = folder.run(&[&["merge"], names].concat());
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.starts_with(&folder.path(at)), "{message}");
+        assert!(message.contains(what), "{message}");
+        assert_eq!(message.lines().count(), 1, "{message}");
+    }
+}
+
+#[test]
+fn certify_resumes_from_a_result_of_the_same_command() {
+    let folder = Folder::new();
+    let arguments = [&FAMILIES[..], &["--json", "@result.json", "--resume"]].concat();
+    let first = folder.certify(&arguments);
+    let second = folder.certify(&arguments);
+    assert_eq!(stdout(&first), stdout(&second));
+    // What is there is taken, whatever it says.
+    let doctored = folder
+        .read("result.json")
+        .replace("\"joints\": 105", "\"joints\": 999");
+    fs::write(folder.path("result.json"), doctored).unwrap();
+    assert!(stdout(&folder.certify(&arguments)).contains("999 joints"));
+    let other = folder.run(&[
+        "certify",
+        "--family",
+        "slow",
+        "--json",
+        "@result.json",
+        "--resume",
+    ]);
+    assert_eq!(other.status.code(), Some(2));
+    assert!(
+        stderr(&other).contains("is of another command"),
+        "{}",
+        stderr(&other)
+    );
+}
+
+#[test]
+fn junit_has_a_case_for_each_subject_and_source() {
+    let folder = Folder::new();
+    folder.certify(&[
+        "--subject",
+        "oracle,additive,shadow",
+        "--family",
+        "slow,face_uniform",
+        "--count",
+        "100",
+        "--junit",
+        "@junit.xml",
+        "--json",
+        "@result.json",
+    ]);
+    let text = folder.read("junit.xml");
+    let document = roxmltree::Document::parse(&text).unwrap();
+    let suites = document
+        .descendants()
+        .filter(|node| node.has_tag_name("testsuite"));
+    let mut seen = Vec::new();
+    for suite in suites {
+        let cases = suite
+            .children()
+            .filter(|node| node.has_tag_name("testcase"));
+        for case in cases {
+            let outcome = case.children().find(|node| node.is_element());
+            let outcome = outcome.map_or("passed", |node| node.tag_name().name());
+            seen.push((
+                suite.attribute("name").unwrap(),
+                case.attribute("name").unwrap(),
+                outcome,
+            ));
+        }
+        let count = |name: &str| suite.attribute(name).unwrap().parse::<usize>().unwrap();
+        let own = seen
+            .iter()
+            .filter(|(name, ..)| Some(*name) == suite.attribute("name"));
+        let own: Vec<_> = own.collect();
+        let of = |outcome: &str| own.iter().filter(|(.., other)| *other == outcome).count();
+        assert_eq!(
+            [count("tests"), count("failures"), count("skipped")],
+            [2, of("failure"), of("skipped")]
+        );
+    }
+    assert_eq!(
+        seen,
+        [
+            ("oracle", "slow", "passed"),
+            ("oracle", "face_uniform", "passed"),
+            ("additive", "slow", "failure"),
+            ("additive", "face_uniform", "skipped"),
+            ("shadow", "slow", "passed"),
+            ("shadow", "face_uniform", "skipped"),
+            ("judges", "slow", "passed"),
+            ("judges", "face_uniform", "passed"),
+        ]
+    );
+    let failures = folder.json("result.json")["failures"].to_string();
+    let failure = document
+        .descendants()
+        .find(|node| node.has_tag_name("failure"))
+        .unwrap();
+    assert!(
+        failures.contains(failure.attribute("message").unwrap()),
+        "{failures}"
+    );
+    assert!(failure.text().unwrap().contains("explain slow:1:"));
+}
+
+#[test]
+fn packed_files_are_read_as_what_is_packed() {
+    let folder = Folder::new();
+    let evaluated = |name: &str| stdout(&folder.run(&["eval", name]));
+    let line = r#"{"id":"a","kind":"edge-edge","points":[[0,0,0],[1,0,0],[0.5,-1,1],[0.5,1,1],[0,0,0],[1,0,0],[0.5,-1,-2],[0.5,1,-2]]}"#;
+    let text = format!("{line}\n").repeat(300);
+    fs::write(folder.path("a.jsonl"), &text).unwrap();
+    let mut gzip = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+    gzip.write_all(text.as_bytes()).unwrap();
+    fs::write(folder.path("a.jsonl.gz"), gzip.finish().unwrap()).unwrap();
+    let level = ruzstd::encoding::CompressionLevel::Fastest;
+    let zstd = ruzstd::encoding::compress_to_vec(text.as_bytes(), level);
+    fs::write(folder.path("a.jsonl.zst"), &zstd).unwrap();
+    let plain = evaluated("@a.jsonl");
+    assert_eq!(plain.lines().count(), 300);
+    assert_eq!(evaluated("@a.jsonl.gz"), plain);
+    assert_eq!(evaluated("@a.jsonl.zst"), plain);
+    fs::write(folder.path("cut.jsonl.zst"), &zstd[..zstd.len() - 3]).unwrap();
+    let cut = folder.run(&["eval", "@cut.jsonl.zst"]);
+    assert_eq!(cut.status.code(), Some(2), "{}", stderr(&cut));
+    assert_eq!(stderr(&cut).lines().count(), 1);
+    let explained = folder.run(&["explain", &format!("{}#a", folder.path("a.jsonl.gz"))]);
+    assert_eq!(explained.status.code(), Some(0), "{}", stderr(&explained));
+}

@@ -1,0 +1,153 @@
+//! Faults planted in the sources of the thesis path, the shadow, the oracle and the certified path are found
+//! by `certify`, or by `thesis_vs_shadow` on its seeds, within a minute each.
+//!
+//! Builds the program once for each fault, which takes minutes, so it has to be asked for:
+//!
+//! ```text
+//! cargo test --release --test mutants -- --ignored --nocapture
+//! ```
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+use std::{env, fs};
+
+use tunnelproof_cli::fuzz;
+
+mod table;
+mod workspace;
+
+use table::{Culprit, MUTANTS, Mutant};
+use workspace::{Said, Workspace};
+
+/// The folder of the workspace.
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// How long a fault may stay unfound, building not counted.
+const LONGEST: Duration = Duration::from_secs(60);
+
+/// Judges on everything, certified path and shadow: who is wrong is outvoted.
+const CERTIFY: &[&str] = &[
+    "certify",
+    "--strict",
+    "--subject",
+    "oracle,shadow,certified",
+    "--count",
+    "500",
+];
+
+/// The same with a radius above 0, on what the thesis and its shadow do not treat.
+const CERTIFY_THICK: &[&str] = &[
+    "certify",
+    "--strict",
+    "--subject",
+    "oracle,certified",
+    "--family",
+    "thick_uniform,thick_lattice,thick_face_uniform,thick_face_lattice",
+    "--count",
+    "300",
+];
+
+/// How many seeds of each family the thesis path is replayed on.
+const SEEDS: u64 = 64;
+
+/// The seeds of the target `thesis_vs_shadow`, in a folder of that name.
+fn corpus() -> PathBuf {
+    let name = "thesis_vs_shadow";
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
+        .join("corpus")
+        .join(name);
+    fs::create_dir_all(&folder).expect("a folder can be made");
+    let target = fuzz::by_name(name).expect("a target");
+    for (index, seed) in target.seeds(SEEDS).iter().enumerate() {
+        fs::write(folder.join(format!("seed-{index:04}")), seed).expect("a file can be written");
+    }
+    folder
+}
+
+/// Runs what finds the faults of someone.
+fn examine(workspace: &Workspace, culprit: Culprit, corpus: &Path) -> Said {
+    match culprit {
+        Culprit::Thesis => workspace.run(&["replay", &corpus.to_string_lossy()], LONGEST),
+        Culprit::Thick => workspace.run(CERTIFY_THICK, LONGEST),
+        _ => workspace.run(CERTIFY, LONGEST),
+    }
+}
+
+/// The lines that name who is wrong.
+fn findings(said: &Said) -> Vec<&str> {
+    let thesis = said.stdout.lines();
+    let thesis = thesis.filter(|line| line.contains(": thesis_vs_shadow: "));
+    let strict = said.stderr.lines();
+    let strict = strict.filter_map(|line| line.strip_prefix("--strict: "));
+    thesis.chain(strict).collect()
+}
+
+/// Whether the findings are those of a fault of this one, and of no other: a wrong oracle differs from the
+/// shadow and from the certified path, a wrong shadow from the oracle alone.
+fn names(culprit: Culprit, findings: &[&str]) -> bool {
+    let has = |start: &str| findings.iter().any(|line| line.starts_with(start));
+    let wrong = ["shadow: ", "oracle and shadow disagree", "certified: "].map(has);
+    match culprit {
+        Culprit::Thesis => !findings.is_empty(),
+        Culprit::Shadow => wrong == [true, true, false],
+        Culprit::Oracle => wrong == [true, true, true],
+        Culprit::Certified | Culprit::Thick => wrong == [false, false, true],
+    }
+}
+
+#[test]
+fn mutants_have_a_text_that_occurs_once() {
+    for Mutant { file, text, .. } in MUTANTS {
+        let path = root().join(file);
+        let source = fs::read_to_string(path).expect(file);
+        assert_eq!(source.matches(text).count(), 1, "{file}: {text}");
+    }
+}
+
+#[test]
+fn mutants_have_every_package_of_the_workspace() {
+    assert!(Workspace::new("packages").is_whole());
+}
+
+/// `TUNNELPROOF_MUTANTS` is a part of the file names of those to plant.
+#[test]
+#[ignore = "extensive: builds the program once for each fault"]
+fn mutants_are_found_within_a_minute() {
+    let workspace = Workspace::new("mutants");
+    let corpus = corpus();
+    workspace.build();
+    for culprit in [Culprit::Thesis, Culprit::Oracle, Culprit::Thick] {
+        let said = examine(&workspace, culprit, &corpus);
+        assert_eq!(
+            (said.code, findings(&said)),
+            (Some(0), vec![]),
+            "without a fault"
+        );
+        println!(
+            "{:6.1} s  no fault: nothing is found",
+            said.time.as_secs_f64()
+        );
+    }
+    let asked = env::var("TUNNELPROOF_MUTANTS").unwrap_or_default();
+    let mut unfound = Vec::new();
+    for mutant in MUTANTS.iter().filter(|mutant| mutant.file.contains(&asked)) {
+        let said = workspace.with(mutant, || {
+            workspace.build();
+            examine(&workspace, mutant.culprit, &corpus)
+        });
+        let findings = findings(&said);
+        let is_found = said.code == Some(1) && names(mutant.culprit, &findings);
+        let (seconds, file, fault) = (said.time.as_secs_f64(), mutant.file, mutant.fault);
+        let found = if is_found { "found" } else { "NOT FOUND" };
+        println!("{seconds:6.1} s  {found}: {file}: {fault}");
+        for finding in findings.iter().take(3) {
+            println!("{:10}{finding}", "");
+        }
+        if !is_found {
+            unfound.push(format!("{file}: {fault}: {findings:?}"));
+        }
+    }
+    assert!(unfound.is_empty(), "{unfound:#?}");
+}

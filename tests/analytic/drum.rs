@@ -1,0 +1,225 @@
+//! Wire that slides over a drum: held by friction, drawn over it, and free to run.
+
+use std::error::Error;
+use std::f64::consts::PI;
+
+use nalgebra::UnitQuaternion;
+
+use super::{Case, Comparison, weightless};
+use tunnelproof::query::Point;
+use tunnelproof::wire::{
+    BodyPlan, Drive, Material, NodeKind, Phase, Settings, Shape, Stop, Vector, Wire, WirePlan,
+    World,
+};
+
+type Outcome = Result<Vec<Comparison>, Box<dyn Error>>;
+
+const RADIUS: f64 = 0.5;
+const FRICTION: f64 = 0.3;
+
+/// From the axis of a drum to a place on it, by the angle from x to z.
+fn direction(angle: f64) -> Vector {
+    Vector::new(libm::cos(angle), 0.0, libm::sin(angle))
+}
+
+/// A fixed drum along y about the origin, and contact nodes on it at these angles.
+fn drum(world: &mut World, friction: f64, angles: &[f64]) -> Result<Vec<Stop>, Box<dyn Error>> {
+    let shape = Shape::Cylinder {
+        radius: RADIUS,
+        half_height: 1.0,
+    };
+    let axis = UnitQuaternion::rotation_between(&Vector::z(), &Vector::y());
+    let mut plan = BodyPlan::fixed(shape, Point::origin());
+    plan.orientation = axis.ok_or("z and y are not opposite")?;
+    let body = world.add_body(plan)?;
+    let to_drum = world.body(body)?.orientation().inverse();
+    let node = |&angle: &f64| {
+        let normal = to_drum * direction(angle);
+        Stop::Contact {
+            body,
+            local: normal * RADIUS,
+            normal,
+            friction,
+        }
+    };
+    Ok(angles.iter().map(node).collect())
+}
+
+/// An eye on a small ball that is drawn at velocities, each from a time on.
+fn drawn(
+    world: &mut World,
+    at: Point,
+    velocities: &[(f64, Vector)],
+) -> Result<Stop, Box<dyn Error>> {
+    let phases = velocities.iter().map(|&(from, velocity)| Phase {
+        from,
+        velocity,
+        angular_velocity: Vector::zeros(),
+    });
+    let body = world.add_body(BodyPlan {
+        drive: Drive::Kinematic(phases.collect()),
+        ..BodyPlan::fixed(Shape::Sphere { radius: 0.1 }, at)
+    })?;
+    let local = Vector::zeros();
+    Ok(Stop::Eye { body, local })
+}
+
+/// `(1 + f tan(D/2)) / (1 - f tan(D/2))` of one node, to the power of their number.
+fn bound(turn: f64, nodes: i32) -> f64 {
+    let half = FRICTION * libm::tan(turn / 2.0);
+    ((1.0 + half) / (1.0 - half)).powi(nodes)
+}
+
+pub(super) const CAPSTAN: Case = Case {
+    name: "capstan",
+    formula: "T2/T1 = ((1 + f tan(D/2)) / (1 - f tan(D/2)))^n; e^(f theta)",
+    run: capstan,
+};
+
+/// A chain half around a drum, over 12 nodes that turn it by 15 degrees each, pulled until it slides, and
+/// held then.
+fn capstan() -> Outcome {
+    const NODES: i32 = 12;
+    let turn = PI / f64::from(NODES);
+    let mut world = World::new(weightless(1.0 / 60.0))?;
+    let angles: Vec<f64> = (0..NODES).map(|i| f64::from(i) * turn).collect();
+    let nodes = drum(&mut world, FRICTION, &angles)?;
+    // Each leg turns by a whole node against the chord next to it.
+    let leg = |angle: f64, side: f64| {
+        let along = direction(angle + side * turn / 2.0 + PI / 2.0) * side;
+        (Point::from(direction(angle) * RADIUS + along * 2.0), along)
+    };
+    let ((start, _), (end, away)) = (leg(0.0, -1.0), leg(PI - turn, 1.0));
+    let puller = drawn(
+        &mut world,
+        end,
+        &[(0.0, away * 0.01), (2.0, Vector::zeros())],
+    )?;
+    let mut route = vec![Stop::Pinned(start)];
+    route.extend(nodes);
+    route.push(puller);
+    world.add_wire(&WirePlan::new(Material::steel(0.02).chain(), 10.0, route))?;
+    while world.time() < 4.0 {
+        world.step(&[])?;
+    }
+    let segments = world.wires()[0].segments();
+    let measured = segments[segments.len() - 1].tension / segments[0].tension;
+    let by_angle = libm::exp(FRICTION * PI);
+    Ok(vec![
+        Comparison::new(
+            "ratio of tensions, by nodes",
+            bound(turn, NODES),
+            measured,
+            0.005,
+        ),
+        Comparison::new("ratio of tensions, by angle", by_angle, measured, 0.02),
+    ])
+}
+
+/// Nodes of the drum of a hoist.
+const CORNERS: i32 = 6;
+/// How far the ends hang below the axis at first, in m.
+const DEPTH: f64 = 6.0;
+const LOAD: f64 = 100.0;
+
+/// An adaptive steel chain of radius 0.01 m from a load up, over six nodes, and straight down again to what `other` puts there.
+fn hoist(
+    friction: f64,
+    other: impl Fn(&mut World, Point) -> Result<Stop, Box<dyn Error>>,
+) -> Result<World, Box<dyn Error>> {
+    let mut world = World::new(Settings::default())?;
+    let turn = PI / f64::from(CORNERS);
+    let angles: Vec<f64> = (0..CORNERS)
+        .map(|i| PI - (f64::from(i) + 0.5) * turn)
+        .collect();
+    let nodes = drum(&mut world, friction, &angles)?;
+    let aside = RADIUS * libm::cos(turn / 2.0);
+    let mut route = vec![load(&mut world, LOAD, Point::new(-aside, 0.0, -DEPTH))?];
+    route.extend(nodes);
+    route.push(other(&mut world, Point::new(aside, 0.0, -DEPTH))?);
+    let material = Material::steel(0.01).chain();
+    world.add_wire(&WirePlan::new(material, 0.5, route).adaptive())?;
+    Ok(world)
+}
+
+/// An eye in a ball of a mass in kg.
+fn load(world: &mut World, mass: f64, at: Point) -> Result<Stop, Box<dyn Error>> {
+    let radius = 0.2;
+    let density = mass / (4.0 / 3.0 * PI * radius * radius * radius);
+    let body = world.add_body(BodyPlan::dynamic(Shape::Sphere { radius }, density, at))?;
+    let local = Vector::zeros();
+    Ok(Stop::Eye { body, local })
+}
+
+/// The first and the last segment that is not on the drum, seen from it.
+fn beside_drum(wire: &Wire) -> Option<[usize; 2]> {
+    let is_on = |node: &tunnelproof::wire::Node| matches!(node.kind, NodeKind::Contact { .. });
+    let first = wire.nodes().iter().position(is_on)?;
+    let last = wire.nodes().iter().rposition(is_on)?;
+    Some([first - 1, last])
+}
+
+pub(super) const HOIST: Case = Case {
+    name: "load drawn over a drum",
+    formula: "T1 = (m + mu L1) g, T2/T1 = ((1 + f tan(D/2)) / (1 - f tan(D/2)))^n",
+    run: hoisting,
+};
+
+/// A load that is drawn up at 1 m/s.
+fn hoisting() -> Outcome {
+    let down = -Vector::z();
+    let velocities = [(0.0, down * 0.1), (0.5, down)];
+    let mut world = hoist(FRICTION, |world, end| drawn(world, end, &velocities))?;
+    let (mut ratio, mut pull, mut expected, mut count) = (0.0, 0.0, 0.0, 0.0);
+    let bound = bound(PI / f64::from(CORNERS), CORNERS);
+    while world.time() < 3.0 {
+        world.step(&[])?;
+        if world.time() <= 1.0 {
+            continue;
+        }
+        let wire = &world.wires()[0];
+        // The tension of a node's segments is that of the middle of the first one: half of its mass is the node's.
+        let [first, last] = beside_drum(wire).ok_or("the wire has left the drum")?;
+        let hanging = (wire.nodes()[first].arc + wire.nodes()[first + 1].arc) / 2.0;
+        let mass = LOAD + wire.material().mass_per_length() * hanging;
+        let tensions = [first, last].map(|segment| wire.segments()[segment].tension);
+        ratio += tensions[1] / tensions[0];
+        pull += tensions[1];
+        expected += mass * -world.settings().gravity.z * bound;
+        count += 1.0;
+    }
+    Ok(vec![
+        Comparison::new("mean ratio of tensions", bound, ratio / count, 0.005),
+        Comparison::new("mean pull, N", expected / count, pull / count, 0.005),
+    ])
+}
+
+pub(super) const ATWOOD: Case = Case {
+    name: "Atwood's machine",
+    formula: "v = k d / (2 mu) sinh(k t), k^2 = 2 mu g / M with the difference d and the sum M of the masses",
+    run: atwood,
+};
+
+/// Two loads on one chain over a drum without friction.
+fn atwood() -> Outcome {
+    const OTHER: f64 = 150.0;
+    let mut world = hoist(0.0, |world, end| load(world, OTHER, end))?;
+    let wire = &world.wires()[0];
+    let density = wire.material().mass_per_length();
+    let length = wire.nodes()[wire.nodes().len() - 1].arc;
+    let g = -world.settings().gravity.z;
+    while world.time() < 1.0 {
+        world.step(&[])?;
+    }
+    let mass = LOAD + OTHER + density * length;
+    let k = (2.0 * density * g / mass).sqrt();
+    let expected = (OTHER - LOAD) / (2.0 * density) * k * libm::sinh(k * world.time());
+    let speeds = [1, 2].map(|body| world.bodies()[body].velocity().z);
+    let what = [
+        "load that rises after 1 s, m/s",
+        "load that falls after 1 s, m/s",
+    ];
+    let pairs = what.into_iter().zip([expected, -expected]).zip(speeds);
+    let rows = pairs.map(|((what, expected), speed)| Comparison::new(what, expected, speed, 0.005));
+    Ok(rows.collect())
+}
