@@ -3,8 +3,8 @@
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use tunnelproof::certified::{self, FaceHit};
-use tunnelproof::contact::Case;
+use tunnelproof::certified::decide;
+use tunnelproof::contact::{Case, Hit, Place};
 use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
 use tunnelproof::query::Query;
 
@@ -44,8 +44,8 @@ pub trait Subject: Sync {
 pub enum Answer {
     /// An exact subject: every number enclosed by its neighbours.
     Exact(ExactAnswer),
-    /// The certified path: everything exact but the parameters, which have a stated error.
-    Certified(certified::Verdict),
+    /// The certified path, `None` for a miss: everything exact but the place, which has a stated error.
+    Certified(Option<Hit<Place>>),
     /// An engine: every number in `f64`.
     Engine(Report),
     /// Someone of whom no more is known than the least that everyone says.
@@ -182,33 +182,10 @@ impl Subject for Certified {
     }
 
     fn answer(&self, query: &Query) -> Result<Answer, NoAnswer> {
-        match query {
-            Query::EdgeEdge(query) => Ok(Answer::Certified(certified::decide(query))),
-            Query::VertexFace(query) => {
-                let hit = certified::decide_vertex_face(query);
-                Ok(Answer::Certified(match hit {
-                    None => certified::Verdict::Miss,
-                    Some(hit) => certified::Verdict::Hit(in_place_of_edges(&hit)),
-                }))
-            }
-        }
-    }
-}
-
-/// A contact with a face in the form of one of edges: the weights of C and D are the parameters, as in
-/// the exact answer.
-fn in_place_of_edges(hit: &FaceHit) -> certified::Hit {
-    let [_, u, v] = hit.weights;
-    certified::Hit {
-        toi: hit.toi,
-        toi_above: hit.toi_above,
-        kind: hit.kind,
-        side: hit.side,
-        first: certified::Parameters { u, v },
-        second: None,
-        parameter_error: hit.weight_error,
-        case: hit.case,
-        flags: hit.flags,
+        Ok(Answer::Certified(match query {
+            Query::EdgeEdge(query) => decide(query).map(|hit| hit.map_place(Place::from)),
+            Query::VertexFace(query) => decide(query).map(|hit| hit.map_place(Place::from)),
+        }))
     }
 }
 

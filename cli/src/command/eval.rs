@@ -75,7 +75,7 @@ fn answer_lines(
     let answers = subject.answers(&queries).into_iter().zip(entries);
     answers
         .map(|(answer, entry)| match answer {
-            Ok(answer) => Ok(answer::line(&entry.id, &answer)),
+            Ok(answer) => Ok(answer::line(&entry.id, entry.query.kind(), &answer)),
             Err(reason) => Err(RunError::NoAnswer {
                 place: source.place(entry),
                 reason,

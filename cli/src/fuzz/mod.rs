@@ -197,7 +197,7 @@ impl fmt::Display for Finding {
         for subject in registry::subjects() {
             let name = subject.name();
             match catch_unwind(AssertUnwindSafe(|| subject.answer(query))) {
-                Ok(Ok(answer)) => writeln!(f, "  {}", answer::line(name, &answer))?,
+                Ok(Ok(answer)) => writeln!(f, "  {}", answer::line(name, query.kind(), &answer))?,
                 Ok(Err(reason)) => writeln!(f, "  {name}: {reason}")?,
                 Err(_) => writeln!(f, "  {name} panics")?,
             }

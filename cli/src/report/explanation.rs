@@ -3,7 +3,6 @@
 
 use std::fmt::Write as _;
 
-use tunnelproof::certified;
 use tunnelproof::contact::{Case, ContactKind};
 use tunnelproof::query::{Query, QueryKind};
 
@@ -290,9 +289,9 @@ fn claim(found: &Found) -> String {
             None => format!("miss ({})", exact.case),
             Some(hit) => format!("hit at {} ({})", hit.toi, exact.case),
         },
-        Some(Answer::Certified(verdict)) => match verdict {
-            certified::Verdict::Miss => "miss".to_owned(),
-            certified::Verdict::Hit(hit) => {
+        Some(Answer::Certified(hit)) => match hit {
+            None => "miss".to_owned(),
+            Some(hit) => {
                 let toi = Enclosure {
                     below: hit.toi,
                     above: hit.toi_above,

@@ -1,7 +1,7 @@
 //! What settings are worth on queries that the search has not seen.
 
 use serde::Serialize;
-use tunnelproof::certified;
+use tunnelproof::certified::decide;
 use tunnelproof::query::EdgeEdge;
 
 use crate::sweep::{Interrupted, Sample, Setting, Watch};
@@ -71,10 +71,7 @@ pub fn validate(
 
 /// What the certified path says of a query.
 pub fn certified(query: &EdgeEdge) -> Said {
-    let hit = match certified::decide(query) {
-        certified::Verdict::Hit(hit) => Some(hit),
-        certified::Verdict::Miss => None,
-    };
+    let hit = decide(query);
     Said {
         toi: hit.map(|hit| Enclosure {
             below: hit.toi,

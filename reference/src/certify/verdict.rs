@@ -1,7 +1,6 @@
 //! What one answer is worth, against the exact one.
 
-use tunnelproof::certified;
-use tunnelproof::contact::Case;
+use tunnelproof::contact::{Case, EdgePlace, EdgePoint, FacePlace, Hit, Place};
 
 use crate::answer::{Enclosure, ExactAnswer, ExactHit, Parameters};
 use crate::subject::{Answer, Said};
@@ -128,11 +127,8 @@ pub fn judge(
             let toi = exact.hit.map(|hit| hit.toi);
             (toi, Some(exact.case), exact != truth)
         }
-        Some(Answer::Certified(verdict)) => {
-            let hit = match verdict {
-                certified::Verdict::Miss => None,
-                certified::Verdict::Hit(hit) => Some(hit),
-            };
+        Some(Answer::Certified(hit)) => {
+            let hit = hit.as_ref();
             let toi = hit.map(|hit| Enclosure {
                 below: hit.toi,
                 above: hit.toi_above,
@@ -179,22 +175,11 @@ pub fn judge_outline(truth: &Outline, said: &Said, is_near: impl FnOnce() -> boo
     }
 }
 
-/// Whether the certified path is right in all that it promises: everything exact, the parameters
-/// within their stated error.
-fn keeps_promise(hit: Option<&certified::Hit>, truth: &ExactAnswer) -> bool {
+/// Whether the certified path is right in all that it promises: everything exact, the place within its
+/// stated error.
+fn keeps_promise(hit: Option<&Hit<Place>>, truth: &ExactAnswer) -> bool {
     let (Some(hit), Some(exact)) = (hit, &truth.hit) else {
         return hit.is_none() && truth.hit.is_none();
-    };
-    let is_near = |value: f64, exact: Enclosure| {
-        value >= exact.below - hit.parameter_error && value <= exact.above + hit.parameter_error
-    };
-    let places_agree = |ours: &certified::Parameters, exact: &Parameters| {
-        is_near(ours.u, exact.u) && is_near(ours.v, exact.v)
-    };
-    let seconds_agree = match (&hit.second, &exact.second) {
-        (None, None) => true,
-        (Some(ours), Some(exact)) => places_agree(ours, exact),
-        _ => false,
     };
     let toi = Enclosure {
         below: hit.toi,
@@ -202,8 +187,36 @@ fn keeps_promise(hit: Option<&certified::Hit>, truth: &ExactAnswer) -> bool {
     };
     (toi, hit.kind, hit.side, hit.flags, hit.case)
         == (exact.toi, exact.kind, exact.side, exact.flags, truth.case)
-        && places_agree(&hit.first, &exact.first)
-        && seconds_agree
+        && is_at(&hit.place, exact)
+}
+
+/// Whether a place is that of the exact contact, within its stated error.
+fn is_at(place: &Place, exact: &ExactHit) -> bool {
+    let is_near = |value: f64, exact: Enclosure, error: f64| {
+        value >= exact.below - error && value <= exact.above + error
+    };
+    match place {
+        Place::Edges(EdgePlace {
+            first,
+            second,
+            error,
+        }) => {
+            let agree = |ours: &EdgePoint, exact: &Parameters| {
+                is_near(ours.u, exact.u, *error) && is_near(ours.v, exact.v, *error)
+            };
+            let seconds_agree = match (second, &exact.second) {
+                (None, None) => true,
+                (Some(ours), Some(exact)) => agree(ours, exact),
+                _ => false,
+            };
+            agree(first, &exact.first) && seconds_agree
+        }
+        Place::Face(FacePlace { weights, error }) => {
+            let [_, c, d] = *weights;
+            let Parameters { u, v } = exact.first;
+            is_near(c, u, *error) && is_near(d, v, *error) && exact.second.is_none()
+        }
+    }
 }
 
 /// Whether a time of impact is a time of the step.

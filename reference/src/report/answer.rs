@@ -13,7 +13,9 @@
 //! | `features` | what touches: a vertex or an edge of each edge, or the vertex and a corner, an edge or all of the face, by their points; exact subjects only |
 //! | `u`, `v` | edge parameters of the contact, or the weights of C and D on the face |
 //! | `overlap` | `u` and `v` of the other end, if the edges overlap, or are nearest, in more than a point |
-//! | `points`, `normal` | in metres, of the contact (and the overlap's other end); engines only |
+//! | `points` | in metres, of the contact (and the overlap's other end); engines only |
+//! | `normal` | unit vector from the first side to the second, if the engine gives one |
+//! | `relative_velocity` | direction in which the second side moves relative to the first there; engines only |
 //!
 //! A number that an exact subject may not be able to write as an `f64` (`toi`, `u`, `v`) is
 //! `{"below": B, "above": A}`: the largest `f64` not above it and the smallest not below it, equal
@@ -21,20 +23,22 @@
 //! on both sides. An engine's own `f64` stands in both.
 
 use serde::Serialize;
-use tunnelproof::certified;
-use tunnelproof::contact::{Case, Contact, ContactPoint, Flags, Verdict};
+use tunnelproof::contact::{
+    self, Case, Contact, ContactPoint, EdgePlace, EdgePoint, FacePlace, Flags, Hit, Verdict,
+};
 use tunnelproof::narrow::Report;
+use tunnelproof::query::QueryKind;
 
 use crate::answer::{Enclosure, ExactAnswer, ExactHit, Parameters};
 use crate::subject::{Answer, Said};
 
-/// The answer to the query called `id`, without the line end.
+/// The answer to the query of this kind called `id`, without the line end.
 ///
 /// A number that is NaN or infinite, which only a broken engine gives, is written as `null`.
-pub fn line(id: &str, answer: &Answer) -> String {
+pub fn line(id: &str, kind: QueryKind, answer: &Answer) -> String {
     let line = Line {
         id,
-        answer: Fields::new(answer),
+        answer: Fields::new(kind, answer),
     };
     serde_json::to_string(&line).expect("fields of text and numbers are JSON")
 }
@@ -72,6 +76,8 @@ pub struct Fields {
     points: Vec<[f64; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     normal: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    relative_velocity: Option<[f64; 3]>,
 }
 
 #[derive(Serialize)]
@@ -93,12 +99,12 @@ struct Bounds {
 }
 
 impl Fields {
-    /// The fields of this answer.
-    pub fn new(answer: &Answer) -> Self {
+    /// The fields of this answer to a query of this kind.
+    pub fn new(kind: QueryKind, answer: &Answer) -> Self {
         match answer {
             Answer::Exact(exact) => Self::exact(exact),
-            Answer::Certified(verdict) => Self::certified(verdict),
-            Answer::Engine(report) => Self::engine(report),
+            Answer::Certified(hit) => Self::certified(hit.as_ref()),
+            Answer::Engine(report) => Self::engine(kind, report),
             Answer::Said(said) => Self::said(said),
         }
     }
@@ -137,18 +143,22 @@ impl Fields {
         }
     }
 
-    fn certified(verdict: &certified::Verdict) -> Self {
-        let certified::Verdict::Hit(hit) = verdict else {
+    fn certified(hit: Option<&Hit<contact::Place>>) -> Self {
+        let Some(hit) = hit else {
             return Self::miss();
         };
-        let place = |certified::Parameters { u, v }: certified::Parameters| {
-            let around = |value: f64| Bounds {
-                below: (value - hit.parameter_error).max(0.0),
-                above: (value + hit.parameter_error).min(1.0),
-            };
-            Place {
-                u: around(u),
-                v: around(v),
+        let (first, overlap) = match hit.place {
+            contact::Place::Edges(EdgePlace {
+                first,
+                second,
+                error,
+            }) => {
+                let place = |EdgePoint { u, v }| Place::around([u, v], error);
+                (place(first), second.map(place))
+            }
+            contact::Place::Face(FacePlace { weights, error }) => {
+                let [_, c, d] = weights;
+                (Place::around([c, d], error), None)
             }
         };
         Fields {
@@ -161,15 +171,21 @@ impl Fields {
             side: Some(hit.side),
             case: Some(hit.case.name()),
             flags: Some(hit.flags.into()),
-            first: Some(place(hit.first)),
-            overlap: hit.second.map(place),
+            first: Some(first),
+            overlap,
             ..Self::miss()
         }
     }
 
-    fn engine(report: &Report) -> Self {
+    fn engine(kind: QueryKind, report: &Report) -> Self {
         let case = report.case.map(|case| case.name());
-        let Verdict::Hit(Contact { toi, first, second }) = report.verdict else {
+        let Verdict::Hit(Contact {
+            toi,
+            first,
+            second,
+            normal,
+        }) = report.verdict
+        else {
             return Fields {
                 case,
                 ..Self::miss()
@@ -181,10 +197,11 @@ impl Fields {
             toi: Some(Enclosure::exactly(toi).into()),
             case,
             flags: Some(report.flags.into()),
-            first: Some(first.into()),
-            overlap: second.map(Place::from),
+            first: Some(Place::of_engine(kind, &first)),
+            overlap: second.map(|second| Place::of_engine(kind, &second)),
             points: points.map(|at| at.point.into()).collect(),
-            normal: first.normal.map(Into::into),
+            normal: normal.map(Into::into),
+            relative_velocity: first.relative_velocity.map(Into::into),
             ..Self::miss()
         }
     }
@@ -212,7 +229,33 @@ impl Fields {
             overlap: None,
             points: Vec::new(),
             normal: None,
+            relative_velocity: None,
         }
+    }
+}
+
+impl Place {
+    /// What an engine says of a contact of queries of this kind.
+    fn of_engine(kind: QueryKind, at: &ContactPoint) -> Self {
+        let [_, b, c, d] = at.weights;
+        let [u, v] = match kind {
+            QueryKind::EdgeEdge => [b, d],
+            QueryKind::VertexFace => [c, d],
+        };
+        let exactly = |value| Enclosure::exactly(value).into();
+        Place {
+            u: exactly(u),
+            v: exactly(v),
+        }
+    }
+
+    /// Two numbers with an error.
+    fn around(values: [f64; 2], error: f64) -> Self {
+        let [u, v] = values.map(|value| Bounds {
+            below: (value - error).max(0.0),
+            above: (value + error).min(1.0),
+        });
+        Place { u, v }
     }
 }
 
@@ -236,15 +279,6 @@ impl From<Parameters> for Place {
         Place {
             u: u.into(),
             v: v.into(),
-        }
-    }
-}
-
-impl From<ContactPoint> for Place {
-    fn from(at: ContactPoint) -> Self {
-        Place {
-            u: Enclosure::exactly(at.u).into(),
-            v: Enclosure::exactly(at.v).into(),
         }
     }
 }

@@ -44,6 +44,7 @@ use crate::corpus::jsonl::{self, Numbers};
 use crate::field::{self, Integer};
 
 use super::answer::Fields;
+use tunnelproof::query::QueryKind;
 
 /// The result of certification.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -261,10 +262,10 @@ fn subject(judged: &Judged, tally: &Tally) -> SubjectRow {
     }
 }
 
-/// What a subject says, as JSON.
-pub fn written(answer: &Statement) -> Value {
+/// What a subject says of a query of this kind, as JSON.
+pub fn written(kind: QueryKind, answer: &Statement) -> Value {
     match answer {
-        Statement::Answer(answer) => json!(Fields::new(answer)),
+        Statement::Answer(answer) => json!(Fields::new(kind, answer)),
         Statement::Written(answer) => answer.clone(),
     }
 }
@@ -323,7 +324,10 @@ impl From<&Witness> for WitnessRow {
             query: query(Numbers::Decimal),
             query_hexadecimal: query(Numbers::Hexadecimal),
             truth: json!(Fields::exact(&witness.truth)),
-            answer: witness.answer.as_ref().map(written),
+            answer: witness
+                .answer
+                .as_ref()
+                .map(|answer| written(witness.query.kind(), answer)),
             lapse: witness.lapse.as_ref().map(|lapse| LapseRow {
                 kind: lapse.kind.name().to_owned(),
                 detail: lapse.detail.clone(),

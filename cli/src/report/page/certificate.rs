@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use tunnelproof::query::QueryKind;
 use tunnelproof_reference::certify::block::Block;
 use tunnelproof_reference::certify::findings::Findings;
 use tunnelproof_reference::certify::judged::Judged;
@@ -107,7 +108,7 @@ fn witness_of(fault: Fault, witness: &Witness) -> Markup {
                 src=(data_url(&picture::draw(&witness.id, &witness.query, &witness.truth)));
             figcaption {
                 strong { (title(fault, witness.severity)) } ". Exact answer: " (truth) "."
-                @if let Some(answer) = &witness.answer { " It says: " (said(answer)) "." }
+                @if let Some(answer) = &witness.answer { " It says: " (said(witness.query.kind(), answer)) "." }
                 @if let Some(lapse) = &witness.lapse { " No answer: " (lapse) "." }
                 pre { (command(witness)) }
             }
@@ -124,8 +125,8 @@ fn title(fault: Fault, severity: f64) -> String {
 }
 
 /// What a subject says, in a few words.
-fn said(answer: &Statement) -> String {
-    let answer = written(answer);
+fn said(kind: QueryKind, answer: &Statement) -> String {
+    let answer = written(kind, answer);
     let toi = &answer["toi"]["below"];
     match (answer["hit"].as_bool(), toi.as_f64()) {
         (Some(true), Some(toi)) => format!("hit at {toi}"),
