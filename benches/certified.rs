@@ -10,7 +10,7 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use tunnelproof::additive::Additive;
-use tunnelproof::certified::{self, Batch, FaceBatch, Stage};
+use tunnelproof::certified::{self, Batch, Stage};
 use tunnelproof::narrow::NarrowPhase;
 use tunnelproof::query::EdgeEdge;
 use tunnelproof::thesis::Thesis;
@@ -53,7 +53,7 @@ fn bench(c: &mut Criterion) {
             );
         }
         group.bench_function("certified-batch", |b| {
-            b.iter(|| batch.decide(|_, hit| consume(hit)));
+            b.iter(|| batch.decide_observed(|_, hit| consume(hit), |_| {}));
         });
         group.finish();
     }
@@ -90,7 +90,7 @@ fn bench_thick(c: &mut Criterion) {
 
 fn bench_vertex_face(c: &mut Criterion) {
     for (name, queries) in data::vertex_face_sets() {
-        let mut batch = FaceBatch::new();
+        let mut batch = Batch::new();
         for query in &queries {
             batch.push(query);
         }
@@ -99,12 +99,12 @@ fn bench_vertex_face(c: &mut Criterion) {
         group.bench_function("certified", |b| {
             b.iter(|| {
                 for query in &queries {
-                    consume(certified::decide_vertex_face(black_box(query)));
+                    consume(certified::decide(black_box(query)));
                 }
             });
         });
         group.bench_function("certified-batch", |b| {
-            b.iter(|| batch.decide(|_, hit| consume(hit)));
+            b.iter(|| batch.decide_observed(|_, hit| consume(hit), |_| {}));
         });
         group.finish();
     }

@@ -17,7 +17,7 @@ use std::process::Command;
 
 use tunnelproof::additive::Additive;
 use tunnelproof::broad::Method;
-use tunnelproof::certified::{self, Batch, FaceBatch};
+use tunnelproof::certified::{self, Batch};
 use tunnelproof::narrow::NarrowPhase;
 use tunnelproof::query::EdgeEdge;
 use tunnelproof::thesis::Thesis;
@@ -174,7 +174,7 @@ fn work(queries: &[EdgeEdge], method: &str) {
         "thesis" => each(&|query| consume(Thesis::default().edge_edge(query))),
         "additive" => each(&|query| consume(Additive::default().edge_edge(query))),
         "certified" => each(&|query| consume(certified::decide(query))),
-        "certified-batch" => batch().decide(|_, hit| consume(hit)),
+        "certified-batch" => batch().decide_observed(|_, hit| consume(hit), |_| {}),
         _ => panic!("no such method: {method}"),
     }
 }
@@ -183,7 +183,7 @@ fn work_vertex_face(set: &str, method: &str) {
     let sets = data::vertex_face_sets();
     let (_, queries) = sets.iter().find(|(name, _)| *name == set).unwrap();
     let batch = || {
-        let mut batch = FaceBatch::new();
+        let mut batch = Batch::new();
         for query in queries {
             batch.push(query);
         }
@@ -194,8 +194,8 @@ fn work_vertex_face(set: &str, method: &str) {
         "none-batch" => consume(batch()),
         "certified" => queries
             .iter()
-            .for_each(|query| consume(certified::decide_vertex_face(query))),
-        "certified-batch" => batch().decide(|_, hit| consume(hit)),
+            .for_each(|query| consume(certified::decide(query))),
+        "certified-batch" => batch().decide_observed(|_, hit| consume(hit), |_| {}),
         _ => panic!("no such method: {method}"),
     }
 }

@@ -4,9 +4,7 @@
 use std::hint::black_box;
 
 use allocation_counter::measure;
-use tunnelproof::certified::{
-    Verdict, decide, decide_exactly, decide_vertex_face, decide_vertex_face_exactly,
-};
+use tunnelproof::certified::{decide, decide_exactly};
 use tunnelproof::query::{EdgeEdge, Point, Query, VertexFace};
 use tunnelproof_reference::generate::FAMILIES;
 
@@ -25,16 +23,13 @@ fn is_ordinary(query: &EdgeEdge) -> bool {
     let sizes = points.flat_map(|p| p.iter()).map(|x| x.abs());
     let sizes = sizes.filter(|size| *size > 0.0);
     let least = sizes.clone().fold(f64::MAX, f64::min);
-    let is_late = match decide(query) {
-        Verdict::Hit(hit) => hit.toi == 0.0 || hit.toi > 1e-12,
-        _ => true,
-    };
+    let is_late = decide(query).is_none_or(|hit| hit.toi == 0.0 || hit.toi > 1e-12);
     is_late && sizes.fold(0.0, f64::max) <= 1e12 * least
 }
 
 /// Whether the vertex touches the face soon after the start.
 fn is_early(face: &VertexFace) -> bool {
-    let hit = decide_vertex_face(face);
+    let hit = decide(face);
     hit.is_some_and(|hit| hit.toi > 0.0 && hit.toi <= 1e-12)
 }
 
@@ -55,9 +50,9 @@ fn certified_does_not_allocate_for_ordinary_coordinates() {
                 let face = VertexFace::new(*query.start(), *query.end(), 0.0).expect("finite");
                 let allocations = measure(|| {
                     black_box((decide(&query), decide_exactly(&query)));
-                    black_box(decide_vertex_face(&face));
+                    black_box(decide(&face));
                     if !is_early(&face) {
-                        black_box(decide_vertex_face_exactly(&face));
+                        black_box(decide_exactly(&face));
                     }
                 });
                 let id = || format!("{}:4:{index} times {factor} plus {offset}", family.name());

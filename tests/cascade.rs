@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use tunnelproof::certified::{self, Batch, Stage, Verdict};
+use tunnelproof::certified::{self, Batch, Stage};
 use tunnelproof::query::EdgeEdge;
 use tunnelproof_reference::generate::{self, FAMILIES, Family};
 
@@ -15,22 +15,14 @@ fn certified_batch_is_certified_one_by_one() {
                 .collect();
             let mut batch = Batch::new();
             queries.iter().for_each(|query| batch.push(query));
-            let mut verdicts = vec![Verdict::Miss; queries.len()];
-            let mut last = None;
-            batch.decide(|index, hit| {
-                assert!(last < Some(index), "in order");
-                last = Some(index);
-                verdicts[index] = Verdict::Hit(hit);
-            });
+            let found = batch.decide();
+            let expected = queries.iter().map(certified::decide).enumerate();
+            let expected: Vec<_> = expected
+                .filter_map(|(index, hit)| Some((index, hit?)))
+                .collect();
+            assert_eq!(found, expected, "{}", family.name());
             #[cfg(feature = "rayon")]
-            {
-                let mut in_order = Vec::new();
-                batch.decide(|index, hit| in_order.push((index, hit)));
-                assert_eq!(batch.par_hits(), in_order, "{}", family.name());
-            }
-            for (query, verdict) in queries.iter().zip(verdicts) {
-                assert_eq!(verdict, certified::decide(query), "{}", family.name());
-            }
+            assert_eq!(batch.par_decide(), expected, "{}", family.name());
         }
     }
 }

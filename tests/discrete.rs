@@ -6,8 +6,8 @@
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use proptest::prelude::*;
-use tunnelproof::certified::decide_discrete;
-use tunnelproof::query::Point;
+use tunnelproof::certified::{Proximity, decide_discrete};
+use tunnelproof::query::{EdgeEdge, Point, Radius};
 
 use corners::{Corners, all_scales, cases, lattice, nearly_degenerate, ordinary_scales, uniform};
 
@@ -80,12 +80,17 @@ impl Edges {
     }
 }
 
+fn decide_at(points: [Point; 4], radius: impl Into<Radius>) -> Result<Proximity, String> {
+    let query = EdgeEdge::at_rest(points, radius).map_err(|error| error.to_string())?;
+    Ok(decide_discrete(&query))
+}
+
 /// What is wrong about the answer for the points at the start, for several radii.
 fn check(corners: Corners, radius: f64) -> Result<(), String> {
     let points = [0, 1, 2, 3].map(|i| Point::from(corners[i]));
     let edges = Edges::new(&points);
     let least = edges.least_squared();
-    let at_radius_0 = decide_discrete(&points, 0.0).map_err(|e| e.to_string())?;
+    let at_radius_0 = decide_at(points, 0.0)?;
     let (low, high) = (at_radius_0.distance_low, at_radius_0.distance_high);
     // At the bounds of the distance and next to them, and as a sum.
     let radii = [
@@ -100,7 +105,7 @@ fn check(corners: Corners, radius: f64) -> Result<(), String> {
         [0.25 * low, 0.75 * low],
     ];
     for radii in radii {
-        let found = decide_discrete(&points, radii).map_err(|e| e.to_string())?;
+        let found = decide_at(points, radii)?;
         let sum = exact(radii[0]) + exact(radii[1]);
         let touches = least <= &sum * &sum;
         let is_enclosed = exact(found.distance_low).pow(2) <= least
@@ -151,7 +156,7 @@ proptest! {
     #[test]
     fn discrete_bounds_are_near_each_other(corners in uniform()) {
         let points = [0, 1, 2, 3].map(|i| Point::from(corners[i]));
-        let found = decide_discrete(&points, 0.0).unwrap();
+        let found = decide_at(points, 0.0).unwrap();
         prop_assert!(found.distance_high - found.distance_low < 1e-7);
     }
 }
@@ -163,13 +168,13 @@ fn discrete_wires_side_by_side_touch_at_their_radii() {
     let rounded = 0.1 + 0.2;
     assert_eq!(rounded, 0.3f64.next_up());
     for (y, touches) in [(0.3, true), (rounded, false)] {
-        let found = decide_discrete(&at(y), [0.1, 0.2]).unwrap();
+        let found = decide_at(at(y), [0.1, 0.2]).unwrap();
         assert_eq!(found.touches, touches, "{y}");
     }
-    let found = decide_discrete(&at(0.5), [0.5, 0.25]).unwrap();
+    let found = decide_at(at(0.5), [0.5, 0.25]).unwrap();
     let error = found.distance_high - found.distance_low;
     assert!(found.touches && (found.depth - 0.25).abs() <= error && error < 1e-13);
     assert_eq!(found.normal.unwrap().as_slice(), [0.0, 1.0, 0.0]);
-    assert!(decide_discrete(&at(f64::NAN), 0.0).is_err());
-    assert!(decide_discrete(&at(1.0), -1.0).is_err());
+    assert!(decide_at(at(f64::NAN), 0.0).is_err());
+    assert!(decide_at(at(1.0), -1.0).is_err());
 }

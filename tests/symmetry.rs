@@ -7,7 +7,6 @@
 )]
 
 use proptest::prelude::*;
-use tunnelproof::certified::Verdict;
 use tunnelproof::contact::{Case, ContactKind};
 use tunnelproof::query::{EdgeEdge, Point, Query};
 use tunnelproof_reference::generate::FAMILIES;
@@ -48,8 +47,8 @@ fn seen(subject: &dyn Subject, query: EdgeEdge) -> Option<Seen> {
                 places: places.map(|place| [bits(place.u), bits(place.v)]).collect(),
             }
         }),
-        Answer::Certified(Verdict::Miss) => None,
-        Answer::Certified(Verdict::Hit(hit)) => Some(Seen {
+        Answer::Certified(None) => None,
+        Answer::Certified(Some(hit)) => Some(Seen {
             toi: [hit.toi, hit.toi_above],
             kind: hit.kind,
             crosses: None,

@@ -6,10 +6,8 @@
 use std::collections::BTreeMap;
 
 use proptest::prelude::*;
-use tunnelproof::certified::{
-    self, Batch, FaceBatch, FaceHit, Hit, Stage, Verdict, decide_exactly,
-    decide_vertex_face_exactly,
-};
+use tunnelproof::certified::{Batch, Stage, decide, decide_exactly, decide_observed};
+use tunnelproof::contact::{EdgePlace, FacePlace, Hit, PLACE_ERROR};
 use tunnelproof::query::{Point, Query, QueryKind};
 use tunnelproof_reference::answer::{Enclosure, ExactAnswer, Parameters};
 use tunnelproof_reference::figures::FIGURES;
@@ -36,9 +34,11 @@ struct Said {
     error: f64,
 }
 
-impl From<Hit> for Said {
-    fn from(hit: Hit) -> Self {
-        let places = [Some(hit.first), hit.second].into_iter().flatten();
+impl From<Hit<EdgePlace>> for Said {
+    fn from(hit: Hit<EdgePlace>) -> Self {
+        let places = [Some(hit.place.first), hit.place.second]
+            .into_iter()
+            .flatten();
         Said {
             toi: Enclosure {
                 below: hit.toi,
@@ -46,15 +46,18 @@ impl From<Hit> for Said {
             },
             other: format!("{:?}", (hit.kind, hit.side, hit.case, hit.flags)),
             places: places.map(|place| (place.u, place.v)).collect(),
-            error: hit.parameter_error,
+            error: hit.place.error,
         }
     }
 }
 
-impl From<FaceHit> for Said {
-    fn from(hit: FaceHit) -> Self {
-        let [b, c, d] = hit.weights;
-        assert!((b + c + d - 1.0).abs() <= 4.0 * hit.weight_error, "{hit:?}");
+impl From<Hit<FacePlace>> for Said {
+    fn from(hit: Hit<FacePlace>) -> Self {
+        let FacePlace {
+            weights: [b, c, d],
+            error,
+        } = hit.place;
+        assert!((b + c + d - 1.0).abs() <= 4.0 * error, "{hit:?}");
         Said {
             toi: Enclosure {
                 below: hit.toi,
@@ -62,7 +65,7 @@ impl From<FaceHit> for Said {
             },
             other: format!("{:?}", (hit.kind, hit.side, hit.case, hit.flags)),
             places: vec![(c, d)],
-            error: hit.weight_error,
+            error,
         }
     }
 }
@@ -72,18 +75,10 @@ fn answers(query: &Query) -> ([Option<Said>; 2], Stage) {
     let mut stages = Vec::new();
     let mut observe = |stage| stages.push(stage);
     let answers = match query {
-        Query::EdgeEdge(query) => {
-            let hit = match certified::decide_observed(query, &mut observe) {
-                Verdict::Miss => None,
-                Verdict::Hit(hit) => Some(hit),
-            };
-            [hit, decide_exactly(query).hit].map(|hit| hit.map(Said::from))
-        }
-        Query::VertexFace(query) => [
-            certified::decide_vertex_face_observed(query, &mut observe),
-            decide_vertex_face_exactly(query),
-        ]
-        .map(|hit| hit.map(Said::from)),
+        Query::EdgeEdge(query) => [decide_observed(query, &mut observe), decide_exactly(query)]
+            .map(|hit| hit.map(Said::from)),
+        Query::VertexFace(query) => [decide_observed(query, &mut observe), decide_exactly(query)]
+            .map(|hit| hit.map(Said::from)),
     };
     assert_eq!(stages.len(), 1, "one stage decides");
     (answers, stages[0])
@@ -119,7 +114,7 @@ fn is_same(said: Option<&Said>, exact: &ExactAnswer) -> bool {
         .collect();
     said.toi == hit.toi
         && said.other == format!("{:?}", (hit.kind, hit.side, exact.case, hit.flags))
-        && said.error <= Hit::PARAMETER_ERROR
+        && said.error <= PLACE_ERROR
         && said.places.len() == places.len()
         && said.places.iter().zip(&places).all(is_near)
 }
@@ -247,7 +242,7 @@ fn thick_certified_where_rounding_outweighs_the_speed_agrees() {
 
 #[test]
 fn thick_batch_is_certified_one_by_one() {
-    let (mut edges, mut faces) = (Batch::new(), FaceBatch::new());
+    let (mut edges, mut faces) = (Batch::new(), Batch::new());
     let (mut edge_hits, mut face_hits) = (Vec::new(), Vec::new());
     // With and without radius in turn.
     let plain = tunnelproof_reference::generate::FAMILIES.iter();
@@ -255,23 +250,17 @@ fn thick_batch_is_certified_one_by_one() {
         for index in 0..300 {
             match family.query(3, index) {
                 Query::EdgeEdge(query) => {
-                    if let Verdict::Hit(hit) = certified::decide(&query) {
-                        edge_hits.push((edges.len(), hit));
-                    }
+                    edge_hits.extend(decide(&query).map(|hit| (edges.len(), hit)));
                     edges.push(&query);
                 }
                 Query::VertexFace(query) => {
-                    let hit = certified::decide_vertex_face(&query);
-                    face_hits.extend(hit.map(|hit| (faces.len(), hit)));
+                    face_hits.extend(decide(&query).map(|hit| (faces.len(), hit)));
                     faces.push(&query);
                 }
             }
         }
     }
-    let (mut edges_found, mut faces_found) = (Vec::new(), Vec::new());
-    edges.decide(|index, hit| edges_found.push((index, hit)));
-    faces.decide(|index, hit| faces_found.push((index, hit)));
-    assert_eq!((edges_found, faces_found), (edge_hits, face_hits));
+    assert_eq!((edges.decide(), faces.decide()), (edge_hits, face_hits));
 }
 
 /// The public sets, both kinds, the first thousands of each, with radii of a tenth and a thousandth of the size of

@@ -7,11 +7,8 @@
 use std::collections::BTreeMap;
 
 use proptest::prelude::*;
-use tunnelproof::certified::{
-    Certified, FaceBatch, FaceHit, Hit, Stage, decide_vertex_face, decide_vertex_face_exactly,
-    decide_vertex_face_observed,
-};
-use tunnelproof::contact::Verdict;
+use tunnelproof::certified::{Batch, Certified, Stage, decide, decide_exactly, decide_observed};
+use tunnelproof::contact::{FacePlace, Hit, PLACE_ERROR, Verdict};
 use tunnelproof::narrow::NarrowPhase;
 use tunnelproof::query::{Point, Query, QueryKind, VertexFace};
 use tunnelproof_reference::answer::Enclosure;
@@ -33,7 +30,7 @@ fn query(corners: Corners) -> VertexFace {
 
 /// What differs between the answers of the engine and the exact one.
 fn difference(query: &VertexFace) -> Result<(), String> {
-    let answers = [decide_vertex_face(query), decide_vertex_face_exactly(query)];
+    let answers = [decide(query), decide_exactly(query)];
     let expected = literal::first_contact(query);
     for answer in answers {
         let is_same = match (&answer, &expected) {
@@ -50,23 +47,24 @@ fn difference(query: &VertexFace) -> Result<(), String> {
     Ok(())
 }
 
-fn is_same_hit(hit: &FaceHit, expected: &literal::Contact) -> bool {
+fn is_same_hit(hit: &Hit<FacePlace>, expected: &literal::Contact) -> bool {
     let toi = Enclosure {
         below: hit.toi,
         above: hit.toi_above,
     };
+    let FacePlace { weights, error } = &hit.place;
     let near = |(&weight, exact): (&f64, &Enclosure)| {
         (0.0..=1.0).contains(&weight)
-            && weight >= exact.below - hit.weight_error
-            && weight <= exact.above + hit.weight_error
+            && weight >= exact.below - error
+            && weight <= exact.above + error
             && [0.0, 1.0]
                 .iter()
                 .all(|&end| *exact != Enclosure::exactly(end) || weight == end)
     };
     (toi, hit.kind, hit.side) == (expected.toi, expected.kind, expected.side)
         && (hit.case, hit.flags) == (expected.case, expected.flags)
-        && hit.weight_error <= Hit::PARAMETER_ERROR
-        && hit.weights.iter().zip(&expected.weights).all(near)
+        && *error <= PLACE_ERROR
+        && weights.iter().zip(&expected.weights).all(near)
 }
 
 /// A weight of a corner, 0 as often as not.
@@ -177,7 +175,7 @@ fn vertex_face_exact_stage_is_reached_no_more_often_than_it_must() {
         for index in 0..20_000 {
             let query = of_family(&family.query(1, index), [2, 0, 1, 3]);
             let mut observe = |stage| exact += u32::from(stage == Stage::Exact);
-            decide_vertex_face_observed(&query, &mut observe);
+            decide_observed(&query, &mut observe);
         }
         let named = EXACT_AT_MOST
             .iter()
@@ -197,7 +195,7 @@ fn vertex_face_batch_is_certified_one_by_one() {
             let queries: Vec<_> = queries
                 .map(|query| of_family(&query, [2, 0, 1, 3]))
                 .collect();
-            let mut batch = FaceBatch::new();
+            let mut batch = Batch::new();
             for query in &queries {
                 batch.push(query);
             }
@@ -205,14 +203,14 @@ fn vertex_face_batch_is_certified_one_by_one() {
             batch.decide_observed(|index, hit| found.push((index, hit)), |_| named += 1);
             let expected: Vec<_> = queries
                 .iter()
-                .map(decide_vertex_face)
+                .map(decide)
                 .enumerate()
                 .filter_map(|(index, hit)| Some((index, hit?)))
                 .collect();
             assert_eq!(found, expected, "{}", family.name());
             assert_eq!(named, queries.len(), "{}", family.name());
             #[cfg(feature = "rayon")]
-            assert_eq!(batch.par_hits(), expected, "{}", family.name());
+            assert_eq!(batch.par_decide(), expected, "{}", family.name());
             hits += found.len();
         }
     }
@@ -228,7 +226,7 @@ fn vertex_face_is_exact_and_as_labelled_on_the_public_sets() {
         let query = entry.query.as_vertex_face().unwrap();
         assert_eq!(difference(query), Ok(()), "{}", entry.id);
         let mut observe = |stage| *shares.entry(stage).or_default() += 1;
-        let hit = decide_vertex_face_observed(query, &mut observe);
+        let hit = decide_observed(query, &mut observe);
         assert_eq!(Some(hit.is_some()), entry.label, "{}", entry.id);
     }
     eprintln!("{} labelled queries, {shares:?}", entries.len());
@@ -250,7 +248,9 @@ fn vertex_face_hit_is_a_contact_in_space() {
     };
     assert_eq!(contact.toi, 0.25);
     let first = contact.first;
-    assert_eq!((first.u, first.v), (0.25, 0.25));
+    assert_eq!(first.weights, [1.0, 0.5, 0.25, 0.25]);
     assert_eq!(first.point, Point::new(0., 0., 0.));
-    assert_eq!(first.normal.unwrap().as_slice(), [0., 0., 1.]);
+    // The face rises through the vertex, which comes from above.
+    assert_eq!(first.relative_velocity.unwrap().as_slice(), [0., 0., 1.]);
+    assert_eq!(contact.normal.unwrap().as_slice(), [0., 0., -1.]);
 }

@@ -15,7 +15,7 @@ use std::process::Command;
 
 use rayon::prelude::*;
 use serde_json::{Value, json};
-use tunnelproof::certified::{self, Verdict};
+use tunnelproof::contact::{self, EdgePlace, FacePlace};
 use tunnelproof_reference::answer::{Enclosure, Parameters};
 use tunnelproof_reference::shadow::Shadow;
 use tunnelproof_reference::subject::{Answer, Certified, Subject};
@@ -266,10 +266,10 @@ fn vectors_are_answered_by_the_certified_path() {
     for vector in vectors() {
         let (id, result) = (&vector.id, &vector.result);
         let answer = Certified.answer(&vector.query());
-        let Ok(Answer::Certified(verdict)) = answer else {
+        let Ok(Answer::Certified(hit)) = answer else {
             panic!("{id}: {answer:?}");
         };
-        let Verdict::Hit(hit) = verdict else {
+        let Some(hit) = hit else {
             assert!(!result.hit, "{id} is missed");
             continue;
         };
@@ -295,17 +295,24 @@ fn vectors_are_answered_by_the_certified_path() {
             (result.temporarily_parallel, result.temporarily_point),
             "{id}"
         );
+        let (first, second, error) = match hit.place {
+            contact::Place::Edges(EdgePlace {
+                first,
+                second,
+                error,
+            }) => ([first.u, first.v], second.map(|at| [at.u, at.v]), error),
+            contact::Place::Face(FacePlace { weights, error }) => {
+                ([weights[1], weights[2]], None, error)
+            }
+        };
         let is_near = |value: f64, exact: Bounds| {
-            value >= exact.below - hit.parameter_error && value <= exact.above + hit.parameter_error
+            value >= exact.below - error && value <= exact.above + error
         };
-        let agrees = |ours: certified::Parameters, u: Bounds, v: Bounds| {
-            is_near(ours.u, u) && is_near(ours.v, v)
+        let agrees = |[u, v]: [f64; 2], u_exact: Bounds, v_exact: Bounds| {
+            is_near(u, u_exact) && is_near(v, v_exact)
         };
-        assert!(
-            agrees(hit.first, result.u.unwrap(), result.v.unwrap()),
-            "{id}"
-        );
-        match (hit.second, result.overlap) {
+        assert!(agrees(first, result.u.unwrap(), result.v.unwrap()), "{id}");
+        match (second, result.overlap) {
             (None, None) => {}
             (Some(ours), Some(exact)) => assert!(agrees(ours, exact.u, exact.v), "{id}"),
             _ => panic!("{id}: an overlap against a point"),

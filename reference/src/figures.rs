@@ -319,6 +319,7 @@ pub static FIGURES: [Figure; 12] = [
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tunnelproof::contact::EdgePoint;
     use tunnelproof::narrow::NarrowPhase;
     use tunnelproof::thesis::Thesis;
 
@@ -353,16 +354,9 @@ mod tests {
                 Point::from(figure.start[i]).lerp(&Point::from(figure.end[i]), contact.toi)
             });
             for at in [Some(contact.first), contact.second].into_iter().flatten() {
-                assert!(
-                    (a.lerp(&b, at.u) - at.point).norm() < 1e-9,
-                    "{name}: u {}",
-                    at.u
-                );
-                assert!(
-                    (c.lerp(&d, at.v) - at.point).norm() < 1e-9,
-                    "{name}: v {}",
-                    at.v
-                );
+                let EdgePoint { u, v } = at.on_edges();
+                assert!((a.lerp(&b, u) - at.point).norm() < 1e-9, "{name}: u {u}");
+                assert!((c.lerp(&d, v) - at.point).norm() < 1e-9, "{name}: v {v}");
             }
         }
     }

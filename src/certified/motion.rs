@@ -1,7 +1,7 @@
 //! The differences that everything else is computed from.
 
 use super::ends::{Ends, Scalar};
-use crate::query::{EdgeEdge, Point};
+use crate::query::Point;
 
 /// A vector in `f64`.
 pub(super) type Vector = [f64; 3];
@@ -14,11 +14,6 @@ pub(super) struct Positions {
 }
 
 impl Positions {
-    #[inline(always)]
-    pub(super) fn new(query: &EdgeEdge) -> Self {
-        Self::of(query.start(), query.end())
-    }
-
     /// The positions of the four points of a query at both ends of the step.
     #[inline(always)]
     pub(super) fn of(start: &[Point; 4], end: &[Point; 4]) -> Self {

@@ -14,11 +14,6 @@ pub(super) struct SweptBoxes {
 }
 
 impl SweptBoxes {
-    #[inline(always)]
-    pub(super) fn new<E: Ends>([a, b, c, d]: &[[E; 3]; 4]) -> Self {
-        Self::around([a, b], [c, d], 0.0)
-    }
-
     /// The boxes around two sets of points, which count as disjoint if they are certainly farther apart than
     /// a distance on an axis.
     ///

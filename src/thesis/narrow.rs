@@ -92,13 +92,18 @@ mod tests {
         let check = |at: &ContactPoint| {
             assert!(at.weights.into_iter().all(in_unit), "{contact:?}");
             assert!(at.point.iter().all(|x| x.is_finite()), "{contact:?}");
-            let is_unit = at.relative_velocity.is_none_or(|n| (n.norm() - 1.0).abs() < 1e-9);
+            let is_unit = at
+                .relative_velocity
+                .is_none_or(|n| (n.norm() - 1.0).abs() < 1e-9);
             assert!(is_unit, "{contact:?}");
         };
         check(&contact.first);
         if let Some(second) = contact.second {
             check(&second);
-            assert!(contact.first.on_edges().u < second.on_edges().u, "{contact:?}");
+            assert!(
+                contact.first.on_edges().u < second.on_edges().u,
+                "{contact:?}"
+            );
         }
     }
 

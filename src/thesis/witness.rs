@@ -193,7 +193,10 @@ mod tests {
         ];
         let (contact, flags) =
             contact_of(Case::General, at_half, [STILL, STILL, UP, [0.0, 0.0, 4.0]]);
-        assert_eq!((contact.first.on_edges().u, contact.first.on_edges().v), (0.25, 0.5));
+        assert_eq!(
+            (contact.first.on_edges().u, contact.first.on_edges().v),
+            (0.25, 0.5)
+        );
         assert_eq!(contact.first.point, Point::origin());
         assert_eq!(contact.first.relative_velocity, Some(Vector3::z()));
         assert_eq!(contact.second, None);
@@ -227,9 +230,9 @@ mod tests {
         let spread = [STILL, STILL, UP, [0.0, 0.0, -2.0]];
         let (contact, flags) = contact_of(Case::Coplanar, at_half, spread);
         assert!(flags.temporarily_parallel && !flags.temporarily_point);
-        assert_eq!((contact.first.on_edges().u, contact.first.on_edges().v), (0.25, 1.0));
+        assert_eq!(contact.first.on_edges(), EdgePoint { u: 0.25, v: 1.0 });
         let second = contact.second.unwrap();
-        assert_eq!((second.u, second.v), (1.0, 0.25));
+        assert_eq!(second.on_edges(), EdgePoint { u: 1.0, v: 0.25 });
         assert_eq!(second.point, Point::new(4.0, 0.0, 0.0));
         let (_, flags) = contact_of(Case::Parallel, at_half, [STILL, STILL, UP, UP]);
         assert!(!flags.temporarily_parallel, "parallel for the whole step");
@@ -245,7 +248,10 @@ mod tests {
         ];
         let towards = [-1.0, 0.0, 0.0];
         let (contact, _) = contact_of(Case::Collinear, at_half, [STILL, STILL, towards, towards]);
-        assert_eq!((contact.first.on_edges().u, contact.first.on_edges().v), (1.0, 0.0));
+        assert_eq!(
+            (contact.first.on_edges().u, contact.first.on_edges().v),
+            (1.0, 0.0)
+        );
         assert_eq!(contact.second, None);
     }
 
@@ -259,15 +265,24 @@ mod tests {
         ];
         let opening = [STILL, STILL, UP, [0.0, 0.0, -2.0]];
         let (contact, flags) = contact_of(Case::Coplanar, point_cd, opening);
-        assert_eq!((contact.first.on_edges().u, contact.first.on_edges().v), (0.25, 0.0));
+        assert_eq!(
+            (contact.first.on_edges().u, contact.first.on_edges().v),
+            (0.25, 0.0)
+        );
         assert!(flags.temporarily_point && !flags.temporarily_parallel);
         let (_, flags) = contact_of(Case::Degenerate, point_cd, [STILL, STILL, UP, UP]);
         assert!(!flags.temporarily_point, "a point for the whole step");
         let [a, b, c, d] = point_cd;
         let (contact, _) = contact_of(Case::Coplanar, [c, d, a, b], opening);
-        assert_eq!((contact.first.on_edges().u, contact.first.on_edges().v), (0.0, 0.25));
+        assert_eq!(
+            (contact.first.on_edges().u, contact.first.on_edges().v),
+            (0.0, 0.25)
+        );
         let (contact, _) = contact_of(Case::Coplanar, [c; 4], [UP, STILL, STILL, UP]);
-        assert_eq!((contact.first.on_edges().u, contact.first.on_edges().v), (0.0, 0.0));
+        assert_eq!(
+            (contact.first.on_edges().u, contact.first.on_edges().v),
+            (0.0, 0.0)
+        );
     }
 
     #[test]
@@ -280,7 +295,10 @@ mod tests {
             [0.0, 3.0, 0.0],
         ];
         let (contact, _) = contact_of(Case::General, at_half, [STILL, STILL, UP, STILL]);
-        assert_eq!((contact.first.on_edges().u, contact.first.on_edges().v), (1.0, 0.0));
+        assert_eq!(
+            (contact.first.on_edges().u, contact.first.on_edges().v),
+            (1.0, 0.0)
+        );
     }
 
     #[test]

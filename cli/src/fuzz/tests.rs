@@ -157,7 +157,7 @@ fn thesis_vs_shadow_reports_planted_faults() {
     };
     assert!(reported(Faulty(same, late), "uniform") > 100);
     let first_dropped = |report: Report| match report.verdict {
-        Verdict::Hit(contact) if contact.first.u > 0.5 => Report {
+        Verdict::Hit(contact) if contact.first.on_edges().u > 0.5 => Report {
             verdict: Verdict::Miss,
             ..report
         },

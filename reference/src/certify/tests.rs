@@ -70,14 +70,14 @@ fn honest(truth: ExactAnswer) -> Report {
 fn claim(toi: f64) -> Claim {
     let first = ContactPoint {
         point: Point::origin(),
-        u: 0.5,
-        v: 0.5,
-        normal: None,
+        weights: [0.5; 4],
+        relative_velocity: None,
     };
     Claim::Hit(Contact {
         toi,
         first,
         second: None,
+        normal: None,
     })
 }
 

@@ -3,9 +3,10 @@ use proptest::prelude::*;
 use super::super::cubic::Cubic;
 use super::super::motion::Motion;
 use super::super::root::Bracket;
-use super::super::separate::SweptBoxes;
 use super::super::testing::{Random, layout, points};
 use super::*;
+use crate::certified::kind::Stages;
+use crate::query::EdgeEdge;
 
 /// Any number that is not NaN, those at the borders of the format as often as not.
 fn number() -> impl Strategy<Value = f64> {
@@ -69,7 +70,7 @@ fn stages<E: Ends + std::fmt::Debug>(coordinates: &[f64], [low, high]: [f64; 2])
     let points = layout(coordinates).points::<E>();
     let motion = Motion::new(&points);
     let differences = [motion.k, motion.l, motion.m].map(|x| x.map(bits));
-    let boxes = SweptBoxes::new(&points);
+    let boxes = EdgeEdge::boxes(&points, 0.0);
     let cubic = Cubic::unchecked(&motion);
     let bracket = Bracket {
         low,

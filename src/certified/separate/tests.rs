@@ -7,10 +7,12 @@ use super::super::testing::{
     Claim, Exact, Number, Random, Search, layout, points, points_and_direction, range,
 };
 use super::*;
+use crate::certified::kind::Stages;
+use crate::query::EdgeEdge;
 
 fn stages(positions: &Positions) -> (SweptBoxes, Motion<f64x2>) {
     let points = positions.points();
-    (SweptBoxes::new(&points), Motion::new(&points))
+    (EdgeEdge::boxes(&points, 0.0), Motion::new(&points))
 }
 
 /// How much farther along `d` C and D are than A and B, at the start or at the end.

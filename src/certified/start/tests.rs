@@ -53,7 +53,7 @@ fn start_contact_is_that_of_the_exact_stage() {
         let motion = Motion::<f64x2>::new(&positions.points());
         let cubic = Cubic::new(&motion);
         if let Some(hit) = contact(&|| positions, &motion, cubic.as_ref()) {
-            assert_eq!(Some(hit), exact::decide(&positions).hit, "{positions:?}");
+            assert_eq!(Some(hit), exact::decide_edges(&positions), "{positions:?}");
             cases[match hit.case {
                 Case::General => 0,
                 Case::SharedStart => 1,

@@ -49,7 +49,7 @@ fn check(values: [f64; 24]) -> Result<(), TestCaseError> {
     let point = |i: usize| Point::new(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
     let query = EdgeEdge::new([0, 1, 2, 3].map(point), [4, 5, 6, 7].map(point), 0.0).unwrap();
     let exact = exactly(&query);
-    match Scaled::new(&Positions::new(&query)) {
+    match Scaled::new(&Positions::of(query.start(), query.end())) {
         Scaled::Short { values, bits } => {
             let scaled: Vec<BigInt> = values.iter().map(|&v| BigInt::from(v)).collect();
             prop_assert!(are_scaled(&scaled, &exact));

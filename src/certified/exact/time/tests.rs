@@ -67,7 +67,7 @@ proptest! {
             if up.is_ne() && exact_sign(n) == up && exact_sign(difference) == down {
                 let value = time.quotient(&n.map(Wide::from), &d.map(Wide::from));
                 for (bound, side) in [(-1.0, up), (1.0, down)] {
-                    let other = value + bound * super::super::PARAMETER_ERROR;
+                    let other = value + bound * super::super::PLACE_ERROR;
                     // n - other d, times 2^54: other is a multiple of 2^-54 up to rounding to it.
                     let other = (other * 2f64.powi(54)) as i128;
                     let terms = [0, 1, 2].map(|i| {

@@ -16,7 +16,7 @@ type Input = [f64; 25];
 /// Where the vertex is at a root of `f`.
 struct Case {
     root: Rooted,
-    weights: RawWeights,
+    raw: RawWeights,
     /// The same to twice the precision, from the edges BC and AD.
     refined: Option<RawWeights>,
 }
@@ -35,13 +35,13 @@ impl Case {
             Some(of_edges(&root.meeting(&edges, &edge_motion, &edge_cubic)))
         });
         Some(Case {
-            weights: raw_weights(&root.motion, &cubic, &root.bracket),
+            raw: raw_weights(&root.motion, &cubic, &root.bracket),
             root,
             refined,
         })
     }
 
-    /// The exact weights at both ends of the interval for a vector, which may depend on these.
+    /// The exact raw weights at both ends of the interval for a vector, which may depend on these.
     fn exact(&self, w: impl Fn(&[Number; 3]) -> [Number; 3]) -> [[Number; 3]; 2] {
         self.root.normals.each_ref().map(|normals| {
             let w = w(&normals[0]);
@@ -54,42 +54,42 @@ impl Case {
     fn place(&self) -> Ordering {
         let places = self
             .exact(Clone::clone)
-            .map(|weights| weights.iter().map(Number::sign).min());
+            .map(|raw| raw.iter().map(Number::sign).min());
         match places {
             [Some(x), Some(y)] if x == y => x,
             _ => Ordering::Equal,
         }
     }
 
-    fn is_right(&self, weights: &RawWeights) -> bool {
-        match weights.place() {
+    fn is_right(&self, raw: &RawWeights) -> bool {
+        match raw.place() {
             Place::Apart => self.place().is_lt(),
             Place::Inside { .. } => self.place().is_gt(),
             Place::Unclear => true,
         }
     }
 
-    /// The errors of the weights and of the weights.
+    /// The errors of the raw weights and of the weights.
     fn claims(&self) -> [Claim; 4] {
         let w = self.root.normal().map(Number::from);
         let [low, high] = self.exact(|_| w.clone());
-        let weight = |i: usize| {
-            let (found, bound) = (self.weights.values[i], self.weights.errors[i]);
+        let raw = |i: usize| {
+            let (found, bound) = (self.raw.values[i], self.raw.errors[i]);
             let within = |exact: &Number| Claim::within(found, exact, Number::from(bound));
             within(&low[i]).worse(within(&high[i]))
         };
-        [weight(0), weight(1), weight(2), self.raw_weights()]
+        [raw(0), raw(1), raw(2), self.weights()]
     }
 
-    fn raw_weights(&self) -> Claim {
-        let Place::Inside { weights, error } = self.weights.place() else {
+    fn weights(&self) -> Claim {
+        let Place::Inside { weights, error } = self.raw.place() else {
             return Claim::nothing();
         };
-        let claims = self.exact(Clone::clone).map(|weights| {
+        let claims = self.exact(Clone::clone).map(|raw| {
             // All times N . N.
-            let n = &(&weights[0] + &weights[1]) + &weights[2];
+            let n = &(&raw[0] + &raw[1]) + &raw[2];
             let times_n = |x: f64| &Number::from(x) * &n;
-            let errors = [0, 1, 2].map(|i| (&times_n(weights[i]) - &weights[i]).abs());
+            let errors = [0, 1, 2].map(|i| (&times_n(weights[i]) - &raw[i]).abs());
             let error = times_n(error);
             errors
                 .map(|found| Claim {
@@ -149,11 +149,11 @@ fn start(random: &mut Random) -> Input {
 }
 
 #[test]
-fn face_weights_are_within_their_bounds_and_no_claim_is_wrong() {
+fn face_shares_are_within_their_bounds_and_no_claim_is_wrong() {
     let (places, wrong, settled) = (Cell::new([0; 3]), Cell::new(0), Cell::new(0));
     let claims = |x: &Input| {
         let case = Case::new(x)?;
-        let place = match case.weights.place() {
+        let place = match case.raw.place() {
             Place::Apart => 0,
             Place::Inside { .. } => 1,
             Place::Unclear => 2,
@@ -161,18 +161,18 @@ fn face_weights_are_within_their_bounds_and_no_claim_is_wrong() {
         let mut counts = places.get();
         counts[place] += 1;
         places.set(counts);
-        assert!(case.is_right(&case.weights), "{x:?}");
+        assert!(case.is_right(&case.raw), "{x:?}");
         if let Some(refined) = case.refined {
             assert!(case.is_right(&refined), "to twice the precision: {x:?}");
             let is_gain = place == 2 && refined.place() != Place::Unclear;
             settled.set(settled.get() + u32::from(is_gain));
         }
         let faulty = RawWeights {
-            errors: case.weights.errors.map(|error| error / 8.0),
-            ..case.weights
+            errors: case.raw.errors.map(|error| error / 8.0),
+            ..case.raw
         };
         wrong.set(wrong.get() + u32::from(!case.is_right(&faulty)));
-        let RawWeights { values, errors } = case.weights;
+        let RawWeights { values, errors } = case.raw;
         let is_finite = values.iter().chain(&errors).all(|x| x.is_finite());
         is_finite.then(|| case.claims())
     };
@@ -185,7 +185,7 @@ fn face_weights_are_within_their_bounds_and_no_claim_is_wrong() {
     let worst = search.worst(start, claims);
     let (places, wrong, settled) = (places.get(), wrong.get(), settled.get());
     println!(
-        "face: weights and weights {worst:?}; {places:?} apart, inside, unclear; with an eighth of the bounds {wrong} wrong; {settled} settled to twice the precision"
+        "face: raw and weights {worst:?}; {places:?} apart, inside, unclear; with an eighth of the bounds {wrong} wrong; {settled} settled to twice the precision"
     );
     let [b, c, d, weights] = worst;
     assert!(b > 0.2 && c > 0.4 && d > 0.4 && weights > 0.05);
@@ -193,7 +193,7 @@ fn face_weights_are_within_their_bounds_and_no_claim_is_wrong() {
 }
 
 #[test]
-fn face_signs_of_weights_decide_the_place() {
+fn face_signs_of_shares_decide_the_place() {
     let of = |values: [f64; 3]| RawWeights {
         values,
         errors: [0.25; 3],
@@ -210,7 +210,7 @@ fn face_signs_of_weights_decide_the_place() {
             }
             values[i] = -0.25f64.next_up() * sign;
             assert_eq!(of(values).place(), Place::Apart);
-            // No other weight has a certain sign.
+            // No other raw has a certain sign.
             let mut values = [0.0; 3];
             values[i] = sign;
             assert_eq!(of(values).place(), Place::Unclear);

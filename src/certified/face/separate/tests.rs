@@ -3,9 +3,11 @@ use std::cell::Cell;
 use wide::f64x2;
 
 use super::*;
+use crate::certified::kind::Stages;
 use crate::certified::testing::{
     Claim, Exact, Number, Random, Search, layout, points, points_and_direction, range,
 };
+use crate::query::VertexFace;
 
 /// How much farther along `d` the corners are than the vertex, at the start or at the end.
 fn exact_margin(exact: &Exact, d: &Vector, t: f64) -> Number {
@@ -24,7 +26,11 @@ fn face_margins_are_within_their_bound_and_no_claim_is_wrong() {
     let claims = |x: &[f64; 27]| {
         let positions = layout(x);
         let points = positions.points::<f64x2>();
-        let (boxes, star, d) = (boxes(&points), star(&points), [x[24], x[25], x[26]]);
+        let (boxes, star, d) = (
+            VertexFace::boxes(&points, 0.0),
+            star(&points),
+            [x[24], x[25], x[26]],
+        );
         let exact = Exact::of(&positions, [(2, 1), (3, 1), (0, 1)]);
         let exact = [0.0, 1.0].map(|t| exact_margin(&exact, &d, t));
         if is_separated_by(&star, d, &boxes) {
@@ -66,7 +72,7 @@ fn face_boxes_are_disjoint_exactly_where_an_axis_separates() {
             let (vertex, face) = (range(&x, i, &[0]), range(&x, i, &[1, 2, 3]));
             vertex.1 < face.0 || face.1 < vertex.0
         });
-        let boxes = boxes(&layout(&x).points::<f64x2>());
+        let boxes = VertexFace::boxes(&layout(&x).points::<f64x2>(), 0.0);
         assert_eq!(boxes.are_disjoint, are_disjoint, "{x:?}");
         counts[usize::from(are_disjoint)] += 1;
     }
