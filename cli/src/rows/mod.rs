@@ -9,7 +9,7 @@ mod twist;
 
 use std::error::Error;
 
-use super::scenes::Scene;
+use crate::scenes::Scene;
 use tunnelproof::certified::Certified;
 use tunnelproof::wire::{ContactRecord, Mode, Outcome, Place, StepRecord, World};
 
