@@ -18,6 +18,7 @@ use crate::query::EdgeEdge;
 
 /// The stage of the cascade that decided a query.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Stage {
     /// The swept boxes are disjoint.
     Boxes,

@@ -51,7 +51,8 @@ impl Packing {
     }
 }
 
-#[cfg(all(test, feature = "packed"))]
+#[cfg(feature = "packed")]
+#[cfg(test)]
 mod tests {
     use std::io::Write;
 
