@@ -3,7 +3,7 @@
 //!
 //! This crate is the engine: pure Rust, `f64`, no C. What is asked is a [`query`]; what is answered
 //! is a [`contact`]; whoever answers is a [`narrow::NarrowPhase`]. The [`thesis`] path is the
-//! published method with its thresholds, Algorithms 1 to 20. [`wire`] steps wires and bodies. Whether an answer is *true* is judged
+//! published method with its thresholds, Algorithms 1 to 20. `wire`, with the feature of this name, steps wires and bodies. Whether an answer is *true* is judged
 //! by the crate `tunnelproof-reference`, which the engine never uses.
 
 pub mod additive;

@@ -136,7 +136,10 @@ pub fn open(path: &str, options: ReadOptions) -> Result<Entries, CorpusError> {
     }
     let format = Format::of_path(path).ok_or_else(|| refuse(Problem::Extension))?;
     let (packing, _) = Packing::of_path(path);
-    read(packing.unpack(file), path, Some(format), options)
+    let file = packing
+        .unpack(file)
+        .map_err(|error| refuse(Problem::Io(error)))?;
+    read(file, path, Some(format), options)
 }
 
 /// Reads a corpus that is called `path` from anywhere. Without a format, the first line tells it.
