@@ -44,6 +44,7 @@ mod face;
 mod locate;
 mod motion;
 mod narrow;
+mod normal;
 mod pair;
 mod refine;
 mod root;
@@ -62,5 +63,6 @@ pub use face::{
     FaceHit, decide_vertex_face, decide_vertex_face_exactly, decide_vertex_face_observed,
 };
 pub use narrow::Certified;
+pub use normal::Normal;
 pub use pair::Batched;
 pub use verdict::{Hit, Parameters, Verdict};

@@ -78,6 +78,7 @@ pub(super) use near::are_near;
 pub(super) use passage::{Passage, passage_of_edges, passage_of_face};
 use scaled::Scaled;
 pub(super) use thick::{Approach, approach_of_edges, approach_of_face};
+pub(super) use thick::{normal_of_edges_exactly, normal_of_face_exactly};
 use time::Time;
 
 /// The largest error of the parameters `u` and `v` of an [`Hit`] of the exact stage, 2^-50.
