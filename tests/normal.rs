@@ -8,12 +8,12 @@
 use num_bigint::BigInt;
 use proptest::prelude::*;
 use tunnelproof::certified::{Normal, Verdict, decide, decide_exactly, decide_vertex_face};
-use tunnelproof::query::{EdgeEdge, Point, Query, QueryKind, VertexFace};
+use tunnelproof::query::{Point, Query, QueryKind};
 use tunnelproof_reference::generate;
 use tunnelproof_reference::oracle;
 use tunnelproof_reference::scaled::Scaled;
 
-use corners::{Corners, all_scales, cases, lattice, nearly_degenerate, ordinary_scales, uniform};
+use corners::{all_scales, cases, lattice, nearly_degenerate, ordinary_scales, uniform};
 
 mod corners;
 
@@ -200,8 +200,11 @@ fn exact_normal(query: &Query) -> Option<Option<Vector>> {
     } {
         least *= 2;
     }
+    // So shortly before that no point moves by more than 2^-200 of the smallest unit of the coordinates.
+    let all = points.start.iter().chain(&points.end).flatten();
+    let span = all.map(BigInt::bits).max().expect("24");
     let mut last: Option<Vector> = None;
-    let mut bits = least + 200;
+    let mut bits = least + span + 200;
     loop {
         toi.refine(bits);
         let (low, _, exponent) = toi.bounds();
