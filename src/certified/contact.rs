@@ -14,13 +14,20 @@ impl<P> Hit<P> {
     /// velocity is a difference of differences of positions: where these cancel it loses accuracy in the same
     /// measure. The normal is that of [`Hit::normal`].
     pub fn contact<K: Kind<Place = P>>(&self, query: &K) -> Contact {
-        let (first, second) = K::weights(&self.place);
+        let (first, second) = self.points(query);
         Contact {
             toi: self.toi,
-            first: contact_point(query, self.toi, first),
-            second: second.map(|second| contact_point(query, self.toi, second)),
+            first,
+            second,
             normal: self.normal(query).map(|normal| normal.direction),
         }
+    }
+
+    /// The points of [`contact`](Self::contact), without the normal.
+    pub fn points<K: Kind<Place = P>>(&self, query: &K) -> (ContactPoint, Option<ContactPoint>) {
+        let (first, second) = K::weights(&self.place);
+        let point = |weights| contact_point(query, self.toi, weights);
+        (point(first), second.map(point))
     }
 
     /// The contact normal: the unit vector along which the sides are nearest, from the first side (the edge
