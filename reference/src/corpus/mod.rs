@@ -1,7 +1,7 @@
 //! Corpora: files of queries, and the identifiers that name a query.
 //!
 //! Read are [`jsonl`], this project's own format, [`csv`], the public CCD query format, and files of test
-//! vectors, each also packed by gzip (`.gz`) or zstd (`.zst`). The first two stream, so memory does not grow with the file. Input is exact: a coordinate is the
+//! vectors, each, with the feature `packed`, also packed by gzip (`.gz`) or zstd (`.zst`). The first two stream, so memory does not grow with the file. Input is exact: a coordinate is the
 //! `f64` that the file states, or the file is refused.
 //!
 //! A query is known by an identifier that [`locate`](locate::locate) resolves:
