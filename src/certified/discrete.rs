@@ -1,7 +1,7 @@
 //! Two edges at one instant: how near they are, and whether that is within a radius.
 //!
 //! What a simulator asks of pairs that do not tunnel. The points found are an upper bound on the distance,
-//! whatever way they were found; a plane between the edges is a lower one. Where the two do not tell on
+//! however they were found; a plane between the edges is a lower one. Where the two do not tell on
 //! which side of the radius the distance is, integers do.
 
 use nalgebra::Vector3;
@@ -48,8 +48,8 @@ pub fn decide_discrete(query: &EdgeEdge) -> Proximity {
     let (points, radius) = (query.start(), query.radius());
     let corners = points.each_ref().map(|p| [p.x, p.y, p.z]);
     let edges = Edges::new(&corners);
-    let (nearest, way) = edges.nearest();
-    let (low, high) = edges.distance(&way);
+    let (nearest, difference) = edges.nearest();
+    let (low, high) = edges.distance(&difference);
     let rounded = radius.rounded();
     let touches = if high <= rounded.next_down() {
         true
@@ -66,7 +66,7 @@ pub fn decide_discrete(query: &EdgeEdge) -> Proximity {
         nearest,
         points: [between(&a, &b, nearest.u), between(&c, &d, nearest.v)].map(Point::from),
         normal: normalised(&if low > 0.0 {
-            way.into()
+            difference.into()
         } else {
             cross(&edges.k, &edges.l).into()
         }),
@@ -106,7 +106,7 @@ impl Edges {
         }
     }
 
-    /// Where the edges are about nearest, and the way from AB to CD there.
+    /// Where the edges are about nearest, and the difference from AB to CD there.
     ///
     /// The inner points that solve `(M + v L - u K) . K = 0` and `(M + v L - u K) . L = 0`, and every end with
     /// the point of the other edge that is nearest to it.
@@ -114,10 +114,10 @@ impl Edges {
         let Edges { k, l, m, .. } = self;
         let (kk, ll, kl) = (dot(k, k), dot(l, l), dot(k, l));
         let (mk, ml) = (dot(m, k), dot(m, l));
-        let on_ab = |v: f64| share(mk + v * kl, kk);
-        let on_cd = |u: f64| share(u * kl - ml, ll);
+        let on_ab = |v: f64| clamped_quotient(mk + v * kl, kk);
+        let on_cd = |u: f64| clamped_quotient(u * kl - ml, ll);
         // Near parallel edges a step from one edge to the other and back mends the quotient.
-        let v = on_cd(share(mk * ll - ml * kl, kk * ll - kl * kl));
+        let v = on_cd(clamped_quotient(mk * ll - ml * kl, kk * ll - kl * kl));
         let u = on_ab(v);
         let places = [
             (u, on_cd(u)),
@@ -126,9 +126,10 @@ impl Edges {
             (on_ab(0.0), 0.0),
             (on_ab(1.0), 1.0),
         ];
-        let ways = places.map(|(u, v)| (EdgePoint { u, v }, self.way(u, v)));
-        let mut nearest = ways[0];
-        for other in &ways[1..] {
+        let places_and_differences =
+            places.map(|(u, v)| (EdgePoint { u, v }, self.difference(u, v)));
+        let mut nearest = places_and_differences[0];
+        for other in &places_and_differences[1..] {
             if length(&other.1) < length(&nearest.1) {
                 nearest = *other;
             }
@@ -137,27 +138,27 @@ impl Edges {
     }
 
     /// From the point of AB at `u` to that of CD at `v`.
-    fn way(&self, u: f64, v: f64) -> Vector {
+    fn difference(&self, u: f64, v: f64) -> Vector {
         let Edges { k, l, m, .. } = self;
         sub(&add(m, &l.map(|x| v * x)), &k.map(|x| u * x))
     }
 
-    /// Bounds on the distance, from a way between two points of the edges; 0 and infinity if nothing
+    /// Bounds on the distance, from a difference between two points of the edges; 0 and infinity if nothing
     /// better is certain.
     ///
-    /// With `u = 2^-53` and the extents `e_i`: a component of the way passes three rounded differences, two
+    /// With `u = 2^-53` and the extents `e_i`: a component of the difference passes three rounded differences, two
     /// products and two sums of values up to `3 e_i`, so it is within `12 u e_i` of that of the exact points,
-    /// and the way within `12 u |e|`. A length has a relative error below `4 u`.
+    /// and the difference within `12 u |e|`. A length has a relative error below `4 u`.
     ///
     /// For any direction `d` no two points are nearer than the least `X . d` of the four differences `X` of
     /// ends, over `|d|`. That is computed within `22 u S`, `S` the sum of `e_i |d_i|`, as that of
     /// [`SweptBoxes::is_certain`](super::separate::SweptBoxes::is_certain). `TINY` is far above what underflow
     /// adds. What overflows is no bound.
-    fn distance(&self, way: &Vector) -> (f64, f64) {
+    fn distance(&self, difference: &Vector) -> (f64, f64) {
         let Edges { k, l, m, extent } = self;
-        let high = (length(way) + 16.0 * U * length(extent) + TINY) * (1.0 + 16.0 * U);
-        let size = largest(&way.map(f64::abs));
-        let d = way.map(|x| x / size);
+        let high = (length(difference) + 16.0 * U * length(extent) + TINY) * (1.0 + 16.0 * U);
+        let size = largest(&difference.map(f64::abs));
+        let d = difference.map(|x| x / size);
         let along = dot(m, &d) + dot(l, &d).min(0.0) - dot(k, &d).max(0.0);
         let error = 24.0 * U * dot(extent, &d.map(f64::abs)) + TINY;
         let low = (along - error) / length(&d) * (1.0 - 16.0 * U);
@@ -177,9 +178,13 @@ impl Edges {
 }
 
 /// `n / d` in `[0, 1]`; 0 if it is not a number.
-fn share(n: f64, d: f64) -> f64 {
-    let share = n / d;
-    if share > 0.0 { share.min(1.0) } else { 0.0 }
+fn clamped_quotient(n: f64, d: f64) -> f64 {
+    let quotient = n / d;
+    if quotient > 0.0 {
+        quotient.min(1.0)
+    } else {
+        0.0
+    }
 }
 
 /// The length of a vector, without overflow or underflow of the squares.

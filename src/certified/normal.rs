@@ -85,7 +85,11 @@ pub(super) fn normal_of_edges(
     let is_inside = second.is_none() && [u, v].iter().all(|&x| is_inside(x, at.error));
     let step = Step::new(start, end, at);
     let quick = step.and_then(|step| {
-        let (k, l, m) = (step.way(0, 1), step.way(2, 3), step.way(0, 2));
+        let (k, l, m) = (
+            step.difference(0, 1),
+            step.difference(2, 3),
+            step.difference(0, 2),
+        );
         let perpendicular = || k.cross(&l).directed(f64::from(at.side));
         let between = || m.plus(&l.times(v, at.error).minus(&k.times(u, at.error)));
         nearest(is_inside, radius, at, perpendicular, between)
@@ -110,7 +114,11 @@ pub(super) fn normal_of_face(
     let is_inside = weights.iter().all(|&weight| is_inside(weight, at.error));
     let step = Step::new(start, end, at);
     let quick = step.and_then(|step| {
-        let (p, q, to_b) = (step.way(1, 2), step.way(1, 3), step.way(0, 1));
+        let (p, q, to_b) = (
+            step.difference(1, 2),
+            step.difference(1, 3),
+            step.difference(0, 1),
+        );
         let [_, c, d] = weights;
         // f is positive where the vertex is on the side that (C - B) x (D - B) points to.
         let perpendicular = || p.cross(&q).directed(-f64::from(at.side));

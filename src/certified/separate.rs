@@ -144,11 +144,11 @@ impl<E: Ends> Motion<E> {
             });
             let Some(support) = support else { return false };
             let step = sub(&support, &nearest);
-            let share = -dot(&nearest, &step) / dot(&step, &step);
-            if !(share > 0.0) {
+            let fraction = -dot(&nearest, &step) / dot(&step, &step);
+            if !(fraction > 0.0) {
                 return false;
             }
-            nearest = add(&nearest, &step.map(|x| share.min(1.0) * x));
+            nearest = add(&nearest, &step.map(|x| fraction.min(1.0) * x));
         }
         false
     }

@@ -8,7 +8,7 @@
 use std::cmp::Ordering;
 
 use super::dyadic::Dyadic;
-use super::guess::between;
+use super::estimate::between;
 use super::integer::{Integer, ratio, scale};
 use super::modular::are_coprime;
 use super::poly::Poly;

@@ -11,12 +11,12 @@ use crate::contact::{ContactKind, EdgePlace, Hit};
 
 use super::curve::{Curve, bernstein_signs};
 use super::edge_hit;
-use super::lane::{Lane, Number};
 use super::motion::{End, Motion, Quadratic};
 use super::roots::Roots;
 use super::time::Time;
+use super::width::{Number, Width};
 
-impl<L: Lane> Motion<L> {
+impl<L: Width> Motion<L> {
     /// The first contact of a motion with `f` identically 0.
     pub(super) fn decide_confined(&self) -> Option<Hit<EdgePlace>> {
         let start = Time::start();
@@ -46,7 +46,7 @@ impl<L: Lane> Motion<L> {
 }
 
 /// The first time at which an end is on its edge, with a place for the roots of each.
-pub(super) fn first_contact<'a, L: Lane, const N: usize>(
+pub(super) fn first_contact<'a, L: Width, const N: usize>(
     ends: &[End<L>; N],
     roots: &'a mut [Roots<L>; N],
 ) -> Option<Time<'a, L>> {
@@ -63,7 +63,7 @@ pub(super) fn first_contact<'a, L: Lane, const N: usize>(
 }
 
 /// What the first contact is, if it is not that of the start.
-pub(super) fn kind<L: Lane>(ends: &[End<L>], toi: &Time<L>, overlap: bool) -> ContactKind {
+pub(super) fn kind<L: Width>(ends: &[End<L>], toi: &Time<L>, overlap: bool) -> ContactKind {
     // On a line every contact that was not there before is a crossing.
     let crosses = || ends.iter().all(End::is_on_line) || passes_any(ends, toi, overlap);
     if toi.is_inside() && crosses() {
@@ -74,11 +74,11 @@ pub(super) fn kind<L: Lane>(ends: &[End<L>], toi: &Time<L>, overlap: bool) -> Co
 }
 
 /// Whether an end passes at a time through the line of its edge, inside that or onto an overlap.
-pub(super) fn passes_any<L: Lane>(ends: &[End<L>], time: &Time<L>, overlap: bool) -> bool {
+pub(super) fn passes_any<L: Width>(ends: &[End<L>], time: &Time<L>, overlap: bool) -> bool {
     ends.iter().any(|end| end.passes(time, overlap))
 }
 
-impl<L: Lane> End<L> {
+impl<L: Width> End<L> {
     /// A polynomial that is 0 where the end comes onto the other edge: a component of the turn that is
     /// not identically 0, else `between`; `None` if that is identically 0 as well, or if plainly the end
     /// never does.

@@ -5,18 +5,18 @@ use std::cmp::Ordering;
 use smallvec::SmallVec;
 
 use super::fraction::Fraction;
-use super::lane::{Lane, Number};
+use super::grid_time::GridTime;
 use super::motion::{Cubic, Quadratic};
 use super::poly::Poly;
-use super::tick::Tick;
+use super::width::{Number, Width};
 
 /// A polynomial of a motion.
-pub(super) enum Curve<L: Lane> {
+pub(super) enum Curve<L: Width> {
     Quadratic(Quadratic<L>),
     Cubic(Cubic<L>),
 }
 
-impl<L: Lane> Curve<L> {
+impl<L: Width> Curve<L> {
     /// The signs of the Bernstein coefficients on `[0, 1]`.
     pub(super) fn bernstein_signs(&self) -> SmallVec<[Ordering; 4]> {
         match self {
@@ -62,7 +62,7 @@ impl<L: Lane> Curve<L> {
     }
 
     /// The sign of the value at a time, and the value in floating point.
-    pub(super) fn sample(&self, at: Tick) -> (Ordering, f64) {
+    pub(super) fn sample(&self, at: GridTime) -> (Ordering, f64) {
         match self {
             Curve::Quadratic(c) => {
                 let value = L::quadratic_at(c, at.0);
@@ -93,7 +93,7 @@ impl<L: Lane> Curve<L> {
 }
 
 /// The signs of the Bernstein coefficients on `[0, 1]`.
-pub(super) fn bernstein_signs<L: Lane>([c0, c1, c2]: &Quadratic<L>) -> [Ordering; 3] {
+pub(super) fn bernstein_signs<L: Width>([c0, c1, c2]: &Quadratic<L>) -> [Ordering; 3] {
     // 2 c0, 2 c0 + c1, 2 (c0 + c1 + c2)
     let both = c0.add(c1);
     [c0.sign(), both.add(c0).sign(), both.add(c2).sign()]

@@ -9,18 +9,18 @@
 //! normal - M x E + M x K = N - M x L        M x E = M x L        K x M = -(M x K)
 //! ```
 //!
-//! The bounds of [`super::lane`] hold: the largest of the new coefficients are those of `|D - C|^2`, sums
+//! The bounds of [`super::width`] hold: the largest of the new coefficients are those of `|D - C|^2`, sums
 //! of at most 27, 54 and 27 products, together at most `108 2^(2b)`; that is below `2^(2b + 7)`.
 
 use std::cmp::Ordering;
 
 use super::confined::{first_contact, kind};
 use super::curve::Curve;
-use super::lane::{Lane, Number};
 use super::locus::{Parameter, nonzero_axis};
 use super::motion::{End, Motion, Quadratic, add, negate, subtract, subtract_vector};
 use super::roots::Roots;
 use super::time::Time;
+use super::width::{Number, Width};
 use super::{PLACE_ERROR, Question, answer};
 use crate::certified::motion::Positions;
 use crate::contact::{Case, ContactKind, FacePlace, Flags, Hit};
@@ -40,7 +40,7 @@ struct FaceCase;
 impl Question for FaceCase {
     type Answer = Case;
 
-    fn answer<L: Lane>(motion: Motion<L>) -> Case {
+    fn answer<L: Width>(motion: Motion<L>) -> Case {
         Face::new(motion).case()
     }
 }
@@ -51,7 +51,7 @@ struct VertexMeetsFace;
 impl Question for VertexMeetsFace {
     type Answer = Option<Hit<FacePlace>>;
 
-    fn answer<L: Lane>(motion: Motion<L>) -> Option<Hit<FacePlace>> {
+    fn answer<L: Width>(motion: Motion<L>) -> Option<Hit<FacePlace>> {
         let face = Face::new(motion);
         if face.motion.is_confined() {
             face.decide_confined()
@@ -62,19 +62,19 @@ impl Question for VertexMeetsFace {
 }
 
 /// A vertex and a face.
-pub(super) struct Face<L: Lane> {
+pub(super) struct Face<L: Width> {
     pub(super) motion: Motion<L>,
     normal: [Quadratic<L>; 3],
 }
 
 /// Where the vertex is in the face at one time.
-pub(super) struct Place<L: Lane> {
+pub(super) struct Place<L: Width> {
     /// Of B, C and D.
     weights: [Parameter<L>; 3],
     flags: Flags,
 }
 
-impl<L: Lane> Face<L> {
+impl<L: Width> Face<L> {
     pub(super) fn new(motion: Motion<L>) -> Self {
         let normal = subtract_vector::<L>(&motion.n, &motion.m.cross(&motion.k));
         Face { motion, normal }
@@ -270,7 +270,7 @@ impl<L: Lane> Face<L> {
     }
 }
 
-impl<L: Lane> Place<L> {
+impl<L: Width> Place<L> {
     /// Whether the vertex is strictly inside a face that has an area.
     pub(super) fn is_interior(&self) -> bool {
         self.weights.iter().all(Parameter::is_interior)

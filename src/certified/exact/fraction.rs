@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use super::dyadic::decompose;
-use super::tick::Tick;
+use super::grid_time::GridTime;
 
 /// The time `numerator / denominator`, in `(0, 1)`; with a denominator below [`Fraction::LIMIT`].
 #[derive(Clone, Copy, Debug)]
@@ -62,7 +62,7 @@ impl Fraction {
     }
 
     /// Compared with a time on the grid.
-    pub(super) fn compare_tick(self, at: Tick) -> Ordering {
+    pub(super) fn compare_grid_time(self, at: GridTime) -> Ordering {
         // at d and 2^128 n, the low words apart from the others
         let denominator = u128::from(self.denominator);
         let low = u128::from(at.0 as u64) * denominator;

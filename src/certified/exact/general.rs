@@ -4,11 +4,11 @@ use crate::contact::{Case, ContactKind, EdgePlace, Hit};
 
 use super::curve::Curve;
 use super::edge_hit;
-use super::lane::Lane;
 use super::motion::Motion;
 use super::roots::Roots;
+use super::width::Width;
 
-impl<L: Lane> Motion<L> {
+impl<L: Width> Motion<L> {
     /// The first contact of a motion with `f` not identically 0.
     pub(super) fn decide_general(&self) -> Option<Hit<EdgePlace>> {
         let mut roots = Roots::none();

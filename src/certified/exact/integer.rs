@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
-use super::lane::Number;
+use super::width::Number;
 
 /// Limbs that are held without allocation.
 ///

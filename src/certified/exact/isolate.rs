@@ -16,12 +16,12 @@ use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
+use super::bernstein::{Piece, bernstein, changes, first_sign};
 use super::dyadic::Dyadic;
+use super::grid_time::GridTime;
 use super::integer::Integer;
-use super::part::Interval;
-use super::piece::{Piece, bernstein, changes, first_sign};
+use super::isolate_f64::Interval;
 use super::poly::Poly;
-use super::tick::Tick;
 
 /// The distinct roots in `[0, 1]` of a polynomial, in ascending order.
 #[derive(Debug)]
@@ -96,7 +96,10 @@ impl Isolated {
         match &cell.place {
             Place::Between {
                 poly: 0, low, high, ..
-            } => Some((Tick::from_dyadic(low)?, Tick::from_dyadic(high)?)),
+            } => {
+                let end = |at| GridTime::from_dyadic(at).ok();
+                Some((end(low)?, end(high)?))
+            }
             _ => None,
         }
     }

@@ -4,12 +4,12 @@ use std::cmp::Ordering;
 
 use crate::contact::Flags;
 
-use super::lane::{Lane, Number};
 use super::motion::{Motion, Quadratic, add, negate, subtract};
 use super::time::{Time, sign};
+use super::width::{Number, Width};
 
 /// The points that two touching edges share at one time.
-pub(super) struct Locus<L: Lane> {
+pub(super) struct Locus<L: Width> {
     pub(super) first: Place<L>,
     /// The other end of an overlap of more than a point.
     pub(super) second: Option<Place<L>>,
@@ -19,13 +19,13 @@ pub(super) struct Locus<L: Lane> {
 }
 
 /// A point of both edges.
-pub(super) struct Place<L: Lane> {
+pub(super) struct Place<L: Width> {
     pub(super) u: Parameter<L>,
     pub(super) v: Parameter<L>,
 }
 
 /// A parameter on an edge at a time that is known from the context.
-pub(super) enum Parameter<L: Lane> {
+pub(super) enum Parameter<L: Width> {
     /// 0.
     Start,
     /// 1.
@@ -38,7 +38,7 @@ pub(super) enum Parameter<L: Lane> {
 const A: usize = 0;
 const C: usize = 2;
 
-impl<L: Lane> Parameter<L> {
+impl<L: Width> Parameter<L> {
     /// `n / d`, if it is in `[0, 1]`, for a denominator of the given sign, which is not 0.
     pub(super) fn new(
         time: &Time<L>,
@@ -75,7 +75,7 @@ impl<L: Lane> Parameter<L> {
     }
 }
 
-impl<L: Lane> Motion<L> {
+impl<L: Width> Motion<L> {
     /// Where the edges touch at a time at which `f` is 0; `None` if they do not.
     pub(super) fn locus(&self, time: &Time<L>) -> Option<Locus<L>> {
         match nonzero_axis(&self.n, time) {
@@ -223,7 +223,7 @@ impl<L: Lane> Motion<L> {
 
 /// A component of a vector that is not 0 at the time, and its sign: the largest of those for which
 /// floating point shows it, else any.
-pub(super) fn nonzero_axis<L: Lane>(
+pub(super) fn nonzero_axis<L: Width>(
     vector: &[Quadratic<L>; 3],
     time: &Time<L>,
 ) -> Option<(usize, Ordering)> {

@@ -5,15 +5,15 @@
 //! polynomial with integer coefficients at a time that is itself a root of one. With
 //! `K = B - A`, `L = D - C`, `M = C - A`, `N = K x L` and `f = M . N`:
 //!
-//! 1. [`scaled`] makes the coordinate differences integers; their width chooses a [`lane`], integers
+//! 1. [`scaled`] makes the coordinate differences integers; their width chooses a [`width`], integers
 //!    of fixed widths that cannot overflow, or integers of any size where it is too large.
 //! 2. [`motion`] computes the coefficients.
 //! 3. Edges that touch are coplanar, so that a contact time is a root of `f` ([`general`]). Where `f`
 //!    is identically 0, it is the start or a time at which an end comes onto the other edge
 //!    ([`confined`]).
-//! 4. [`roots`] finds the roots: parted in floating point where its error bound allows ([`part`]), else
-//!    exactly ([`halve`], [`isolate`]), recognised as fractions of small numbers ([`fraction`]) or
-//!    narrowed to the last bit ([`pin`], [`bracket`]). [`time`] tells the
+//! 4. [`roots`] finds the roots: isolated in floating point where its error bound allows ([`isolate_f64`]), else
+//!    exactly ([`isolate_bisect`], [`isolate`]), recognised as fractions of small numbers ([`fraction`]) or
+//!    narrowed to the last bit ([`refine_root`], [`bracket`]). [`time`] tells the
 //!    signs of other polynomials there: by floating point where its error bound shows them, else
 //!    exactly ([`sturm`]).
 //! 5. [`locus`] is where the edges touch at such a time, if they do.
@@ -37,39 +37,38 @@ use std::cmp::Ordering;
 use super::motion::Positions;
 use crate::contact::{Case, ContactKind, EdgePlace, EdgePoint, Hit};
 
+mod algebraic_time;
+mod bernstein;
 mod bracket;
 mod confined;
 mod curve;
 mod dyadic;
+mod estimate;
 mod face;
 mod fraction;
 mod general;
-mod guess;
-mod halve;
+mod grid_time;
 mod integer;
 mod isolate;
-mod lane;
+mod isolate_bisect;
+mod isolate_f64;
 mod locus;
 mod modular;
-mod moment;
 mod motion;
 mod near;
-mod part;
 mod passage;
-mod piece;
-mod pin;
 mod poly;
+mod refine_root;
 mod remainders;
 mod roots;
 mod scaled;
 mod sturm;
 mod thick;
-mod tick;
 mod time;
+mod width;
 
 use self::motion::Motion;
 pub(super) use face::{case_of_face, decide_face};
-use lane::{Fixed, Lane, Number, Unlimited, Wide};
 use locus::{Locus, Place};
 pub(super) use near::are_near;
 pub(super) use passage::{Passage, passage_of_edges, passage_of_face};
@@ -78,6 +77,7 @@ pub(super) use thick::{
     decide_thick_edges, decide_thick_face, normal_of_edges_exactly, normal_of_face_exactly,
 };
 use time::Time;
+use width::{Fixed, Number, Unlimited, Wide, Width};
 
 /// The largest error of the place of a [`Hit`] of this stage, 2^-50.
 pub(super) const PLACE_ERROR: f64 = 4.0 * f64::EPSILON;
@@ -96,7 +96,7 @@ pub(super) fn case_of_edges(positions: &Positions) -> Case {
 trait Question {
     type Answer;
 
-    fn answer<L: Lane>(motion: Motion<L>) -> Self::Answer;
+    fn answer<L: Width>(motion: Motion<L>) -> Self::Answer;
 }
 
 /// The answer in the narrowest integers that the coordinates allow.
@@ -141,7 +141,7 @@ struct EdgesTouch;
 impl Question for EdgesTouch {
     type Answer = Option<Hit<EdgePlace>>;
 
-    fn answer<L: Lane>(motion: Motion<L>) -> Self::Answer {
+    fn answer<L: Width>(motion: Motion<L>) -> Self::Answer {
         if motion.is_confined() {
             motion.decide_confined()
         } else {
@@ -156,12 +156,12 @@ struct EdgesCase;
 impl Question for EdgesCase {
     type Answer = Case;
 
-    fn answer<L: Lane>(motion: Motion<L>) -> Case {
+    fn answer<L: Width>(motion: Motion<L>) -> Case {
         motion.case()
     }
 }
 
-impl<L: Lane> Motion<L> {
+impl<L: Width> Motion<L> {
     /// Whether `f` is identically 0.
     fn is_confined(&self) -> bool {
         self.f.iter().all(Number::is_zero)
@@ -193,7 +193,7 @@ impl<L: Lane> Motion<L> {
 }
 
 /// The contact of two edges at a time.
-fn edge_hit<L: Lane>(
+fn edge_hit<L: Width>(
     time: &Time<L>,
     locus: &Locus<L>,
     kind: ContactKind,

@@ -5,22 +5,22 @@
 
 use std::cell::OnceCell;
 
-use super::lane::{Lane, Number};
+use super::width::{Number, Width};
 
 /// A polynomial of degree 2.
-pub(super) type Quadratic<L> = [<L as Lane>::Quadratic; 3];
+pub(super) type Quadratic<L> = [<L as Width>::Quadratic; 3];
 
 /// A polynomial of degree 3.
-pub(super) type Cubic<L> = [<L as Lane>::Cubic; 4];
+pub(super) type Cubic<L> = [<L as Width>::Cubic; 4];
 
 /// A vector in space that moves linearly: its components at the start, and their changes.
-pub(super) struct Vector<L: Lane> {
+pub(super) struct Vector<L: Width> {
     start: [L::Linear; 3],
     change: [L::Linear; 3],
 }
 
 /// The motion of two edges.
-pub(super) struct Motion<L: Lane> {
+pub(super) struct Motion<L: Width> {
     pub(super) k: Vector<L>,
     pub(super) l: Vector<L>,
     pub(super) m: Vector<L>,
@@ -31,7 +31,7 @@ pub(super) struct Motion<L: Lane> {
 }
 
 /// An end `X` of an edge against the other edge `YZ`.
-pub(super) struct End<L: Lane> {
+pub(super) struct End<L: Width> {
     /// `(Y - X) x (Z - X)`, up to sign. It is 0 where `X` is on the line `YZ`, or where `Y` and `Z`
     /// are the same.
     pub(super) turn: [Quadratic<L>; 3],
@@ -40,7 +40,7 @@ pub(super) struct End<L: Lane> {
     pub(super) between: Quadratic<L>,
 }
 
-impl<L: Lane> Vector<L> {
+impl<L: Width> Vector<L> {
     /// Whether it is 0 during the whole step.
     pub(super) fn is_zero(&self) -> bool {
         self.start.iter().chain(&self.change).all(Number::is_zero)
@@ -80,7 +80,7 @@ impl<L: Lane> Vector<L> {
     }
 }
 
-impl<L: Lane> Motion<L> {
+impl<L: Width> Motion<L> {
     /// The motion whose component with index `i`, in the order of [`super::scaled::Scaled`], is
     /// `component(i)`.
     #[inline]
@@ -144,17 +144,17 @@ impl<L: Lane> Motion<L> {
 }
 
 /// `a + b`.
-pub(super) fn add<L: Lane>(a: &Quadratic<L>, b: &Quadratic<L>) -> Quadratic<L> {
+pub(super) fn add<L: Width>(a: &Quadratic<L>, b: &Quadratic<L>) -> Quadratic<L> {
     each(|i| a[i].add(&b[i]))
 }
 
 /// `a - b`.
-pub(super) fn subtract<L: Lane>(a: &Quadratic<L>, b: &Quadratic<L>) -> Quadratic<L> {
+pub(super) fn subtract<L: Width>(a: &Quadratic<L>, b: &Quadratic<L>) -> Quadratic<L> {
     each(|i| a[i].sub(&b[i]))
 }
 
 /// `a - b`, of vectors.
-pub(super) fn subtract_vector<L: Lane>(
+pub(super) fn subtract_vector<L: Width>(
     a: &[Quadratic<L>; 3],
     b: &[Quadratic<L>; 3],
 ) -> [Quadratic<L>; 3] {
@@ -162,7 +162,7 @@ pub(super) fn subtract_vector<L: Lane>(
 }
 
 /// `-a`.
-pub(super) fn negate<L: Lane>(a: &Quadratic<L>) -> Quadratic<L> {
+pub(super) fn negate<L: Width>(a: &Quadratic<L>) -> Quadratic<L> {
     each(|i| a[i].sub(&a[i]).sub(&a[i]))
 }
 

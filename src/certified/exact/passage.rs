@@ -9,10 +9,10 @@ use std::cmp::Ordering;
 use super::confined::passes_any;
 use super::curve::Curve;
 use super::face::Face;
-use super::lane::{Lane, Number};
 use super::motion::{End, Motion, Quadratic};
 use super::roots::Roots;
 use super::time::Time;
+use super::width::{Number, Width};
 use super::{Question, answer};
 use crate::certified::motion::Positions;
 use crate::contact::{Case, ContactKind};
@@ -41,7 +41,7 @@ struct EdgesPass;
 impl Question for EdgesPass {
     type Answer = Passage;
 
-    fn answer<L: Lane>(motion: Motion<L>) -> Passage {
+    fn answer<L: Width>(motion: Motion<L>) -> Passage {
         let (case, crosses) = if motion.is_confined() {
             let overlap = |time: &Time<L>| motion.locus(time).map(|locus| locus.second.is_some());
             let crosses = crosses_confined(motion.ends(), overlap);
@@ -60,7 +60,7 @@ struct VertexPasses;
 impl Question for VertexPasses {
     type Answer = Passage;
 
-    fn answer<L: Lane>(motion: Motion<L>) -> Passage {
+    fn answer<L: Width>(motion: Motion<L>) -> Passage {
         let face = Face::new(motion);
         let crosses = if face.motion.is_confined() {
             crosses_confined(&face.edges(), |time| face.place(time).map(|_| false))
@@ -84,7 +84,7 @@ fn kind(crosses: bool) -> ContactKind {
 }
 
 /// Whether `f`, which is not identically 0, changes its sign inside the step where they meet inside.
-fn crosses_in_space<L: Lane>(motion: &Motion<L>, meet: impl Fn(&Time<L>) -> bool) -> bool {
+fn crosses_in_space<L: Width>(motion: &Motion<L>, meet: impl Fn(&Time<L>) -> bool) -> bool {
     let mut roots = Roots::none();
     roots.find(Curve::Cubic(motion.f.clone()));
     roots
@@ -93,7 +93,7 @@ fn crosses_in_space<L: Lane>(motion: &Motion<L>, meet: impl Fn(&Time<L>) -> bool
 }
 
 /// The same where `f` is identically 0. `overlap` says where they touch, and whether in more than a point.
-fn crosses_confined<L: Lane>(ends: &[End<L>], overlap: impl Fn(&Time<L>) -> Option<bool>) -> bool {
+fn crosses_confined<L: Width>(ends: &[End<L>], overlap: impl Fn(&Time<L>) -> Option<bool>) -> bool {
     let is_line = ends.iter().all(End::is_on_line);
     let crosses_at = |time: &Time<L>| match overlap(time) {
         Some(_) if is_line => ends
@@ -112,7 +112,7 @@ fn crosses_confined<L: Lane>(ends: &[End<L>], overlap: impl Fn(&Time<L>) -> Opti
 }
 
 /// Whether a polynomial is above 0 just before a time.
-fn is_positive_before<L: Lane>(q: &Quadratic<L>, time: &Time<L>) -> bool {
+fn is_positive_before<L: Width>(q: &Quadratic<L>, time: &Time<L>) -> bool {
     let [_, c1, c2] = q;
     let zero = c1.sub(c1);
     let slope = [c1.clone(), c2.add(c2), zero];

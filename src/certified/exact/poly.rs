@@ -6,7 +6,7 @@ use smallvec::SmallVec;
 
 use super::dyadic::Dyadic;
 use super::integer::Integer;
-use super::lane::Number;
+use super::width::Number;
 
 /// A polynomial, of which `N` coefficients are held in place; 0 where moving it costs more than finding it on the heap.
 #[derive(Clone, Debug)]

@@ -1,8 +1,8 @@
 //! The times at which a polynomial of the motion is 0.
 //!
 //! One sign change of the Bernstein coefficients means one root, a simple one. More of them are
-//! parted in floating point ([`super::part`]), or exactly: by values of alternating signs between them, or
-//! by halving ([`super::halve`]). The rest is left to [`super::isolate`].
+//! isolated in floating point ([`super::isolate_f64`]), or exactly: by values of alternating signs between them, or
+//! by halving ([`super::isolate_bisect`]). The rest is left to [`super::isolate`].
 
 use std::cell::OnceCell;
 use std::cmp::Ordering;
@@ -12,19 +12,19 @@ use smallvec::SmallVec;
 use super::bracket::Bracket;
 use super::curve::Curve;
 use super::dyadic::Dyadic;
+use super::estimate;
 use super::fraction::Fraction;
-use super::guess;
-use super::halve::halve;
+use super::grid_time::GridTime;
 use super::isolate::Isolated;
-use super::lane::{Lane, Number};
+use super::isolate_bisect::isolate_bisect;
+use super::isolate_f64::{Interval, isolate_f64};
 use super::motion::Quadratic;
-use super::part::{Interval, part};
 use super::poly::Poly;
-use super::tick::Tick;
 use super::time::Time;
+use super::width::{Number, Width};
 
 /// The distinct roots in `[0, 1]` of a polynomial that is not identically 0, in ascending order.
-pub(super) struct Roots<L: Lane> {
+pub(super) struct Roots<L: Width> {
     /// The polynomial, or its derivative in place of one with a double root.
     curve: Option<Curve<L>>,
     cells: SmallVec<[Cell; 4]>,
@@ -46,12 +46,12 @@ enum Place {
     End,
     /// The only root of the curve strictly between these times, a simple one, and the sign of the
     /// curve before it; `None` is the start or the end of the step.
-    Between(Option<Tick>, Option<Tick>, Ordering),
+    Between(Option<GridTime>, Option<GridTime>, Ordering),
     /// The isolated root with this index.
     Isolated(usize),
 }
 
-impl<L: Lane> Roots<L> {
+impl<L: Width> Roots<L> {
     /// A place for roots; to find them there is cheaper than to move them there.
     #[inline]
     pub(super) fn none() -> Self {
@@ -113,8 +113,9 @@ impl<L: Lane> Roots<L> {
         };
         let isolated = self.isolated.insert(Isolated::new(curve.to_poly()));
         for (index, cell) in isolated.cells().iter().enumerate() {
-            let proved =
-                |at: &Option<Tick>, sign: Ordering| at.is_none_or(|at| curve.sample(at).0 == sign);
+            let proved = |at: &Option<GridTime>, sign: Ordering| {
+                at.is_none_or(|at| curve.sample(at).0 == sign)
+            };
             let place = match isolated.interval(cell) {
                 Some((low, high)) if proved(&low, cell.before) && proved(&high, cell.after) => {
                     Place::Between(low, high, cell.before)
@@ -156,21 +157,21 @@ impl<L: Lane> Roots<L> {
 }
 
 /// A polynomial of which a time is a root.
-pub(super) struct Source<'a, L: Lane> {
+pub(super) struct Source<'a, L: Width> {
     pub(super) curve: &'a Curve<L>,
     /// The same in integers of any size, once it is needed.
     poly: &'a OnceCell<Poly>,
 }
 
-impl<L: Lane> Clone for Source<'_, L> {
+impl<L: Width> Clone for Source<'_, L> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<L: Lane> Copy for Source<'_, L> {}
+impl<L: Width> Copy for Source<'_, L> {}
 
-impl<'a, L: Lane> Source<'a, L> {
+impl<'a, L: Width> Source<'a, L> {
     /// A polynomial, with a place for the same in integers of any size.
     pub(super) fn new(curve: &'a Curve<L>, poly: &'a OnceCell<Poly>) -> Self {
         Source { curve, poly }
@@ -186,16 +187,16 @@ impl<'a, L: Lane> Source<'a, L> {
     pub(super) fn unproved(
         self,
         before: Ordering,
-        low: Option<Tick>,
-        high: Option<Tick>,
+        low: Option<GridTime>,
+        high: Option<GridTime>,
     ) -> Bracket<'a> {
-        let low = low.map_or(Dyadic::zero(), Tick::to_dyadic);
-        let high = high.map_or(Dyadic::one(), Tick::to_dyadic);
+        let low = low.map_or(Dyadic::zero(), GridTime::to_dyadic);
+        let high = high.map_or(Dyadic::one(), GridTime::to_dyadic);
         Bracket::new(self.poly(), low, high, before)
     }
 
     /// The same between two times neither of which is a root.
-    pub(super) fn bracket(self, before: Ordering, low: Tick, high: Tick) -> Bracket<'a> {
+    pub(super) fn bracket(self, before: Ordering, low: GridTime, high: GridTime) -> Bracket<'a> {
         Bracket::proved(self.poly(), low.to_dyadic(), high.to_dyadic(), before)
     }
 
@@ -210,7 +211,7 @@ impl<'a, L: Lane> Source<'a, L> {
 
 /// Intervals around each of the roots strictly inside the step, given the sign just after the start
 /// and the number of sign changes of the Bernstein coefficients; `None` where it is not plain.
-fn intervals<L: Lane>(
+fn intervals<L: Width>(
     curve: &Curve<L>,
     first: Ordering,
     changes: u32,
@@ -221,37 +222,42 @@ fn intervals<L: Lane>(
         _ => {}
     }
     let coefficients = curve.approximate();
-    let plain = part(&coefficients).or_else(|| cut_between(curve, first, changes, &coefficients));
+    let plain =
+        isolate_f64(&coefficients).or_else(|| cut_between(curve, first, changes, &coefficients));
     plain.or_else(|| match curve {
         Curve::Quadratic(_) => None,
         Curve::Cubic(c) => {
-            // A multiple root is never parted.
-            let multiple = guess::multiple_roots(&coefficients).map(Fraction::near);
+            // A multiple root is never isolated.
+            let multiple = estimate::multiple_roots(&coefficients).map(Fraction::near);
             let is_multiple = multiple.into_iter().flatten().any(|at| curve.is_root(at));
-            if is_multiple { None } else { halve::<L>(c) }
+            if is_multiple {
+                None
+            } else {
+                isolate_bisect::<L>(c)
+            }
         }
     })
 }
 
 /// Intervals around as many roots as there are sign changes, two or three, cut at the turning points
-/// between them, if a guess finds these: with alternating signs there, every interval has a root, and
+/// between them, if a estimate finds these: with alternating signs there, every interval has a root, and
 /// there are no more.
-fn cut_between<L: Lane>(
+fn cut_between<L: Width>(
     curve: &Curve<L>,
     first: Ordering,
     changes: u32,
     coefficients: &[f64; 4],
 ) -> Option<SmallVec<[Interval; 3]>> {
     let cuts: SmallVec<[f64; 2]> = if changes == 2 {
-        SmallVec::from_iter([guess::turning_point(coefficients, first)?])
+        SmallVec::from_iter([estimate::turning_point(coefficients, first)?])
     } else {
-        let [s, t] = guess::turning_points(coefficients);
+        let [s, t] = estimate::turning_points(coefficients);
         SmallVec::from_buf([s.min(t), s.max(t)])
     };
     let mut found = SmallVec::new();
     let (mut low, mut sign) = (None, first);
     for cut in cuts {
-        let cut = Tick::from_f64(cut)?;
+        let cut = GridTime::from_f64(cut)?;
         sign = sign.reverse();
         if curve.sample(cut).0 != sign {
             return None;
@@ -264,7 +270,7 @@ fn cut_between<L: Lane>(
 }
 
 /// Whether two polynomials that are not identically 0 are multiples of each other.
-fn are_multiples<L: Lane>(p: &Quadratic<L>, q: &Quadratic<L>) -> bool {
+fn are_multiples<L: Width>(p: &Quadratic<L>, q: &Quadratic<L>) -> bool {
     [(0, 1), (0, 2), (1, 2)].into_iter().all(|(i, j)| {
         let (a, b) = (
             L::times_quadratics(&p[i], &q[j]),

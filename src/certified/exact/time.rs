@@ -5,22 +5,22 @@
 
 use std::cmp::Ordering;
 
+use super::algebraic_time::AlgebraicTime;
 use super::bracket::Bracket;
 use super::curve::Curve;
 use super::dyadic::Dyadic;
 use super::fraction::Fraction;
+use super::grid_time::GridTime;
 use super::integer::TWO_64;
 use super::isolate::{Isolated, Place};
-use super::lane::{Lane, Number};
-use super::moment::Moment;
 use super::motion::Quadratic;
-use super::pin::{Pin, pin, tighten};
 use super::poly::Poly;
+use super::refine_root::{RefinedRoot, refine_root, tighten};
 use super::roots::Source;
-use super::tick::Tick;
+use super::width::{Number, Width};
 
 /// An exact time, between its neighbours in `f64`.
-pub(super) struct Time<'a, L: Lane> {
+pub(super) struct Time<'a, L: Width> {
     /// The largest `f64` that is not above the time.
     pub(super) below: f64,
     /// The smallest `f64` that is not below the time.
@@ -28,24 +28,24 @@ pub(super) struct Time<'a, L: Lane> {
     exact: Exact<'a, L>,
 }
 
-enum Exact<'a, L: Lane> {
+enum Exact<'a, L: Width> {
     Start,
     End,
-    At(Tick),
+    At(GridTime),
     /// A root that is this number, the only one strictly between two times.
     Fraction {
         at: Fraction,
         of: Source<'a, L>,
         before: Ordering,
-        low: Option<Tick>,
-        high: Option<Tick>,
+        low: Option<GridTime>,
+        high: Option<GridTime>,
     },
     /// The only root strictly between two times, neither of which is a root.
     Root {
         of: Source<'a, L>,
         before: Ordering,
-        low: Tick,
-        high: Tick,
+        low: GridTime,
+        high: GridTime,
     },
     /// Off the grid.
     Dyadic(Dyadic),
@@ -53,7 +53,7 @@ enum Exact<'a, L: Lane> {
     Bracket(Bracket<'a>),
 }
 
-impl<'a, L: Lane> Time<'a, L> {
+impl<'a, L: Width> Time<'a, L> {
     /// The start of the step.
     pub(super) fn start() -> Self {
         Time {
@@ -77,11 +77,11 @@ impl<'a, L: Lane> Time<'a, L> {
     pub(super) fn of_root(
         of: Source<'a, L>,
         before: Ordering,
-        low: Option<Tick>,
-        high: Option<Tick>,
+        low: Option<GridTime>,
+        high: Option<GridTime>,
     ) -> Self {
-        match pin(of.curve, before, low, high) {
-            Some(Pin::Fraction(at)) => {
+        match refine_root(of.curve, before, low, high) {
+            Some(RefinedRoot::Fraction(at)) => {
                 let (below, above) = at.neighbours();
                 Time {
                     below,
@@ -95,12 +95,12 @@ impl<'a, L: Lane> Time<'a, L> {
                     },
                 }
             }
-            Some(Pin::At(at)) => Time {
+            Some(RefinedRoot::At(at)) => Time {
                 below: at.below(),
                 above: at.above(),
                 exact: Exact::At(at),
             },
-            Some(Pin::Between(low, high)) => Time {
+            Some(RefinedRoot::Between(low, high)) => Time {
                 below: low.below(),
                 above: high.above(),
                 exact: Exact::Root {
@@ -132,13 +132,13 @@ impl<'a, L: Lane> Time<'a, L> {
 
     /// The only root strictly between the ends of a bracket.
     pub(super) fn between(bracket: Bracket<'a>) -> Self {
-        let (moment, [below, above]) = Moment::settled(bracket);
+        let (moment, [below, above]) = AlgebraicTime::settled(bracket);
         Time {
             below,
             above,
             exact: match moment {
-                Moment::At(at) => Exact::Dyadic(at),
-                Moment::Between(bracket) => Exact::Bracket(bracket),
+                AlgebraicTime::At(at) => Exact::Dyadic(at),
+                AlgebraicTime::Between(bracket) => Exact::Bracket(bracket),
             },
         }
     }
@@ -305,10 +305,10 @@ impl<'a, L: Lane> Time<'a, L> {
         else {
             return None;
         };
-        if self.compare_tick(*low)?.is_le() {
+        if self.compare_grid_time(*low)?.is_le() {
             return Some(Ordering::Less);
         }
-        if self.compare_tick(*high)?.is_ge() {
+        if self.compare_grid_time(*high)?.is_ge() {
             return Some(Ordering::Greater);
         }
         // Between these, the other polynomial changes its sign at the other root alone.
@@ -320,7 +320,7 @@ impl<'a, L: Lane> Time<'a, L> {
     }
 
     /// A root on the grid compared with a time on it.
-    fn compare_tick(&self, at: Tick) -> Option<Ordering> {
+    fn compare_grid_time(&self, at: GridTime) -> Option<Ordering> {
         let Exact::Root {
             of,
             before,
@@ -344,26 +344,26 @@ impl<'a, L: Lane> Time<'a, L> {
         })
     }
 
-    fn moment(&self) -> Moment<'_> {
+    fn moment(&self) -> AlgebraicTime<'_> {
         match &self.exact {
-            Exact::Start => Moment::At(Dyadic::zero()),
-            Exact::End => Moment::At(Dyadic::one()),
-            Exact::At(at) => Moment::At(at.to_dyadic()),
-            Exact::Dyadic(at) => Moment::At(at.clone()),
+            Exact::Start => AlgebraicTime::At(Dyadic::zero()),
+            Exact::End => AlgebraicTime::At(Dyadic::one()),
+            Exact::At(at) => AlgebraicTime::At(at.to_dyadic()),
+            Exact::Dyadic(at) => AlgebraicTime::At(at.clone()),
             Exact::Fraction {
                 of,
                 before,
                 low,
                 high,
                 ..
-            } => Moment::settled(of.unproved(*before, *low, *high)).0,
+            } => AlgebraicTime::settled(of.unproved(*before, *low, *high)).0,
             Exact::Root {
                 of,
                 before,
                 low,
                 high,
-            } => Moment::Between(of.bracket(*before, *low, *high)),
-            Exact::Bracket(bracket) => Moment::Between(bracket.clone()),
+            } => AlgebraicTime::Between(of.bracket(*before, *low, *high)),
+            Exact::Bracket(bracket) => AlgebraicTime::Between(bracket.clone()),
         }
     }
 }
@@ -385,7 +385,7 @@ pub(super) fn sign(value: f64) -> Option<Ordering> {
 /// `2^256` times the value of a polynomial at `low`, with a relative error of 2^-53, and a bound of
 /// how much that changes up to `high`: on `[0, 1]` the derivative of `c0 + c1 t + c2 t^2` is at most
 /// `|c1| + 2 |c2|`.
-fn range<L: Lane>(q: &Quadratic<L>, low: Tick, high: Tick) -> (f64, f64) {
+fn range<L: Width>(q: &Quadratic<L>, low: GridTime, high: GridTime) -> (f64, f64) {
     let slope = q[1].to_f64().abs() + 2.0 * q[2].to_f64().abs();
     let value = L::quadratic_at(q, low.0).to_f64();
     (value, slope * low.distance(high) * GRID)

@@ -59,7 +59,7 @@ impl Step {
     ///
     /// `x`, `1 - t`, their product and the sum have a relative error of `e` each, `4 e` of the size and a little. Over
     /// `late` the vector changes by at most `|y - x| late`.
-    pub(super) fn way(&self, from: usize, to: usize) -> Bounded {
+    pub(super) fn difference(&self, from: usize, to: usize) -> Bounded {
         let x = sub(&self.start[to], &self.start[from]);
         let y = sub(&self.end[to], &self.end[from]);
         let (t, rest) = (self.toi, 1.0 - self.toi);

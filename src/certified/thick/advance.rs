@@ -39,13 +39,13 @@ const MOST_STEPS: u32 = 24;
 impl<E: Ends> Moving<E> {
     #[inline(always)]
     pub(super) fn new<K: Kind>(points: &[[E; 3]; 4], radius: f64) -> Self {
-        let way = |(from, to): (usize, usize)| sub(&points[to], &points[from]);
+        let difference = |(from, to): (usize, usize)| sub(&points[to], &points[from]);
         let [k, l, m] = K::DIFFERENCES;
         Moving {
             motion: Motion {
-                k: way(k),
-                l: way(l),
-                m: way(m),
+                k: difference(k),
+                l: difference(l),
+                m: difference(m),
             },
             boxes: K::boxes(points, radius * (1.0 + 4.0 * U)),
             radius,
@@ -100,7 +100,7 @@ impl<E: Ends> Moving<E> {
         let Motion { k, l, m } = &self.motion;
         let sum = |[x, y, z]: &[E; 3]| [x.sum(), y.sum(), z.sum()];
         let (u, v) = K::MIDDLE;
-        self.stays_apart_by::<K>(&way(&[sum(k), sum(l), sum(m)], u, v))
+        self.stays_apart_by::<K>(&difference(&[sum(k), sum(l), sum(m)], u, v))
     }
 
     /// Advances from a time up to which they are apart.
@@ -108,7 +108,7 @@ impl<E: Ends> Moving<E> {
         let mut t = from;
         let mut here = Instant::new::<K, E>(self, t);
         // Most sides that stay apart turn little.
-        if self.is_separated_by::<K>(&here.way) {
+        if self.is_separated_by::<K>(&here.difference) {
             return Advance::Apart;
         }
         for _ in 0..MOST_STEPS {
@@ -144,11 +144,11 @@ pub(super) fn rounded_up(radius: Radius) -> f64 {
 
 /// `M + v L - u K`.
 #[inline(always)]
-pub(super) fn way([k, l, m]: &[Vector; 3], u: f64, v: f64) -> Vector {
+pub(super) fn difference([k, l, m]: &[Vector; 3], u: f64, v: f64) -> Vector {
     sub(&add(m, &scaled(v, l)), &scaled(u, k))
 }
 
-/// A step so short that the next one, of its square, is as short as what is left to [`settle`](super::settle).
+/// A step so short that the next one, of its square, is as short as what is left to [`refine_toi`](super::refine_toi).
 const SHORT: f64 = 1.0 / (1u64 << 20) as f64;
 
 /// 2^-900: squares above it lose nothing to underflow.

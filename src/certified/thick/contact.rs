@@ -4,7 +4,7 @@
 use wide::f64x2;
 
 use super::advance::Moving;
-use super::settle::Settled;
+use super::refine_toi::RefinedToi;
 use crate::certified::cubic::Cubic;
 use crate::certified::exact::Passage;
 use crate::certified::kind::Kind;
@@ -15,7 +15,7 @@ use crate::contact::{Case, ContactKind, Flags, Hit};
 pub(super) fn contact<K: Kind>(
     positions: &Positions,
     moving: &Moving<f64x2>,
-    &Settled { below, spot, error }: &Settled,
+    &RefinedToi { below, spot, error }: &RefinedToi,
 ) -> Option<Hit<K::Place>> {
     let cubic = Cubic::new(&moving.motion);
     let Passage { case, kind } = passage::<K>(positions, cubic.as_ref());

@@ -1,7 +1,7 @@
 //! The two sides at one time, about: where they are nearest, and how that moves.
 
-use super::advance::{Moving, way};
-use super::shape::{Gram, Spot, Way};
+use super::advance::{Moving, difference};
+use super::shape::{Direction, Gram, Spot};
 use crate::certified::ends::Ends;
 use crate::certified::kind::Kind;
 use crate::certified::locate::at;
@@ -18,7 +18,7 @@ pub(super) struct Instant {
     /// The nearest place.
     pub(super) spot: Spot,
     /// The difference there.
-    pub(super) way: Vector,
+    pub(super) difference: Vector,
 }
 
 impl Instant {
@@ -30,30 +30,30 @@ impl Instant {
         let spot = K::nearest(&gram);
         Instant {
             change: [change(k), change(l), change(m)],
-            way: way(&vectors, spot.u, spot.v),
+            difference: difference(&vectors, spot.u, spot.v),
             spot,
             gram,
             at: vectors,
         }
     }
 
-    /// How the difference changes along both ways of the spot.
+    /// How the difference changes along both directions of the spot.
     #[inline(always)]
     pub(super) fn along(&self) -> [Vector; 2] {
-        let [first, second] = &self.spot.ways;
+        let [first, second] = &self.spot.directions;
         [along(first, &self.at), along(second, &self.at)]
     }
 
     /// The change of the difference in a whole step, with the place kept.
     #[inline(always)]
     pub(super) fn velocity(&self) -> Vector {
-        way(&self.change, self.spot.u, self.spot.v)
+        difference(&self.change, self.spot.u, self.spot.v)
     }
 }
 
 #[inline(always)]
-fn along(way: &Way, [k, l, _]: &[Vector; 3]) -> Vector {
-    sub(&scaled(way.v, l), &scaled(way.u, k))
+fn along(direction: &Direction, [k, l, _]: &[Vector; 3]) -> Vector {
+    sub(&scaled(direction.v, l), &scaled(direction.u, k))
 }
 
 #[inline(always)]

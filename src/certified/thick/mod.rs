@@ -6,7 +6,7 @@
 //!    two (`turning`), do so for one part of the step after the other, up to its end
 //!    or to the contact (`advance`). There the squared distance of the points that are nearest, in double-double
 //!    arithmetic, and a bound on how far these move (`nearness`) hold the time of impact between neighbours in `f64`
-//!    (`settle`). Points that are near at the start are a contact there. The rest of the answer is bounded in
+//!    (`refine_toi`). Points that are near at the start are a contact there. The rest of the answer is bounded in
 //!    `f64` too (`contact`).
 //! 4. Integers decide what is left (`exact::thick`): edges that are or may be parallel where they touch, a time of impact that
 //!    is a number in `f64`, grazes.
@@ -18,7 +18,7 @@ mod advance;
 mod contact;
 mod instant;
 mod nearness;
-mod settle;
+mod refine_toi;
 mod shape;
 #[cfg(test)]
 mod testing;
@@ -35,7 +35,7 @@ use crate::query::Radius;
 use advance::{Advance, Moving, rounded_up};
 use contact::contact;
 use instant::Instant;
-use settle::{Settled, settle};
+use refine_toi::{RefinedToi, refine_toi};
 pub(super) use shape::{Gram, Spot, nearest_on_edges, nearest_on_face};
 
 /// The first contact within a radius above 0, by all stages.
@@ -90,13 +90,13 @@ fn decide_by_planes<K: Kind>(
     radius: Radius,
     proved: f64,
 ) -> Finding<Hit<K::Place>> {
-    let settled = match moving.advance::<K>(proved) {
+    let refined = match moving.advance::<K>(proved) {
         Advance::Apart => return Finding::Miss,
         _ if !moving.is_ordinary() => return Finding::Undecided,
         Advance::Near => Finding::of_certain(moving.near_start::<K>(radius)),
-        Advance::Until(proved) => settle::<K>(&positions(), moving, radius, proved),
+        Advance::Until(proved) => refine_toi::<K>(&positions(), moving, radius, proved),
     };
-    settled.and_then(|settled| Finding::of_certain(contact::<K>(&positions(), moving, &settled)))
+    refined.and_then(|refined| Finding::of_certain(contact::<K>(&positions(), moving, &refined)))
 }
 
 impl Moving<f64x2> {
@@ -107,15 +107,15 @@ impl Moving<f64x2> {
 
     /// The nearest place at the start, if two points are certainly within the radius of each other there.
     ///
-    /// With the size `e` of the box around all points, a component of the way is within `12 u e` of the exact one;
+    /// With the size `e` of the box around all points, a component of the difference is within `12 u e` of the exact one;
     /// its length then within `12 u |e|`, and computed with a relative error below `4 u`.
-    fn near_start<K: Kind>(&self, radius: Radius) -> Option<Settled> {
+    fn near_start<K: Kind>(&self, radius: Radius) -> Option<RefinedToi> {
         let start = Instant::new::<K, _>(self, 0.0);
-        let length = dot(&start.way, &start.way).sqrt();
+        let length = dot(&start.difference, &start.difference).sqrt();
         let high = (length + 16.0 * U * self.boxes.size()) * (1.0 + 16.0 * U) + f64::MIN_POSITIVE;
         let is_near = length.is_finite() && high <= radius.rounded().next_down();
         let nearness = self.nearness(&start, 0.0).filter(|_| is_near)?;
-        Settled::new(0.0, start.spot, &nearness)
+        RefinedToi::new(0.0, start.spot, &nearness)
     }
 }
 

@@ -1,12 +1,12 @@
 //! How far the nearest place can be from where it was shortly before.
 //!
-//! With `w` the difference at a place, the squared distance from it along its ways `V1` and `V2` is
-//! `w^2 + 2 g . s + s . Q s` with `g = (V1 . w, V2 . w)` and the Gram matrix `Q` of the ways. At the nearest place `g` is 0, or
-//! leads away from 0 along a way that is not free.
+//! With `w` the difference at a place, the squared distance from it along its directions `V1` and `V2` is
+//! `w^2 + 2 g . s + s . Q s` with `g = (V1 . w, V2 . w)` and the Gram matrix `Q` of the directions. At the nearest place `g` is 0, or
+//! leads away from 0 along a direction that is not free.
 
 use super::advance::{LARGEST, Moving, SMALLEST};
 use super::instant::Instant;
-use super::shape::Way;
+use super::shape::Direction;
 use crate::certified::cubic::permanents;
 use crate::certified::ends::Ends;
 use crate::certified::motion::{Motion, Vector, add, cross, dot, reach, scaled};
@@ -21,7 +21,7 @@ pub(super) struct Nearness {
     pub(super) error: f64,
 }
 
-/// `g`, a bound on its error, and bounds on the length, of one way.
+/// `g`, a bound on its error, and bounds on the length, of one direction.
 #[derive(Clone, Copy)]
 struct Slope {
     value: f64,
@@ -31,9 +31,9 @@ struct Slope {
 }
 
 impl Slope {
-    /// Whether it is certainly farther that way.
-    fn is_uphill(&self, way: &Way) -> bool {
-        !way.is_free && self.value > self.error
+    /// Whether it is certainly farther in that direction.
+    fn is_uphill(&self, direction: &Direction) -> bool {
+        !direction.is_free && self.value > self.error
     }
 
     fn size(&self) -> f64 {
@@ -54,9 +54,9 @@ impl<E: Ends> Moving<E> {
     ///
     /// # Proof
     ///
-    /// The set is convex and in that which the ways span. Let `s` be the nearest place.
+    /// The set is convex and in that which the directions span. Let `s` be the nearest place.
     ///
-    /// - Both `g` are above 0 and their ways not free: the product of `g` and `s` is at least 0, so it is not nearer
+    /// - Both `g` are above 0 and their directions not free: the product of `g` and `s` is at least 0, so it is not nearer
     ///   anywhere, and as near only where `s` is 0.
     /// - One is, `g2`, with `m = g2 - |V1 . V2| |g1| / V1^2 > 0`. With `e = s1 + s2 V1 . V2 / V1^2` the squared distance
     ///   grows by at least `V1^2 e^2 - 2 |g1 e| + 2 m s2`: it falls by at most `g1^2 / V1^2`. At the nearest place
@@ -67,23 +67,28 @@ impl<E: Ends> Moving<E> {
     ///
     /// # Error bounds
     ///
-    /// With the larger magnitudes `v` of a way at both ends, their sum `s` for `K`, `L` and `M`, and the while `T < 1/8`: a
-    /// component of a way is within `6 u v` of the exact one and changes by up to `2 T v`, one of the difference is within `12 u s`
+    /// With the larger magnitudes `v` of a direction at both ends, their sum `s` for `K`, `L` and `M`, and the while `T < 1/8`: a
+    /// component of a direction is within `6 u v` of the exact one and changes by up to `2 T v`, one of the difference is within `12 u s`
     /// and changes by `2 T s`. The product adds `3.1 u`: below `(32 u + 6 T) v . s`. Lengths are within `(8 u + 3 T) |v|`
-    /// and `8 u` of themselves; `N`, up to its sign the product of the ways, within `(16 u + 5 T)` of the permanents of their `v`. Everything here passes fewer than
+    /// and `8 u` of themselves; `N`, up to its sign the product of the directions, within `(16 u + 5 T)` of the permanents of their `v`. Everything here passes fewer than
     /// 30 roundings.
     pub(super) fn nearness(&self, here: &Instant, while_: f64) -> Option<Nearness> {
         let ([k, l], size) = self.reaches();
-        let ways = here.spot.ways;
+        let directions = here.spot.directions;
         let along = here.along();
-        let reach = |way: &Way| add(&scaled(way.u.abs(), &k), &scaled(way.v.abs(), &l));
-        let reaches = [reach(&ways[0]), reach(&ways[1])];
+        let reach = |direction: &Direction| {
+            add(
+                &scaled(direction.u.abs(), &k),
+                &scaled(direction.v.abs(), &l),
+            )
+        };
+        let reaches = [reach(&directions[0]), reach(&directions[1])];
         let slope = |i: usize| {
             let (vector, most) = (&along[i], &reaches[i]);
             let length = dot(vector, vector).sqrt();
             let error = (8.0 * U + 3.0 * while_) * dot(most, most).sqrt();
             Slope {
-                value: dot(vector, &here.way),
+                value: dot(vector, &here.difference),
                 error: (32.0 * U + 6.0 * while_) * dot(most, &size) * (1.0 + 8.0 * U) + TINY,
                 least: length * (1.0 - 8.0 * U) - error * (1.0 + 8.0 * U),
                 most: length * (1.0 + 8.0 * U) + error * (1.0 + 8.0 * U),
@@ -101,7 +106,10 @@ impl<E: Ends> Moving<E> {
         if !(square > SMALLEST && least > 0.0) {
             return None;
         }
-        let is_uphill = [first.is_uphill(&ways[0]), second.is_uphill(&ways[1])];
+        let is_uphill = [
+            first.is_uphill(&directions[0]),
+            second.is_uphill(&directions[1]),
+        ];
         let held = match is_uphill {
             [true, true] => Some((0.0, 0.0)),
             [false, true] => beside(first, second),
@@ -116,7 +124,7 @@ impl<E: Ends> Moving<E> {
     }
 }
 
-/// Bounds on the fall of the squared distance and on `|s1| + |s2|`, where it is farther along the second way.
+/// Bounds on the fall of the squared distance and on `|s1| + |s2|`, where it is farther along the second direction.
 fn beside(first: Slope, second: Slope) -> Option<(f64, f64)> {
     let Slope { least, .. } = first;
     let turn = second.most / least;

@@ -15,20 +15,20 @@ pub(in crate::certified) struct Gram {
     ml: f64,
 }
 
-/// A place, and two ways from it: the whole set is in `(u, v) + s ways[0] + r ways[1]`, with a number of at
-/// least 0 for a way that is not free.
+/// A place, and two directions from it: the whole set is in `(u, v) + s directions[0] + r directions[1]`, with a number of at
+/// least 0 for a direction that is not free.
 ///
-/// The determinant of the ways is 1 or -1, and their numbers are 0, 1 or -1.
+/// The determinant of the directions is 1 or -1, and their numbers are 0, 1 or -1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::certified) struct Spot {
     pub(super) u: f64,
     pub(super) v: f64,
-    pub(super) ways: [Way; 2],
+    pub(super) directions: [Direction; 2],
 }
 
 /// A direction in which a place may move.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::certified) struct Way {
+pub(in crate::certified) struct Direction {
     pub(super) u: f64,
     pub(super) v: f64,
     /// Whether backwards too.
@@ -65,17 +65,17 @@ impl Gram {
 pub(in crate::certified) fn nearest_on_edges(gram: &Gram) -> Spot {
     // Divisions that do not wait for each other.
     let (of_k, of_l) = (1.0 / gram.kk, 1.0 / gram.ll);
-    let u = share(gram.centre().0 / gram.determinant());
-    let v = share((u * gram.kl - gram.ml) * of_l);
-    let u = share((gram.mk + v * gram.kl) * of_k);
-    // The sign of the way that leads inside, and whether the other one does too.
+    let u = clamped(gram.centre().0 / gram.determinant());
+    let v = clamped((u * gram.kl - gram.ml) * of_l);
+    let u = clamped((gram.mk + v * gram.kl) * of_k);
+    // The sign of the direction that leads inside, and whether the other one does too.
     let inward = |x: f64| (if x == 1.0 { -1.0 } else { 1.0 }, x > 0.0 && x < 1.0);
     let ((along_u, u_is_free), (along_v, v_is_free)) = (inward(u), inward(v));
-    let ways = [
-        Way::new(along_u, 0.0, u_is_free),
-        Way::new(0.0, along_v, v_is_free),
+    let directions = [
+        Direction::new(along_u, 0.0, u_is_free),
+        Direction::new(0.0, along_v, v_is_free),
     ];
-    Spot { u, v, ways }
+    Spot { u, v, directions }
 }
 
 /// The foot in the plane, or the nearest of the nearest points of the sides.
@@ -83,17 +83,20 @@ pub(in crate::certified) fn nearest_on_face(gram: &Gram) -> Spot {
     let (determinant, centre) = (gram.determinant(), gram.centre());
     let (u, v) = (centre.0 / determinant, centre.1 / determinant);
     if u > 0.0 && v > 0.0 && u + v < 1.0 {
-        let ways = [Way::new(1.0, 0.0, true), Way::new(0.0, 1.0, true)];
-        return Spot { u, v, ways };
+        let directions = [
+            Direction::new(1.0, 0.0, true),
+            Direction::new(0.0, 1.0, true),
+        ];
+        return Spot { u, v, directions };
     }
     let Gram { kk, ll, kl, mk, ml } = gram;
-    let third = share((kk - mk - ml + kl) / (ll + kk + 2.0 * kl));
+    let third = clamped((kk - mk - ml + kl) / (ll + kk + 2.0 * kl));
     // One and what is left of it add up to 1 exactly.
     let rest = 1.0 - third;
-    // Each side with the way along it and one into the face.
+    // Each side with the direction along it and one into the face.
     let places = [
-        (share(mk / kk), 0.0, [(1.0, 0.0), (0.0, 1.0)]),
-        (0.0, share(-ml / ll), [(0.0, 1.0), (1.0, 0.0)]),
+        (clamped(mk / kk), 0.0, [(1.0, 0.0), (0.0, 1.0)]),
+        (0.0, clamped(-ml / ll), [(0.0, 1.0), (1.0, 0.0)]),
         (rest, 1.0 - rest, [(1.0, -1.0), (-1.0, 0.0)]),
     ];
     let height = |&(u, v, _): &(f64, f64, _)| {
@@ -102,31 +105,31 @@ pub(in crate::certified) fn nearest_on_face(gram: &Gram) -> Spot {
     let [first, second, third] = places;
     let nearer = |x, y| if height(&y) < height(&x) { y } else { x };
     let (u, v, [along, inward]) = nearer(nearer(first, second), third);
-    // At a corner, the ways along both of its sides.
+    // At a corner, the directions along both of its sides.
     let [along, inward] = match (u, v) {
         (0.0, 0.0) => [(1.0, 0.0), (0.0, 1.0)],
         (1.0, 0.0) => [(-1.0, 0.0), (-1.0, 1.0)],
         (0.0, 1.0) => [(0.0, -1.0), (1.0, -1.0)],
         _ => {
-            let ways = [
-                Way::new(along.0, along.1, true),
-                Way::new(inward.0, inward.1, false),
+            let directions = [
+                Direction::new(along.0, along.1, true),
+                Direction::new(inward.0, inward.1, false),
             ];
-            return Spot { u, v, ways };
+            return Spot { u, v, directions };
         }
     };
-    let ways = [along, inward].map(|(u, v)| Way::new(u, v, false));
-    Spot { u, v, ways }
+    let directions = [along, inward].map(|(u, v)| Direction::new(u, v, false));
+    Spot { u, v, directions }
 }
 
-impl Way {
+impl Direction {
     fn new(u: f64, v: f64, is_free: bool) -> Self {
-        Way { u, v, is_free }
+        Direction { u, v, is_free }
     }
 }
 
 /// What of a number is in `[0, 1]`; 0 if it is not a number.
 #[inline(always)]
-fn share(share: f64) -> f64 {
-    smaller(larger(share, 0.0), 1.0)
+fn clamped(x: f64) -> f64 {
+    smaller(larger(x, 0.0), 1.0)
 }

@@ -41,7 +41,7 @@ impl Sample {
     }
 
     /// The exact difference of the points of a place at a time.
-    pub(super) fn way(&self, t: &Number, [u, v]: &[Number; 2]) -> [Number; 3] {
+    pub(super) fn difference(&self, t: &Number, [u, v]: &[Number; 2]) -> [Number; 3] {
         let [k, l, m] = self.at(t);
         [0, 1, 2].map(|i| &(&m[i] + &(v * &l[i])) - &(u * &k[i]))
     }
@@ -49,8 +49,8 @@ impl Sample {
     /// The least exact product of a corner with a vector at a time.
     pub(super) fn least_corner<K: Kind>(&self, t: &Number, n: &[Number; 3]) -> Number {
         let corners = K::CORNERS.iter().map(|&(u, v)| {
-            let way = self.way(t, &[u, v].map(Number::from));
-            dot(&way, n)
+            let difference = self.difference(t, &[u, v].map(Number::from));
+            dot(&difference, n)
         });
         corners.reduce(Number::smaller).expect("a corner")
     }

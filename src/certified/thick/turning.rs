@@ -4,9 +4,9 @@
 //! later, though they are no nearer then. One that turns with them does not: all corners that are as near as the nearest points
 //! come nearer to it at the same speed, that of the distance.
 
-use super::advance::{LARGEST, Moving, SMALLEST, way};
+use super::advance::{LARGEST, Moving, SMALLEST, difference};
 use super::instant::Instant;
-use super::shape::{Gram, Way};
+use super::shape::{Direction, Gram};
 use crate::certified::ends::Ends;
 use crate::certified::kind::Kind;
 use crate::certified::motion::{Vector, both, dot, scaled, smaller, sub};
@@ -19,18 +19,21 @@ pub(super) struct Turning {
 }
 
 impl Turning {
-    /// The plane between the nearest points: the ways `V` that are free there stay in it, `V . n = 0`, up to the
+    /// The plane between the nearest points: the directions `V` that are free there stay in it, `V . n = 0`, up to the
     /// second order, for a turn within what they span.
     #[inline(always)]
     pub(super) fn new(here: &Instant) -> Self {
-        let normal = here.way;
+        let normal = here.difference;
         let [k_change, l_change, _] = &here.change;
         let (k_change, l_change) = (dot(k_change, &normal), dot(l_change, &normal));
         let Gram { kk, ll, kl, .. } = here.gram;
-        let [first, second] = here.spot.ways;
+        let [first, second] = here.spot.directions;
         // V . V, and -V' . n, which V . turn has to be.
-        let square = |way: &Way| way.u * way.u * kk - 2.0 * way.u * way.v * kl + way.v * way.v * ll;
-        let target = |way: &Way| way.u * k_change - way.v * l_change;
+        let square = |difference: &Direction| {
+            difference.u * difference.u * kk - 2.0 * difference.u * difference.v * kl
+                + difference.v * difference.v * ll
+        };
+        let target = |difference: &Direction| difference.u * k_change - difference.v * l_change;
         // The turn is `v L - u K`.
         let (u, v) = match (first.is_free, second.is_free) {
             (false, false) => (0.0, 0.0),
@@ -44,9 +47,9 @@ impl Turning {
                 )
             }
             (is_first, _) => {
-                let way = if is_first { first } else { second };
-                let along = target(&way) / square(&way);
-                (along * way.u, along * way.v)
+                let difference = if is_first { first } else { second };
+                let along = target(&difference) / square(&difference);
+                (along * difference.u, along * difference.v)
             }
         };
         let [k, l, _] = &here.at;
@@ -118,7 +121,7 @@ impl<E: Ends> Moving<E> {
         // All of them before any is compared, so that roots and quotients overlap.
         let mut times = [longest; 4];
         for (time, &(u, v)) in times.iter_mut().zip(K::CORNERS) {
-            *time = stays_positive(&sub(&way(&vectors, u, v), &least));
+            *time = stays_positive(&sub(&difference(&vectors, u, v), &least));
         }
         times.into_iter().fold(longest, smaller)
     }

@@ -48,16 +48,16 @@ proptest! {
     ) {
         let fraction = Fraction { numerator: n, denominator: d };
         let below = Integer::from(i128::from(n)).shifted(128);
-        // The tick at the fraction or below it, its neighbours, and any other.
+        // The grid time at the fraction or below it, its neighbours, and any other.
         let at = (0..128).fold((u128::from(n), 0u128), |(rest, at), _| {
             let rest = 2 * rest;
             let bit = u128::from(rest >= u128::from(d));
             (rest - bit * u128::from(d), 2 * at + bit)
         });
-        for tick in [at.1.wrapping_add_signed(step), other] {
-            let limbs = [tick as u64, (tick >> 64) as u64];
+        for grid_time in [at.1.wrapping_add_signed(step), other] {
+            let limbs = [grid_time as u64, (grid_time >> 64) as u64];
             let own = Integer::from_magnitude(false, &limbs).times(d as i64);
-            prop_assert_eq!(fraction.compare_tick(Tick(tick)), below.cmp(&own));
+            prop_assert_eq!(fraction.compare_grid_time(GridTime(grid_time)), below.cmp(&own));
         }
     }
 }

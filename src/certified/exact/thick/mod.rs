@@ -28,7 +28,7 @@ mod vector;
 use std::cmp::Ordering;
 
 use super::PLACE_ERROR;
-use super::moment::Moment;
+use super::algebraic_time::AlgebraicTime;
 use super::near::{Point, in_unit, radius_in_unit, sub, unit};
 use super::passage::{Passage, passage_of_edges};
 use super::poly;
@@ -49,7 +49,7 @@ use super::integer::Integer;
 type Poly = poly::Poly<0>;
 
 /// Times at which such a polynomial is 0.
-type Time<'a> = Moment<'a, 0>;
+type Time<'a> = AlgebraicTime<'a, 0>;
 
 /// The first contact at a distance. A place has `W` numbers: `u` and `v`, or the weights of B, C and D.
 struct Approach<const W: usize> {

@@ -5,11 +5,11 @@ use std::cmp::Ordering;
 use smallvec::SmallVec;
 
 use super::{Poly, Time};
+use crate::certified::exact::bernstein::{Piece, bernstein};
 use crate::certified::exact::bracket::Bracket;
 use crate::certified::exact::dyadic::Dyadic;
 use crate::certified::exact::integer::Integer;
 use crate::certified::exact::modular::are_coprime;
-use crate::certified::exact::piece::{Piece, bernstein};
 use crate::certified::exact::remainders::Remainders;
 
 /// How often the step is halved before multiple roots are made simple: these never part.

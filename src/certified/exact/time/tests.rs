@@ -2,8 +2,8 @@ use std::cell::OnceCell;
 
 use proptest::prelude::*;
 
-use super::super::lane::{Fixed, Unlimited, Wide};
 use super::super::roots::Roots;
+use super::super::width::{Fixed, Unlimited, Wide};
 use super::*;
 use crate::certified::exact::integer::Integer;
 
@@ -50,8 +50,8 @@ proptest! {
             let exact_sign = |q: [i128; 3]| {
                 let poly = Poly::new(&q.map(Integer::from));
                 match time.moment() {
-                    Moment::At(at) => poly.sign_at(&at),
-                    Moment::Between(bracket) => bracket.sturm_sign_of(poly),
+                    AlgebraicTime::At(at) => poly.sign_at(&at),
+                    AlgebraicTime::Between(bracket) => bracket.sturm_sign_of(poly),
                 }
             };
             for q in [n, d] {
@@ -75,8 +75,8 @@ proptest! {
                         Integer::difference(&Integer::from(n[i]).shifted(54), &product)
                     });
                     let sign = match time.moment() {
-                        Moment::At(at) => Poly::<4>::new(&terms).sign_at(&at),
-                        Moment::Between(bracket) => bracket.sturm_sign_of(Poly::new(&terms)),
+                        AlgebraicTime::At(at) => Poly::<4>::new(&terms).sign_at(&at),
+                        AlgebraicTime::Between(bracket) => bracket.sturm_sign_of(Poly::new(&terms)),
                     };
                     prop_assert!(sign == side || sign.is_eq(), "{n:?} / {d:?}: {value}");
                 }

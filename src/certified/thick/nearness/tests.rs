@@ -19,7 +19,7 @@ impl Foot {
     fn on_side(sample: &Sample, t: &Number, from: (f64, f64), to: (f64, f64)) -> Option<Foot> {
         let corner = |(u, v): (f64, f64)| [u, v].map(Number::from);
         let (from, to) = (corner(from), corner(to));
-        let (start, end) = (sample.way(t, &from), sample.way(t, &to));
+        let (start, end) = (sample.difference(t, &from), sample.difference(t, &to));
         let side = [0, 1, 2].map(|i| &end[i] - &start[i]);
         let (length, share) = (exact_dot(&side, &side), -&exact_dot(&start, &side));
         let is_inside = share.sign().is_ge() && (&length - &share).sign().is_ge();
@@ -60,10 +60,10 @@ impl Foot {
         let sides = pairs.filter_map(|(from, to)| Foot::on_side(sample, t, *from, *to));
         let corners = K::CORNERS.iter().map(|&(u, v)| {
             let place = [u, v].map(Number::from);
-            let way = sample.way(t, &place);
+            let difference = sample.difference(t, &place);
             Foot {
                 place,
-                square: exact_dot(&way, &way),
+                square: exact_dot(&difference, &difference),
                 scale: Number::from(1.0),
             }
         });
@@ -90,15 +90,20 @@ fn nearest_places_are_within_their_bounds<K: Kind>(seed: u64) {
         if !nearness.error.is_finite() {
             return None;
         }
-        let held = here.spot.ways.iter().filter(|way| !way.is_free).count();
+        let held = here
+            .spot
+            .directions
+            .iter()
+            .filter(|direction| !direction.is_free)
+            .count();
         let mut count = counts.get();
         count[held] += 1;
         counts.set(count);
         let spot = [here.spot.u, here.spot.v].map(Number::from);
         let at = |t: &Number| {
             let foot = Foot::nearest::<K>(&sample, t);
-            let way = sample.way(t, &spot);
-            let fall = &(&exact_dot(&way, &way) * &foot.scale) - &foot.square;
+            let difference = sample.difference(t, &spot);
+            let fall = &(&exact_dot(&difference, &difference) * &foot.scale) - &foot.square;
             let shift = |i: usize| Claim {
                 error: (&(&spot[i] * &foot.scale) - &foot.place[i]).abs(),
                 bound: &Number::from(nearness.error) * &foot.scale,

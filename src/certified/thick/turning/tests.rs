@@ -98,7 +98,7 @@ fn thick_planes_turn_with_the_edges() {
     let sample = Sample::new::<EdgeEdge>(&coordinates, 0.8);
     let here = Instant::new::<EdgeEdge, _>(&sample.moving, 0.0);
     let with = |turn: Vector| {
-        let plane = Turning::between(here.way, turn);
+        let plane = Turning::between(here.difference, turn);
         sample
             .moving
             .stays_apart_turning::<EdgeEdge>(&here, &plane, 1.0)

@@ -8,50 +8,50 @@ use std::cmp::Ordering;
 
 use super::bracket::MOST_BITS;
 use super::curve::Curve;
+use super::estimate::{between, estimate_root, slope};
 use super::fraction::Fraction;
-use super::guess::{between, guess_root, slope};
-use super::lane::Lane;
-use super::tick::Tick;
+use super::grid_time::GridTime;
+use super::width::Width;
 
 /// A root that is a fraction of small numbers, or on the grid, or between two numbers of it that are
 /// between neighbours in `f64`.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Pin {
+pub(super) enum RefinedRoot {
     Fraction(Fraction),
-    At(Tick),
-    Between(Tick, Tick),
+    At(GridTime),
+    Between(GridTime, GridTime),
 }
 
 /// Numbers on both sides of the only root between them.
-struct Sides<'a, L: Lane> {
+struct Sides<'a, L: Width> {
     curve: &'a Curve<L>,
     before: Ordering,
     /// Just before and just after the root, as far as is proved.
-    low: Option<Tick>,
-    high: Option<Tick>,
+    low: Option<GridTime>,
+    high: Option<GridTime>,
 }
 
 /// Pins down the only root of a polynomial strictly between `low` and `high` (the start and the end
 /// of the step where there is none), a simple one. `before` is the sign between `low` and the root.
-pub(super) fn pin<L: Lane>(
+pub(super) fn refine_root<L: Width>(
     curve: &Curve<L>,
     before: Ordering,
-    low: Option<Tick>,
-    high: Option<Tick>,
-) -> Option<Pin> {
+    low: Option<GridTime>,
+    high: Option<GridTime>,
+) -> Option<RefinedRoot> {
     let coefficients = curve.approximate();
-    let from = low.map_or(0.0, Tick::to_f64);
-    let to = high.map_or(1.0, Tick::to_f64);
-    let guess = guess_root(&coefficients, from, to, before);
+    let from = low.map_or(0.0, GridTime::to_f64);
+    let to = high.map_or(1.0, GridTime::to_f64);
+    let estimate = estimate_root(&coefficients, from, to, before);
     let is_the_root = |at: &Fraction| {
-        low.is_none_or(|low| at.compare_tick(low).is_gt())
-            && high.is_none_or(|high| at.compare_tick(high).is_lt())
+        low.is_none_or(|low| at.compare_grid_time(low).is_gt())
+            && high.is_none_or(|high| at.compare_grid_time(high).is_lt())
             && curve.is_root(*at)
     };
-    if let Some(at) = Fraction::near(guess).filter(is_the_root) {
-        return Some(Pin::Fraction(at));
+    if let Some(at) = Fraction::near(estimate).filter(is_the_root) {
+        return Some(RefinedRoot::Fraction(at));
     }
-    let at = Tick::from_f64(guess)?;
+    let at = GridTime::from_f64(estimate)?;
     let mut sides = Sides {
         curve,
         before,
@@ -60,26 +60,26 @@ pub(super) fn pin<L: Lane>(
     };
     let (sign, value) = curve.sample(at);
     if sides.is_strictly_between(at) && sides.move_to(at, sign).is_eq() {
-        return Some(Pin::At(at));
+        return Some(RefinedRoot::At(at));
     }
     // The step is right to about half of the bits of an `f64`, or it is of no use.
     let floor = ulp(at) >> 34;
-    let is_near = sides.approach(at, -value / slope(&coefficients, guess), floor);
+    let is_near = sides.approach(at, -value / slope(&coefficients, estimate), floor);
     if is_near.is_none()
         && let Some(at) = sides.refine()
     {
-        return Some(Pin::At(at));
+        return Some(RefinedRoot::At(at));
     }
     sides.part_from_f64()
 }
 
 /// Moves both sides of a root nearer to it; neither of them is a root.
-pub(super) fn tighten<L: Lane>(
+pub(super) fn tighten<L: Width>(
     curve: &Curve<L>,
     before: Ordering,
-    low: Tick,
-    high: Tick,
-) -> Option<(Tick, Tick)> {
+    low: GridTime,
+    high: GridTime,
+) -> Option<(GridTime, GridTime)> {
     let mut sides = Sides {
         curve,
         before,
@@ -93,18 +93,18 @@ pub(super) fn tighten<L: Lane>(
 }
 
 /// The unit in the last place of an `f64` near a time, times `2^128`.
-fn ulp(at: Tick) -> u128 {
+fn ulp(at: GridTime) -> u128 {
     1 << 75u32.saturating_sub(at.0.leading_zeros())
 }
 
-impl<L: Lane> Sides<'_, L> {
-    fn is_strictly_between(&self, at: Tick) -> bool {
+impl<L: Width> Sides<'_, L> {
+    fn is_strictly_between(&self, at: GridTime) -> bool {
         self.low.is_none_or(|low| low < at) && self.high.is_none_or(|high| at < high)
     }
 
     /// The root compared with a number strictly between the sides, given the sign there; moves a side
     /// unless it is the root.
-    fn move_to(&mut self, at: Tick, sign: Ordering) -> Ordering {
+    fn move_to(&mut self, at: GridTime, sign: Ordering) -> Ordering {
         if sign.is_eq() {
             Ordering::Equal
         } else if sign == self.before {
@@ -116,14 +116,14 @@ impl<L: Lane> Sides<'_, L> {
         }
     }
 
-    fn cut(&mut self, at: Tick) -> Ordering {
+    fn cut(&mut self, at: GridTime) -> Ordering {
         let (sign, _) = self.curve.sample(at);
         self.move_to(at, sign)
     }
 
     /// Moves both sides near `at + step`: by a fraction of the step or `floor`, or more where that is
     /// too near.
-    fn approach(&mut self, at: Tick, step: f64, floor: u128) -> Option<()> {
+    fn approach(&mut self, at: GridTime, step: f64, floor: u128) -> Option<()> {
         let offset = step * 2f64.powi(128);
         // False for NaN as well.
         let is_inside = offset.abs() < 2f64.powi(127);
@@ -137,8 +137,8 @@ impl<L: Lane> Sides<'_, L> {
             at.0.checked_add(offset as u128)
         }?;
         while reach < ulp(at) << 10 {
-            let low = Tick(centre.checked_sub(reach)?);
-            let high = Tick(centre.checked_add(reach)?);
+            let low = GridTime(centre.checked_sub(reach)?);
+            let high = GridTime(centre.checked_add(reach)?);
             let is_above_low = !self.is_strictly_between(low) || self.cut(low).is_gt();
             let is_below_high = !self.is_strictly_between(high) || self.cut(high).is_lt();
             if is_above_low && is_below_high {
@@ -152,8 +152,8 @@ impl<L: Lane> Sides<'_, L> {
     /// Moves both sides to the root as [`Bracket`](super::bracket::Bracket) does, as far as the grid
     /// goes, without the help of the slope, which floating point does not know near another root.
     /// Returns the root if it is met.
-    fn refine(&mut self) -> Option<Tick> {
-        let value = |side: Option<Tick>, at_end: f64| {
+    fn refine(&mut self) -> Option<GridTime> {
+        let value = |side: Option<GridTime>, at_end: f64| {
             let inside = side.map(|at| self.curve.sample(at).1);
             inside.unwrap_or(at_end).abs()
         };
@@ -174,7 +174,7 @@ impl<L: Lane> Sides<'_, L> {
             let mut is_right = cell > 0;
             for (index, side) in [(index, Ordering::Greater), (index + 1, Ordering::Less)] {
                 if is_right && index > 0 && index < cells {
-                    let at = Tick(start + index * cell);
+                    let at = GridTime(start + index * cell);
                     let (sign, value) = self.curve.sample(at);
                     let order = self.move_to(at, sign);
                     match order {
@@ -194,16 +194,16 @@ impl<L: Lane> Sides<'_, L> {
     }
 
     /// Moves the sides until they are between neighbours in `f64`.
-    fn part_from_f64(mut self) -> Option<Pin> {
+    fn part_from_f64(mut self) -> Option<RefinedRoot> {
         loop {
             let (low, high) = (self.low?, self.high?);
             let (below, above) = (low.below(), high.above());
             let Some(cut) = between(below, above) else {
-                return Some(Pin::Between(low, high));
+                return Some(RefinedRoot::Between(low, high));
             };
-            let at = Tick::from_f64(cut)?;
+            let at = GridTime::from_f64(cut)?;
             if self.cut(at).is_eq() {
-                return Some(Pin::At(at));
+                return Some(RefinedRoot::At(at));
             }
         }
     }

@@ -24,17 +24,17 @@ fn same<const N: usize>(wide: &Wide<N>, integer: &Integer) -> Result<(), TestCas
     Ok(())
 }
 
-fn tick() -> impl Strategy<Value = u128> {
+fn grid_time() -> impl Strategy<Value = u128> {
     prop_oneof![any::<u128>(), Just(u128::MAX), Just(1), Just(1 << 127)]
 }
 
-/// Sums, products and values of the largest numbers that a lane takes.
+/// Sums, products and values of the largest numbers that a width takes.
 fn check<const L: usize, const Q: usize, const C: usize, const QV: usize, const CV: usize>(
     [a, b, c]: [i128; 3],
-    tick: u128,
+    grid_time: u128,
 ) -> Result<(), TestCaseError> {
     let at = Fraction {
-        numerator: tick as u64 % Fraction::LIMIT,
+        numerator: grid_time as u64 % Fraction::LIMIT,
         denominator: Fraction::LIMIT - 1,
     };
     let [x, y, z] = [a, b, c].map(Wide::<L>::from);
@@ -55,15 +55,15 @@ fn check<const L: usize, const Q: usize, const C: usize, const QV: usize, const 
     same(&quadratic, &sum)?;
     same(&reversed, &difference)?;
     let (twice, double) = (quadratic.add(&quadratic), Integer::sum(&sum, &sum));
-    let value = Fixed::<L, Q, C, QV, CV>::quadratic_at(&[quadratic, twice, quadratic], tick);
+    let value = Fixed::<L, Q, C, QV, CV>::quadratic_at(&[quadratic, twice, quadratic], grid_time);
     same(
         &value,
-        &Unlimited::quadratic_at(&[sum.clone(), double, sum], tick),
+        &Unlimited::quadratic_at(&[sum.clone(), double, sum], grid_time),
     )?;
     let wide = [reversed, quadratic, reversed];
     let exact = [difference.clone(), sum_of(&ij, 18), difference];
-    let value = Fixed::<L, Q, C, QV, CV>::quadratic_at(&wide, tick);
-    same(&value, &Unlimited::quadratic_at(&exact, tick))?;
+    let value = Fixed::<L, Q, C, QV, CV>::quadratic_at(&wide, grid_time);
+    same(&value, &Unlimited::quadratic_at(&exact, grid_time))?;
     let value = Fixed::<L, Q, C, QV, CV>::quadratic_at_fraction(&wide, at);
     same(&value, &Unlimited::quadratic_at_fraction(&exact, at))?;
     let (xyz, ijk) = (
@@ -80,8 +80,8 @@ fn check<const L: usize, const Q: usize, const C: usize, const QV: usize, const 
         [xyz, cubic, cubic, xyz],
         [ijk.clone(), sum.clone(), sum.clone(), ijk],
     );
-    let value = Fixed::<L, Q, C, QV, CV>::cubic_at(&wide, tick);
-    same(&value, &Unlimited::cubic_at(&exact, tick))?;
+    let value = Fixed::<L, Q, C, QV, CV>::cubic_at(&wide, grid_time);
+    same(&value, &Unlimited::cubic_at(&exact, grid_time))?;
     let value = Fixed::<L, Q, C, QV, CV>::cubic_at_fraction(&wide, at);
     same(&value, &Unlimited::cubic_at_fraction(&exact, at))?;
     for _ in 1..8 {
@@ -107,41 +107,41 @@ proptest! {
     #[test]
     fn lane_of_1_1_2_limbs_takes_all_numbers_of_its_width(
         abc in prop::array::uniform3(below(Fixed::<1, 1, 2, 5, 8>::BITS)),
-        tick in tick(),
+        grid_time in grid_time(),
     ) {
-        check::<1, 1, 2, 5, 8>(abc, tick)?;
+        check::<1, 1, 2, 5, 8>(abc, grid_time)?;
     }
 
     #[test]
     fn lane_of_1_2_2_limbs_takes_all_numbers_of_its_width(
         abc in prop::array::uniform3(below(Fixed::<1, 2, 2, 6, 8>::BITS)),
-        tick in tick(),
+        grid_time in grid_time(),
     ) {
-        check::<1, 2, 2, 6, 8>(abc, tick)?;
+        check::<1, 2, 2, 6, 8>(abc, grid_time)?;
     }
 
     #[test]
     fn lane_of_1_2_3_limbs_takes_all_numbers_of_its_width(
         abc in prop::array::uniform3(below(Fixed::<1, 2, 3, 6, 9>::BITS)),
-        tick in tick(),
+        grid_time in grid_time(),
     ) {
-        check::<1, 2, 3, 6, 9>(abc, tick)?;
+        check::<1, 2, 3, 6, 9>(abc, grid_time)?;
     }
 
     #[test]
     fn lane_of_2_3_5_limbs_takes_all_numbers_of_its_width(
         abc in prop::array::uniform3(below(Fixed::<2, 3, 5, 7, 11>::BITS)),
-        tick in tick(),
+        grid_time in grid_time(),
     ) {
-        check::<2, 3, 5, 7, 11>(abc, tick)?;
+        check::<2, 3, 5, 7, 11>(abc, grid_time)?;
     }
 
     #[test]
     fn lane_of_2_4_6_limbs_takes_all_numbers_of_its_width(
         abc in prop::array::uniform3(below(Fixed::<2, 4, 6, 8, 12>::BITS)),
-        tick in tick(),
+        grid_time in grid_time(),
     ) {
-        check::<2, 4, 6, 8, 12>(abc, tick)?;
+        check::<2, 4, 6, 8, 12>(abc, grid_time)?;
     }
 }
 

@@ -41,7 +41,7 @@ pub(super) trait Number: Clone {
 }
 
 /// Widths that go together: for differences of coordinates, their products, and products of three.
-pub(super) trait Lane {
+pub(super) trait Width {
     /// Coefficients of degree 1.
     type Linear: Number;
     /// Coefficients of degree 2.
@@ -59,10 +59,10 @@ pub(super) trait Lane {
     fn times_quadratic(a: &Self::Quadratic, b: &Self::Linear) -> Self::Cubic;
     /// `a b`, for coefficients of degree 2.
     fn times_quadratics(a: &Self::Quadratic, b: &Self::Quadratic) -> Self::QuadraticValue;
-    /// `2^256` times the value of `c[0] + c[1] t + c[2] t^2` at `t = tick / 2^128`.
-    fn quadratic_at(c: &[Self::Quadratic; 3], tick: u128) -> Self::QuadraticValue;
-    /// `2^384` times the value of `c[0] + c[1] t + c[2] t^2 + c[3] t^3` at `t = tick / 2^128`.
-    fn cubic_at(c: &[Self::Cubic; 4], tick: u128) -> Self::CubicValue;
+    /// `2^256` times the value of `c[0] + c[1] t + c[2] t^2` at `t = grid_time / 2^128`.
+    fn quadratic_at(c: &[Self::Quadratic; 3], grid_time: u128) -> Self::QuadraticValue;
+    /// `2^384` times the value of `c[0] + c[1] t + c[2] t^2 + c[3] t^3` at `t = grid_time / 2^128`.
+    fn cubic_at(c: &[Self::Cubic; 4], grid_time: u128) -> Self::CubicValue;
     /// The same number; a value can be doubled [`DOUBLINGS`] times beyond the largest coefficient.
     fn widened(c: &Self::Cubic) -> Self::CubicValue;
     /// `d^2` times the value of the same quadratic at `t = n / d`.
@@ -71,7 +71,7 @@ pub(super) trait Lane {
     fn cubic_at_fraction(c: &[Self::Cubic; 4], at: Fraction) -> Self::CubicValue;
 }
 
-/// See [`Lane::widened`].
+/// See [`Width::widened`].
 pub(super) const DOUBLINGS: u32 = 384;
 
 /// Widths of `L`, `Q` and `C` limbs for the coefficients, `Q + 4` and `C + 6` for the values.
@@ -104,7 +104,7 @@ impl<const L: usize, const Q: usize, const C: usize, const QV: usize, const CV: 
     };
 }
 
-impl<const L: usize, const Q: usize, const C: usize, const QV: usize, const CV: usize> Lane
+impl<const L: usize, const Q: usize, const C: usize, const QV: usize, const CV: usize> Width
     for Fixed<L, Q, C, QV, CV>
 {
     type Linear = Wide<L>;
@@ -127,12 +127,12 @@ impl<const L: usize, const Q: usize, const C: usize, const QV: usize, const CV: 
         product(a, b)
     }
 
-    fn quadratic_at(c: &[Wide<Q>; 3], tick: u128) -> Wide<QV> {
-        horner(c, tick)
+    fn quadratic_at(c: &[Wide<Q>; 3], grid_time: u128) -> Wide<QV> {
+        horner(c, grid_time)
     }
 
-    fn cubic_at(c: &[Wide<C>; 4], tick: u128) -> Wide<CV> {
-        horner(c, tick)
+    fn cubic_at(c: &[Wide<C>; 4], grid_time: u128) -> Wide<CV> {
+        horner(c, grid_time)
     }
 
     fn widened(c: &Wide<C>) -> Wide<CV> {
@@ -148,7 +148,7 @@ impl<const L: usize, const Q: usize, const C: usize, const QV: usize, const CV: 
     }
 }
 
-impl Lane for Unlimited {
+impl Width for Unlimited {
     type Linear = Integer;
     type Quadratic = Integer;
     type Cubic = Integer;
@@ -167,12 +167,12 @@ impl Lane for Unlimited {
         Integer::product(a, b)
     }
 
-    fn quadratic_at(c: &[Integer; 3], tick: u128) -> Integer {
-        horner_unlimited(c, tick)
+    fn quadratic_at(c: &[Integer; 3], grid_time: u128) -> Integer {
+        horner_unlimited(c, grid_time)
     }
 
-    fn cubic_at(c: &[Integer; 4], tick: u128) -> Integer {
-        horner_unlimited(c, tick)
+    fn cubic_at(c: &[Integer; 4], grid_time: u128) -> Integer {
+        horner_unlimited(c, grid_time)
     }
 
     fn widened(c: &Integer) -> Integer {
@@ -325,18 +325,18 @@ fn product<const A: usize, const B: usize, const C: usize>(a: &Wide<A>, b: &Wide
     Wide(limbs)
 }
 
-/// Horner's rule for a polynomial of degree `D - 1` at `tick / 2^128`: the value times
+/// Horner's rule for a polynomial of degree `D - 1` at `grid_time / 2^128`: the value times
 /// `2^(128 (D - 1))`, with the product modulo `2^(64 V)`, which is exact because it is known to fit.
 #[inline]
 fn horner<const N: usize, const V: usize, const D: usize>(
     coefficients: &[Wide<N>; D],
-    tick: u128,
+    grid_time: u128,
 ) -> Wide<V> {
     const { assert!(N + 2 * (D - 1) <= V) };
-    let (low, high) = (tick as u64, (tick >> 64) as u64);
+    let (low, high) = (grid_time as u64, (grid_time >> 64) as u64);
     let mut value = shifted_limbs(&coefficients[D - 1], 0);
     for step in 1..D {
-        // value * tick + coefficient 2^(128 step)
+        // value * grid_time + coefficient 2^(128 step)
         let mut next: [u64; V] = shifted_limbs(&coefficients[D - 1 - step], 2 * step);
         let (mut carry_low, mut carry_high) = (0, 0);
         for i in 0..V {
@@ -386,11 +386,11 @@ fn shifted_limbs<const N: usize, const V: usize>(number: &Wide<N>, by: usize) ->
     limbs
 }
 
-fn horner_unlimited(coefficients: &[Integer], tick: u128) -> Integer {
-    let tick = Integer::from_magnitude(false, &[tick as u64, (tick >> 64) as u64]);
+fn horner_unlimited(coefficients: &[Integer], grid_time: u128) -> Integer {
+    let grid_time = Integer::from_magnitude(false, &[grid_time as u64, (grid_time >> 64) as u64]);
     let mut value = Integer::default();
     for (coefficient, step) in coefficients.iter().rev().zip(0..) {
-        value.mul_assign(&tick);
+        value.mul_assign(&grid_time);
         value.add_shifted(coefficient, 128 * step);
     }
     value

@@ -8,9 +8,13 @@ use super::integer::Integer;
 
 /// The time `self.0 / 2^128`, in `(0, 1)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Tick(pub(super) u128);
+pub(super) struct GridTime(pub(super) u128);
 
-impl Tick {
+/// A number that is no multiple of the grid's unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct OffGrid;
+
+impl GridTime {
     /// The time of this value, if it is on the grid.
     pub(super) fn from_f64(value: f64) -> Option<Self> {
         if !(value > 0.0 && value < 1.0) {
@@ -18,18 +22,21 @@ impl Tick {
         }
         let (mantissa, exponent) = decompose(value);
         let shift = u32::try_from(exponent + 128).ok()?;
-        Some(Tick(u128::from(mantissa.unsigned_abs()) << shift))
+        Some(GridTime(u128::from(mantissa.unsigned_abs()) << shift))
     }
 
-    /// The time of this number, if it is on the grid, or `None` instead if it is 0 or 1.
-    #[allow(clippy::option_option)]
-    pub(super) fn from_dyadic(at: &Dyadic) -> Option<Option<Self>> {
-        let missing = 128u64.checked_sub(at.exponent)?;
+    /// The time of this number: `None` if it is 0 or 1, the start or the end of the step.
+    ///
+    /// # Errors
+    ///
+    /// [`OffGrid`] if it is finer than the grid.
+    pub(super) fn from_dyadic(at: &Dyadic) -> Result<Option<Self>, OffGrid> {
+        let missing = 128u64.checked_sub(at.exponent).ok_or(OffGrid)?;
         let (high, _) = at.numerator.shifted(missing).window(64);
         let (low, _) = at.numerator.shifted(missing).window(0);
         let is_end = at.exponent == 0;
-        let tick = u128::from(high) << 64 | u128::from(low);
-        Some((!is_end && tick != 0).then_some(Tick(tick)))
+        let grid_time = u128::from(high) << 64 | u128::from(low);
+        Ok((!is_end && grid_time != 0).then_some(GridTime(grid_time)))
     }
 
     /// The time in floating point, rounded.
@@ -58,7 +65,7 @@ impl Tick {
     }
 
     /// How far `other` is behind `self`, times `2^128`, rounded up.
-    pub(super) fn distance(self, other: Tick) -> f64 {
+    pub(super) fn distance(self, other: GridTime) -> f64 {
         ((other.0 - self.0) as f64).next_up()
     }
 }

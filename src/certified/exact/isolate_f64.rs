@@ -1,14 +1,14 @@
-//! The roots of a polynomial parted in floating point, where its error bound allows.
+//! The roots of a polynomial isolated in floating point, where its error bound allows.
 //!
 //! The interval is halved a few times; a piece whose Bernstein coefficients are all beyond their error
 //! bound has no root where they have one sign, and one, a simple one, where their signs change once.
 
 use smallvec::SmallVec;
 
-use super::tick::Tick;
+use super::grid_time::GridTime;
 
 /// An interval; `None` is the start or the end of the step.
-pub(super) type Interval = (Option<Tick>, Option<Tick>);
+pub(super) type Interval = (Option<GridTime>, Option<GridTime>);
 
 /// How often the step is halved at most.
 const DEPTH: u32 = 4;
@@ -21,7 +21,7 @@ const DEPTH: u32 = 4;
 /// to 1 and takes at most 8 operations, and a halving averages three times for each of the [`DEPTH`]
 /// levels. All values stay within `S`, so that their errors are at most `(2 + 8 + 3 DEPTH) 2^-53 S`,
 /// below `2^-48 S`. Nothing underflows beside that: the coefficients are integers.
-pub(super) fn part(c: &[f64; 4]) -> Option<SmallVec<[Interval; 3]>> {
+pub(super) fn isolate_f64(c: &[f64; 4]) -> Option<SmallVec<[Interval; 3]>> {
     let error = c.iter().map(|c| c.abs()).sum::<f64>() / (1u64 << 48) as f64;
     let bernstein = [
         c[0],
@@ -48,7 +48,7 @@ fn part_piece(
             .filter(|b| (b[0] < 0.0) != (b[1] < 0.0))
             .count();
         if changes == 1 {
-            found.push((tick(index, depth), tick(index + 1, depth)));
+            found.push((grid_time(index, depth), grid_time(index + 1, depth)));
         }
         if changes < 2 {
             return Some(());
@@ -63,8 +63,8 @@ fn part_piece(
 }
 
 /// `index / 2^depth`, unless that is 0 or 1.
-pub(super) fn tick(index: u128, depth: u32) -> Option<Tick> {
-    (index > 0 && index < 1 << depth).then(|| Tick(index << (128 - depth)))
+pub(super) fn grid_time(index: u128, depth: u32) -> Option<GridTime> {
+    (index > 0 && index < 1 << depth).then(|| GridTime(index << (128 - depth)))
 }
 
 /// The Bernstein coefficients on both halves, by de Casteljau's algorithm.

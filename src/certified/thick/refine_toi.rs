@@ -22,7 +22,7 @@ use crate::query::Radius;
 
 /// A contact within the step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Settled {
+pub(super) struct RefinedToi {
     /// The largest `f64` below the time of impact, which is below the next one.
     pub(super) below: f64,
     /// The nearest place at a time shortly before.
@@ -31,11 +31,11 @@ pub(super) struct Settled {
     pub(super) error: f64,
 }
 
-impl Settled {
+impl RefinedToi {
     /// A contact, if its place is known so well that what is computed from it is within what is promised.
     pub(super) fn new(below: f64, spot: Spot, nearness: &Nearness) -> Option<Self> {
         let error = nearness.error;
-        (error <= PLACE_ERROR / 4.0).then_some(Settled { below, spot, error })
+        (error <= PLACE_ERROR / 4.0).then_some(RefinedToi { below, spot, error })
     }
 }
 
@@ -61,12 +61,12 @@ const H: f64 = U * U;
 /// at most `s` and `2 s` in magnitude: `w . w'` is within `64 u s . s`, and so is half of `w'^2`. With `q = x / 2 m` and `b = q w'^2 / 2 m`, now `m = -w . w'`, the root is `q (1 + b)`
 /// up to `3 b^2 q`, for `b < 1/16`. That is computed with the relative errors of `m` in `q`, once more in `b`, and fewer than 16 roundings; the
 /// error of `x` counts by `1 / 2 m`.
-pub(super) fn settle<K: Kind>(
+pub(super) fn refine_toi<K: Kind>(
     positions: &Positions,
     moving: &Moving<f64x2>,
     radius: Radius,
     proved: f64,
-) -> Finding<Settled> {
+) -> Finding<RefinedToi> {
     let (_, size) = moving.reaches();
     let size2 = dot(&size, &size);
     let slope_error = 64.0 * U * size2;
@@ -75,7 +75,7 @@ pub(super) fn settle<K: Kind>(
         let here = Instant::new::<K, _>(moving, t);
         let velocity = here.velocity();
         let (x, x_error) = excess::<K>(positions, radius, t, &here.spot, &size);
-        let slope = -dot(&here.way, &velocity);
+        let slope = -dot(&here.difference, &velocity);
         let first = x / (2.0 * slope);
         let bend = first * dot(&velocity, &velocity) / (2.0 * slope);
         let delta = first * (1.0 + bend);
@@ -95,9 +95,9 @@ pub(super) fn settle<K: Kind>(
             return Finding::Undecided;
         }
         let root = Root::near(two_sum(t, delta), error);
-        let settled = |below| Settled::new(below, here.spot, &nearness);
-        if let Some(settled) = root.round_down().and_then(settled) {
-            return Finding::Hit(settled);
+        let refined = |below| RefinedToi::new(below, here.spot, &nearness);
+        if let Some(refined) = root.round_down().and_then(refined) {
+            return Finding::Hit(refined);
         }
         // They are apart until then.
         let next = (t + (delta - error)) * (1.0 - 2.0 * U);
@@ -134,9 +134,10 @@ fn excess<K: Kind>(
     let (u, v, time) = (number(spot.u), number(spot.v), number(t));
     // At both ends of the step.
     let axis = |i: usize| {
-        let way = |(from, to): (usize, usize)| two_difference(points[to][i], points[from][i]);
+        let difference =
+            |(from, to): (usize, usize)| two_difference(points[to][i], points[from][i]);
         let [k, l, m] = K::DIFFERENCES;
-        let (k, l, m) = (way(k), way(l), way(m));
+        let (k, l, m) = (difference(k), difference(l), difference(m));
         m.add(v.mul(l)).sub(u.mul(k))
     };
     let (x, y, z) = (axis(0), axis(1), axis(2));
@@ -146,13 +147,13 @@ fn excess<K: Kind>(
     let [zr, _] = zz.transposed(Double::both(two_sum(first, second)));
     let ([x2, y2], [z2, r2]) = (xy.mul(xy).lanes(), zr.mul(zr).lanes());
     let value = x2.add(y2).add(z2).sub(r2).value();
-    let way = [
+    let difference = [
         xy.high.start().abs(),
         xy.high.end().abs(),
         zz.high.start().abs(),
     ];
     let total = 160.0 * H * (size[0] + size[1] + size[2]);
-    let error = 330.0 * H * dot(&way, size)
+    let error = 330.0 * H * dot(&difference, size)
         + total * total
         + 64.0 * H * (x2.high + y2.high + z2.high + r2.high);
     (value, error)

@@ -1,10 +1,10 @@
-//! Guesses in floating point; whatever uses them proves what follows by exact signs.
+//! Estimates in floating point; whatever uses them proves what follows by exact signs.
 
 use std::cmp::Ordering;
 
 /// A root between `low` and `high` in floating point, by Newton steps and halving; `before` is the
-/// sign before it. Only a guess.
-pub(super) fn guess_root(c: &[f64; 4], low: f64, high: f64, before: Ordering) -> f64 {
+/// sign before it. Only an estimate.
+pub(super) fn estimate_root(c: &[f64; 4], low: f64, high: f64, before: Ordering) -> f64 {
     let (mut low, mut high) = (low, high);
     let mut t = 0.5 * (low + high);
     for _ in 0..60 {

@@ -7,41 +7,41 @@ use super::dyadic::Dyadic;
 use super::poly::Poly;
 
 /// An exact time.
-pub(super) enum Moment<'a, const N: usize = 4> {
+pub(super) enum AlgebraicTime<'a, const N: usize = 4> {
     /// This number.
     At(Dyadic),
     /// A root of a polynomial.
     Between(Bracket<'a, N>),
 }
 
-impl<'a, const N: usize> Moment<'a, N> {
+impl<'a, const N: usize> AlgebraicTime<'a, N> {
     /// The root in a bracket, narrowed to between two neighbours in `f64`, and these; both the same if
     /// it is an `f64`.
     pub(super) fn settled(mut bracket: Bracket<'a, N>) -> (Self, [f64; 2]) {
         match bracket.settle() {
             Settled::At(at) => {
                 let neighbours = [at.below(), at.above()];
-                (Moment::At(at), neighbours)
+                (AlgebraicTime::At(at), neighbours)
             }
-            Settled::Between(below, above) => (Moment::Between(bracket), [below, above]),
+            Settled::Between(below, above) => (AlgebraicTime::Between(bracket), [below, above]),
         }
     }
 
     /// `self` compared with `other`.
     pub(super) fn compare(&self, other: &Self) -> Ordering {
         match (self, other) {
-            (Moment::At(a), Moment::At(b)) => a.compare(b),
-            (Moment::At(a), Moment::Between(b)) => b.compare_dyadic(a).reverse(),
-            (Moment::Between(a), Moment::At(b)) => a.compare_dyadic(b),
-            (Moment::Between(a), Moment::Between(b)) => a.compare(b),
+            (AlgebraicTime::At(a), AlgebraicTime::At(b)) => a.compare(b),
+            (AlgebraicTime::At(a), AlgebraicTime::Between(b)) => b.compare_dyadic(a).reverse(),
+            (AlgebraicTime::Between(a), AlgebraicTime::At(b)) => a.compare_dyadic(b),
+            (AlgebraicTime::Between(a), AlgebraicTime::Between(b)) => a.compare(b),
         }
     }
 
     /// The sign of a polynomial at the time.
     pub(super) fn sign_of(&self, q: &Poly<N>) -> Ordering {
         match self {
-            Moment::At(at) => q.sign_at(at),
-            Moment::Between(bracket) => bracket.sign_of(q.clone()),
+            AlgebraicTime::At(at) => q.sign_at(at),
+            AlgebraicTime::Between(bracket) => bracket.sign_of(q.clone()),
         }
     }
 
@@ -50,8 +50,8 @@ impl<'a, const N: usize> Moment<'a, N> {
     /// [`PARAMETER_ERROR`]: super::PARAMETER_ERROR
     pub(super) fn quotient(&self, n: &Poly<N>, d: &Poly<N>) -> f64 {
         match self {
-            Moment::At(at) => exact_ratio(n, d, at),
-            Moment::Between(bracket) => bracket.quotient(n, d),
+            AlgebraicTime::At(at) => exact_ratio(n, d, at),
+            AlgebraicTime::Between(bracket) => bracket.quotient(n, d),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The roots of a cubic parted by halving, exactly and with numbers of fixed width.
 //!
-//! As in [`super::part`], a piece whose Bernstein coefficients change their sign once has one root, a
+//! As in [`super::isolate_f64`], a piece whose Bernstein coefficients change their sign once has one root, a
 //! simple one. The sign changes of both halves together are not more than those of the whole, so that
 //! only one half at a time can still have more than one.
 
@@ -8,9 +8,9 @@ use std::cmp::Ordering;
 
 use smallvec::SmallVec;
 
-use super::lane::{DOUBLINGS, Lane, Number};
+use super::isolate_f64::{Interval, grid_time};
 use super::motion::Cubic;
-use super::part::{Interval, tick};
+use super::width::{DOUBLINGS, Number, Width};
 
 /// How often the step is halved at most: enough for roots that are as near as neighbours in `f64`.
 /// Without divisions, each halving multiplies by 8.
@@ -18,11 +18,11 @@ const DEPTH: u32 = 64;
 const _: () = assert!(3 * DEPTH <= DOUBLINGS);
 
 /// Bernstein coefficients of a cubic on an interval, times a power of two.
-type Bernstein<L> = [<L as Lane>::CubicValue; 4];
+type Bernstein<L> = [<L as Width>::CubicValue; 4];
 
 /// Intervals around each of the roots in `(0, 1)`, which are simple, in ascending order; `None` where
 /// they are too near each other, or one of them is where the interval was halved.
-pub(super) fn halve<L: Lane>(c: &Cubic<L>) -> Option<SmallVec<[Interval; 3]>> {
+pub(super) fn isolate_bisect<L: Width>(c: &Cubic<L>) -> Option<SmallVec<[Interval; 3]>> {
     let [c0, c1, c2, c3] = c.each_ref().map(L::widened);
     // 3 c0, 3 c0 + c1, 3 c0 + 2 c1 + c2, 3 (c0 + c1 + c2 + c3)
     let thrice = |x: &L::CubicValue| x.add(x).add(x);
@@ -41,7 +41,7 @@ pub(super) fn halve<L: Lane>(c: &Cubic<L>) -> Option<SmallVec<[Interval; 3]>> {
         for (half, index) in [(left, 2 * index), (right, 2 * index + 1)] {
             match changes::<L>(&half) {
                 0 => {}
-                1 => found.push((tick(index, depth), tick(index + 1, depth))),
+                1 => found.push((grid_time(index, depth), grid_time(index + 1, depth))),
                 _ => open = Some((half, index)),
             }
         }
@@ -55,7 +55,7 @@ pub(super) fn halve<L: Lane>(c: &Cubic<L>) -> Option<SmallVec<[Interval; 3]>> {
 }
 
 /// The number of sign changes, zeros left out.
-fn changes<L: Lane>(piece: &Bernstein<L>) -> usize {
+fn changes<L: Width>(piece: &Bernstein<L>) -> usize {
     let signs = piece.each_ref().map(Number::sign);
     let mut last = Ordering::Equal;
     let mut count = 0;
@@ -67,7 +67,7 @@ fn changes<L: Lane>(piece: &Bernstein<L>) -> usize {
 }
 
 /// Both halves, times 8, by de Casteljau's algorithm.
-fn halves<L: Lane>([b0, b1, b2, b3]: &Bernstein<L>) -> (Bernstein<L>, Bernstein<L>) {
+fn halves<L: Width>([b0, b1, b2, b3]: &Bernstein<L>) -> (Bernstein<L>, Bernstein<L>) {
     let twice = |x: &L::CubicValue| x.add(x);
     let [first, second, third] = [b0.add(b1), b1.add(b2), b2.add(b3)];
     let (left, right) = (first.add(&second), second.add(&third));

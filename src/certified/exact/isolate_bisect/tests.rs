@@ -1,10 +1,10 @@
 use proptest::prelude::*;
 
 use super::super::curve::Curve;
+use super::super::grid_time::GridTime;
 use super::super::integer::Integer;
 use super::super::isolate::Isolated;
-use super::super::lane::{Unlimited, Wide};
-use super::super::tick::Tick;
+use super::super::width::{Unlimited, Wide};
 use super::*;
 use crate::certified::exact::Medium;
 
@@ -33,8 +33,8 @@ proptest! {
     fn halved_intervals_hold_the_isolated_roots(c in cubic()) {
         let exact = c.map(Integer::from);
         let isolated = Isolated::new(Curve::<Unlimited>::Cubic(exact.clone()).to_poly());
-        let halved = halve::<Unlimited>(&exact);
-        prop_assert_eq!(&halved, &halve::<Medium>(&c.map(Wide::from)));
+        let halved = isolate_bisect::<Unlimited>(&exact);
+        prop_assert_eq!(&halved, &isolate_bisect::<Medium>(&c.map(Wide::from)));
         let Some(halved) = halved else {
             return Ok(());
         };
@@ -45,7 +45,7 @@ proptest! {
         let mut end = None;
         for ((low, high), cell) in halved.into_iter().zip(inside) {
             prop_assert!(low >= end);
-            let sign = |at: Option<Tick>| at.map(|at| curve.sample(at).0);
+            let sign = |at: Option<GridTime>| at.map(|at| curve.sample(at).0);
             prop_assert!(sign(low).is_none_or(|sign| sign == cell.before));
             prop_assert!(sign(high).is_none_or(|sign| sign == cell.after));
             end = high;
@@ -57,7 +57,7 @@ proptest! {
 fn count_of_near_roots(d: i128, k: i128) -> Option<usize> {
     let (a, b, c) = (d * d, -d * (2 * k + 1), k * (k + 1));
     let cubic = [c, b + c, a + b, a].map(Integer::from);
-    halve::<Unlimited>(&cubic).map(|found| found.len())
+    isolate_bisect::<Unlimited>(&cubic).map(|found| found.len())
 }
 
 #[test]

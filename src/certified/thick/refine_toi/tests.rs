@@ -14,9 +14,9 @@ fn excess_is_within_its_bound<K: Kind>(seed: u64) {
         let here = Instant::new::<K, _>(&sample.moving, t);
         let spot = Spot { u, v, ..here.spot };
         let (value, error) = excess::<K>(&sample.positions, Radius::from(parts), t, &spot, &size);
-        let way = sample.way(&Number::from(t), &[u, v].map(Number::from));
+        let difference = sample.difference(&Number::from(t), &[u, v].map(Number::from));
         let radius = &Number::from(parts[0]) + &Number::from(parts[1]);
-        let exact = &exact_dot(&way, &way) - &(&radius * &radius);
+        let exact = &exact_dot(&difference, &difference) - &(&radius * &radius);
         // The rounding to `f64` is counted where the value is used.
         let bound = Number::from(error + 1.01 * U * value.abs());
         Some([Claim::within(value, &exact, bound)])
