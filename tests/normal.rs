@@ -1,7 +1,9 @@
-//! The contact normal against the shortest vector in integers, a moment before the exact time of impact.
+//! The contact normal against the shortest vector in integers, a moment before the exact time of
+//! impact.
 //!
-//! The shortest vector is found by trying all features, at a time so shortly before that nearer ones no longer turn it.
-//! With a radius above 0 that is the normal at the contact too, because the vector is continuous there.
+//! The shortest vector is found by trying all features, at a time so shortly before that nearer
+//! ones no longer turn it. With a radius above 0 that is the normal at the contact too, because the
+//! vector is continuous there.
 //!
 //! `TUNNELPROOF_CASES` sets the number of queries of a kind.
 
@@ -83,9 +85,9 @@ fn reversed(candidate: Candidate) -> Candidate {
     }
 }
 
-/// From the line of AB to that of CD, or from A to the plane of B, C and D, if that ends inside; the part of `m` along the
-/// perpendicular of `k` and `l`. `is_inside` is asked for the two shares of `k` and `l` that go to the nearest points, times
-/// the last number.
+/// From the line of AB to that of CD, or from A to the plane of B, C and D, if that ends inside;
+/// the part of `m` along the perpendicular of `k` and `l`. `is_inside` is asked for the two shares
+/// of `k` and `l` that go to the nearest points, times the last number.
 fn perpendicular(
     m: &Vector,
     k: &Vector,
@@ -200,7 +202,8 @@ fn exact_normal(query: &Query) -> Option<Option<Vector>> {
     } {
         least *= 2;
     }
-    // So shortly before that no point moves by more than 2^-200 of the smallest unit of the coordinates.
+    // So shortly before that no point moves by more than 2^-200 of the smallest unit of the
+    // coordinates.
     let all = points.start.iter().chain(&points.end).flatten();
     let span = all.map(BigInt::bits).max().expect("24");
     let mut last: Option<Vector> = None;
@@ -308,8 +311,8 @@ fn are_near(x: &Option<Normal>, y: &Option<Normal>, sign: f64) -> bool {
     }
 }
 
-/// Scaled by a power of two, the normal of a hit with the same bits has the same bits, unless a coordinate rounds. Where
-/// `f64` would overflow, hits come from another stage with other errors.
+/// Scaled by a power of two, the normal of a hit with the same bits has the same bits, unless a
+/// coordinate rounds. Where `f64` would overflow, hits come from another stage with other errors.
 fn judge_scaled(of: &Query, exponent: i32) -> Result<(), String> {
     let factor = 2f64.powi(exponent);
     let back = 1.0 / factor;
@@ -342,7 +345,8 @@ fn judge_scaled(of: &Query, exponent: i32) -> Result<(), String> {
     }
 }
 
-/// With the sides swapped the normal is reversed; with the corners of a face in another order, the same.
+/// With the sides swapped the normal is reversed; with the corners of a face in another order, the
+/// same.
 fn judge_swapped(of: &Query) -> Result<(), String> {
     let (order, sign) = match of.kind() {
         QueryKind::EdgeEdge => ([2, 3, 0, 1], -1.0),

@@ -1,38 +1,43 @@
 //! The contact normal: the common normal of the nearest features at the time of impact.
 //!
-//! Let `w(t)` be the shortest vector from the first side (the edge AB, or the vertex A) to the second (the edge
-//! CD, or the face BCD). It is unique, because the sides are convex. The contact normal is
+//! Let `w(t)` be the shortest vector from the first side (the edge AB, or the vertex A) to the
+//! second (the edge CD, or the face BCD). It is unique, because the sides are convex. The contact
+//! normal is
 //!
 //! ```text
 //! lim w(t) / |w(t)|   for t -> toi from below, if toi > 0
 //! w(0) / |w(0)|       if toi = 0
 //! ```
 //!
-//! Before a contact at `toi > 0` the sides are apart, and `w` is algebraic in `t`: the limit exists. With a
-//! radius above 0 it is the direction of `w(toi)`, whose length is the radius. A contact at `t = 0` of sides that
-//! touch there has no normal; one of sides apart there, nearer than the radius, has.
+//! Before a contact at `toi > 0` the sides are apart, and `w` is algebraic in `t`: the limit
+//! exists. With a radius above 0 it is the direction of `w(toi)`, whose length is the radius. A
+//! contact at `t = 0` of sides that touch there has no normal; one of sides apart there, nearer
+//! than the radius, has.
 //!
 //! By features that are nearest just before contact this means, with radius 0:
 //!
-//! - Edges inside both, at an angle: the common perpendicular `K x L` of `K = B - A` and `L = D - C`, with the
-//!   sign of `f` just before. A vertex inside a face: the face's normal, with that sign.
-//! - Two vertices (an end of each edge; the vertex and a corner): their vector is `(t - toi)` times their relative
-//!   velocity, so that the normal is that velocity's direction, reversed.
-//! - A vertex and an edge, the latter with the direction `E` and relative velocity `y` of the material points that
-//!   meet: `-y` without its part along `E`, and where that is 0 the next order of the same vector:
-//!   parallel to the change of `E`, perpendicular to `E`.
-//! - Which of these are nearest depends on the motion before contact, not on the place of contact: a vertex
-//!   that lands on the border of a face from above is nearest to the inner face or to the border.
-//! - Parallel edges that overlap, and coplanar motion: the same rules; the nearest points of parallel edges are
-//!   many, their vector is one.
+//! - Edges inside both, at an angle: the common perpendicular `K x L` of `K = B - A` and `L = D -
+//!   C`, with the sign of `f` just before. A vertex inside a face: the face's normal, with that
+//!   sign.
+//! - Two vertices (an end of each edge; the vertex and a corner): their vector is `(t - toi)` times
+//!   their relative velocity, so that the normal is that velocity's direction, reversed.
+//! - A vertex and an edge, the latter with the direction `E` and relative velocity `y` of the
+//!   material points that meet: `-y` without its part along `E`, and where that is 0 the next order
+//!   of the same vector: parallel to the change of `E`, perpendicular to `E`.
+//! - Which of these are nearest depends on the motion before contact, not on the place of contact:
+//!   a vertex that lands on the border of a face from above is nearest to the inner face or to the
+//!   border.
+//! - Parallel edges that overlap, and coplanar motion: the same rules; the nearest points of
+//!   parallel edges are many, their vector is one.
 //!
-//! Two computations give it. In `f64`, for contact inside both features or with a radius: the perpendicular of
-//! the features, or the vector between the nearest points, whichever has the smaller bound; a bound above 2^-33
-//! is refused. What is refused, and every other place of contact, is decided in integers: the first
-//! derivative of `w`'s numerator that is not 0 at the exact time (`exact::thick::normal`).
+//! Two computations give it. In `f64`, for contact inside both features or with a radius: the
+//! perpendicular of the features, or the vector between the nearest points, whichever has the
+//! smaller bound; a bound above 2^-33 is refused. What is refused, and every other place of
+//! contact, is decided in integers: the first derivative of `w`'s numerator that is not 0 at the
+//! exact time (`exact::thick::normal`).
 //!
-//! The error is mostly 1e-15 to 1e-13 in `f64`, or that of the weights times size over radius; 2^-50 from integers. It
-//! is never above [`WORST`].
+//! The error is mostly 1e-15 to 1e-13 in `f64`, or that of the weights times size over radius;
+//! 2^-50 from integers. It is never above [`WORST`].
 
 use nalgebra::Vector3;
 
@@ -70,8 +75,8 @@ pub(super) struct At {
     pub(super) error: f64,
 }
 
-/// The contact normal of two edges, from AB to CD, which touch or are nearest at `u` on AB and `v` on CD, and also at
-/// `second` if they overlap.
+/// The contact normal of two edges, from AB to CD, which touch or are nearest at `u` on AB and `v`
+/// on CD, and also at `second` if they overlap.
 ///
 /// `None` only where the sides touch at the start.
 pub(super) fn normal_of_edges(
@@ -100,8 +105,8 @@ pub(super) fn normal_of_edges(
     })
 }
 
-/// The contact normal of a vertex A and a face BCD, from A to BCD, which touch or are nearest at the point with these
-/// weights of B, C and D.
+/// The contact normal of a vertex A and a face BCD, from A to BCD, which touch or are nearest at
+/// the point with these weights of B, C and D.
 ///
 /// `None` only where the vertex touches the face at the start.
 pub(super) fn normal_of_face(
@@ -133,10 +138,10 @@ pub(super) fn normal_of_face(
 
 /// The normal in `f64`, if its bound is small.
 ///
-/// The perpendicular of two features is parallel to the shortest vector where that ends inside both, at the time
-/// of impact. The sign of `f` is that of their scalar product, up to the order of the points. With radius 0 both are so
-/// just before contact, too: if `f` were 0 there, the contact would not be the first. The vector between the
-/// nearest points is 0 at a contact with radius 0.
+/// The perpendicular of two features is parallel to the shortest vector where that ends inside
+/// both, at the time of impact. The sign of `f` is that of their scalar product, up to the order of
+/// the points. With radius 0 both are so just before contact, too: if `f` were 0 there, the contact
+/// would not be the first. The vector between the nearest points is 0 at a contact with radius 0.
 fn nearest(
     is_inside: bool,
     radius: Radius,
@@ -153,7 +158,8 @@ fn nearest(
     }
 }
 
-/// Whether a parameter is proved to be strictly between 0 and 1. `1 - x` is exact where it matters: from 1/2 on.
+/// Whether a parameter is proved to be strictly between 0 and 1. `1 - x` is exact where it matters:
+/// from 1/2 on.
 fn is_inside(x: f64, error: f64) -> bool {
     x > error && 1.0 - x > error
 }

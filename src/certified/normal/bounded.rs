@@ -1,12 +1,14 @@
 //! Vectors at the time of impact, in `f64` with a bound of their error.
 //!
-//! Let `e = 2^-53`. Bounds are for the Euclidean length of the error and are made of sizes, which are sums of
-//! magnitudes of components and so at least the Euclidean length. A few operations on bounds themselves, each off by
-//! `e` of its result, are covered by constants that are larger than need be by some `e`.
+//! Let `e = 2^-53`. Bounds are for the Euclidean length of the error and are made of sizes, which
+//! are sums of magnitudes of components and so at least the Euclidean length. A few operations on
+//! bounds themselves, each off by `e` of its result, are covered by constants that are larger than
+//! need be by some `e`.
 //!
-//! Coordinates are first multiplied by a power of two, so that the largest is in `[1/4, 1/2)`. That rounds only what
-//! becomes subnormal, by less than 2^-1074; as products do that underflow. A vector is accepted only if it is longer than 2^-900,
-//! so that a few of these, times factors of at most 2^10, are below 2^-100 of it.
+//! Coordinates are first multiplied by a power of two, so that the largest is in `[1/4, 1/2)`. That
+//! rounds only what becomes subnormal, by less than 2^-1074; as products do that underflow. A
+//! vector is accepted only if it is longer than 2^-900, so that a few of these, times factors of at
+//! most 2^10, are below 2^-100 of it.
 
 use nalgebra::Vector3;
 
@@ -54,11 +56,11 @@ impl Step {
         })
     }
 
-    /// From one point to another at the time of impact: `(1 - t) x + t y` for the differences `x` and `y` at the start and
-    /// at the end.
+    /// From one point to another at the time of impact: `(1 - t) x + t y` for the differences `x`
+    /// and `y` at the start and at the end.
     ///
-    /// `x`, `1 - t`, their product and the sum have a relative error of `e` each, `4 e` of the size and a little. Over
-    /// `late` the vector changes by at most `|y - x| late`.
+    /// `x`, `1 - t`, their product and the sum have a relative error of `e` each, `4 e` of the size
+    /// and a little. Over `late` the vector changes by at most `|y - x| late`.
     pub(super) fn difference(&self, from: usize, to: usize) -> Bounded {
         let x = sub(&self.start[to], &self.start[from]);
         let y = sub(&self.end[to], &self.end[from]);
@@ -101,9 +103,10 @@ impl Bounded {
         }
     }
 
-    /// The cross product. Of exact `x`, `y` with errors `a`, `b` it is off by `a |y| + |x| b + a b`. Its own two products
-    /// and difference are off by `2 e` of the sum of the products' magnitudes; over the components these are some of the
-    /// products of which both sizes' product is the sum.
+    /// The cross product. Of exact `x`, `y` with errors `a`, `b` it is off by `a |y| + |x| b + a
+    /// b`. Its own two products and difference are off by `2 e` of the sum of the products'
+    /// magnitudes; over the components these are some of the products of which both sizes' product
+    /// is the sum.
     pub(super) fn cross(&self, other: &Bounded) -> Bounded {
         let size = self.size * other.size;
         let inexact = self.error * other.size + other.error * self.size;
@@ -124,8 +127,9 @@ impl Bounded {
 
     /// Its direction, if it is known well.
     ///
-    /// The directions of `x` and `y` are at most `2 |x - y| / (|x| + |y|)` apart, which is `d / (1 - d / 2)` for
-    /// `d = |x - y| / |x|` at most. Computing `x / |x|`, after a division by the largest component, adds below `5 e`.
+    /// The directions of `x` and `y` are at most `2 |x - y| / (|x| + |y|)` apart, which is `d / (1
+    /// - d / 2)` for `d = |x - y| / |x|` at most. Computing `x / |x|`, after a division by the
+    /// largest component, adds below `5 e`.
     pub(super) fn normal(&self) -> Option<Normal> {
         let largest = self.value.iter().fold(0.0f64, |a, b| a.max(b.abs()));
         if !(largest > SHORTEST && largest.is_finite()) {
@@ -147,7 +151,8 @@ fn sum(x: &Vector) -> f64 {
     x[0].abs() + x[1].abs() + x[2].abs()
 }
 
-/// Powers of two, one after the other, that bring the largest coordinate into `[1/4, 1/2)`; `None` if it is 0.
+/// Powers of two, one after the other, that bring the largest coordinate into `[1/4, 1/2)`; `None`
+/// if it is 0.
 fn scale(largest: f64) -> Option<[f64; 2]> {
     if largest == 0.0 {
         return None;

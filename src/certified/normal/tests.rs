@@ -14,7 +14,8 @@ fn at(toi: f64, side: i8, error: f64) -> At {
     }
 }
 
-/// AB along x from -1 to 1, and CD through (s, y, z) with the direction (0, 1, 0), both 2 long; CD moves down from z.
+/// AB along x from -1 to 1, and CD through (s, y, z) with the direction (0, 1, 0), both 2 long; CD
+/// moves down from z.
 fn falling(s: f64, y: f64, z: [f64; 2]) -> [[Vector; 4]; 2] {
     z.map(|z| {
         [
@@ -48,8 +49,8 @@ fn normal_inside_both_edges_is_their_perpendicular_from_the_side_before() {
 
 #[test]
 fn normal_at_an_end_follows_from_the_motion_before() {
-    // D comes down onto the middle of AB, and sideways from beyond it or from within: only from beyond
-    // it is nearest.
+    // D comes down onto the middle of AB, and sideways from beyond it or from within: only from
+    // beyond it is nearest.
     for (sideways, expected) in [(1.0, [0.0, -1.0, 1.0]), (-1.0, [0.0, 0.0, 1.0])] {
         let [mut start, mut end] = falling(0.0, -1.0, [1.0, -1.0]);
         for i in [2, 3] {

@@ -1,18 +1,21 @@
-//! The direction of the shortest vector between two sides at their first contact, or in the limit just before it.
+//! The direction of the shortest vector between two sides at their first contact, or in the limit
+//! just before it.
 //!
-//! The differences of the second side's points and the first side's are a convex polygon: a parallelogram for
-//! two edges, a triangle for a vertex and a face. Each corner moves linearly. The shortest vector `w` is the
-//! polygon's point nearest to the origin: the only one with `w . (x - w) >= 0` for every point `x` of the
-//! polygon. With `P` and `Q` the edges from a corner `p`, every point is `p + a P + b Q` with `a, b >= 0`, so that
+//! The differences of the second side's points and the first side's are a convex polygon: a
+//! parallelogram for two edges, a triangle for a vertex and a face. Each corner moves linearly. The
+//! shortest vector `w` is the polygon's point nearest to the origin: the only one with `w . (x - w)
+//! >= 0` for every point `x` of the polygon. With `P` and `Q` the edges from a corner `p`, every
+//! point is `p + a P + b Q` with `a, b >= 0`, so that
 //!
 //! - the corner itself is nearest where `p . P >= 0` and `p . Q >= 0`;
-//! - `v / P . P` on the edge `P` is nearest, with `q = p + P` and `v = (P . P) p - (p . P) P`, where `P . P > 0`,
-//!   `p . P <= 0 <= q . P` and `v . Q >= 0`;
-//! - if that is so of no corner and no edge, the nearest point is inside a polygon with an area, and its direction
-//!   is that of `P x Q` with the sign of `p . (P x Q)`.
+//! - `v / P . P` on the edge `P` is nearest, with `q = p + P` and `v = (P . P) p - (p . P) P`,
+//!   where `P . P > 0`, `p . P <= 0 <= q . P` and `v . Q >= 0`;
+//! - if that is so of no corner and no edge, the nearest point is inside a polygon with an area,
+//!   and its direction is that of `P x Q` with the sign of `p . (P x Q)`.
 //!
-//! At a time these are signs of polynomials. Just before it they are those of the first derivative that is not 0, reversed if its
-//! order is odd; and so is the limit of the direction of a vector of polynomials.
+//! At a time these are signs of polynomials. Just before it they are those of the first derivative
+//! that is not 0, reversed if its order is odd; and so is the limit of the direction of a vector of
+//! polynomials.
 
 use std::cmp::Ordering;
 
@@ -23,8 +26,8 @@ use crate::certified::exact::dyadic::Dyadic;
 use crate::certified::exact::integer::{Integer, scale};
 use crate::certified::motion::{self, Positions};
 
-/// The direction of the shortest vector from AB to CD, within 2^-50 in Euclidean distance, for a first contact
-/// whose neighbours in `f64` are `toi`.
+/// The direction of the shortest vector from AB to CD, within 2^-50 in Euclidean distance, for a
+/// first contact whose neighbours in `f64` are `toi`.
 ///
 /// `None` if they touch at the start.
 pub(in crate::certified) fn normal_of_edges_exactly(
@@ -69,7 +72,8 @@ fn normal<const W: usize>(
     }
 }
 
-/// What `of` says of the time of the first contact, which is strictly between two neighbours in `f64`.
+/// What `of` says of the time of the first contact, which is strictly between two neighbours in
+/// `f64`.
 fn with_time<const W: usize, T>(
     sides: &impl Sides<W>,
     reach: &Reach,
@@ -99,14 +103,16 @@ fn with_time<const W: usize, T>(
     first_root(&pairs, &roots).and_then(|(time, _)| of(&time))
 }
 
-/// The direction of the shortest vector at a time at which the sides are apart; `None` if they are not.
+/// The direction of the shortest vector at a time at which the sides are apart; `None` if they are
+/// not.
 fn at(corners: &[Vector], time: &Time) -> Option<motion::Vector> {
     let way = nearest(corners, |poly| time.sign_of(poly))?;
     let is_apart = way.iter().any(|x| time.sign_of(x).is_ne());
     is_apart.then(|| direction(&way, time))
 }
 
-/// The limit of the direction of the shortest vector before a time, just before which the sides are apart.
+/// The limit of the direction of the shortest vector before a time, just before which the sides are
+/// apart.
 fn just_before(corners: &[Vector], time: &Time) -> Option<motion::Vector> {
     let mut way = nearest(corners, |poly| side(poly, time, [1.0; 2]).cmp(&0))?;
     while way.iter().all(|x| time.sign_of(x).is_eq()) {
@@ -122,8 +128,8 @@ fn just_before(corners: &[Vector], time: &Time) -> Option<motion::Vector> {
     Some(direction(&way, time))
 }
 
-/// A multiple of the polygon's point that is nearest to the origin, by a factor that is above 0, where polynomials have
-/// the signs that `sign` tells; `None` if the origin is inside the polygon.
+/// A multiple of the polygon's point that is nearest to the origin, by a factor that is above 0,
+/// where polynomials have the signs that `sign` tells; `None` if the origin is inside the polygon.
 fn nearest(corners: &[Vector], sign: impl Fn(&Poly) -> Ordering) -> Option<Vector> {
     let n = corners.len();
     let around = |i: usize| {
@@ -161,9 +167,9 @@ fn nearest(corners: &[Vector], sign: impl Fn(&Poly) -> Ordering) -> Option<Vecto
 
 /// The direction of a vector that is not 0 at a time, with an error below `2^-50`.
 ///
-/// With `e = 2^-53`: the components are off by `(1 + 2^-10) e` of themselves, for they are rounded once, and by 2^-60 of the
-/// largest, for the time; the length computed from them by `3 e`, its quotients by `e`: together by less
-/// than `6 e` of the length.
+/// With `e = 2^-53`: the components are off by `(1 + 2^-10) e` of themselves, for they are rounded
+/// once, and by 2^-60 of the largest, for the time; the length computed from them by `3 e`, its
+/// quotients by `e`: together by less than `6 e` of the length.
 fn direction(vector: &Vector, time: &Time) -> motion::Vector {
     let values = match time {
         Time::At(at) => values_at(vector, at),
@@ -195,7 +201,8 @@ fn values_at(vector: &Vector, at: &Dyadic) -> [Integer; 3] {
     vector.each_ref().map(|x| x.evaluate_as(degree, at))
 }
 
-/// The same in a bracket, if the largest varies in it by less than 2^-60 of itself and no other by more than that.
+/// The same in a bracket, if the largest varies in it by less than 2^-60 of itself and no other by
+/// more than that.
 fn values_in(vector: &Vector, bracket: &Bracket<0>) -> Option<[Integer; 3]> {
     let degree = degree(vector).max(1);
     let ranges = vector.each_ref().map(|x| bracket.range(x, degree));
