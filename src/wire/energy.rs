@@ -1,7 +1,8 @@
 //! Energy and momentum of a world.
 
 use super::Vector;
-use super::model::{Node, NodeKind, Wire, World};
+use super::model::{Node, NodeKind, Wire};
+use super::world::World;
 
 /// Energies in J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -22,33 +22,42 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod bisect;
+mod clock;
 mod collide;
+mod contact;
 mod energy;
+mod error;
 mod model;
 mod record;
 #[cfg(feature = "recording")]
 pub mod recording;
 mod resolution;
 mod settings;
-mod solve;
+mod site;
+mod solver_cache;
+mod sparse;
 mod step;
+mod vector;
+mod world;
 
 #[cfg(feature = "scenes")]
 pub(crate) use model::check;
 
-pub use collide::{
-    CollisionError, CollisionRecord, Collisions, Crossing, Held, Mode, Outcome, PairAnswer,
-    PairFilter, PairRecord, SegmentId, Site,
-};
+pub use collide::{Collisions, Mode, PairFilter};
+pub use contact::{Contact, Place};
 pub use energy::Energy;
+pub use error::{CollisionError, Reason, StepError};
 pub use model::{
     Body, BodyId, BodyPlan, Drive, MassProperties, Material, Mesh, ModelError, Node, NodeKind,
-    Phase, Resolution, Segment, Shape, Stop, Wire, WireId, WirePlan, World,
+    Phase, Resolution, Segment, Shape, Stop, Wire, WireId, WirePlan,
 };
-pub use record::{BodyRecord, ContactRecord, Phases, Pose, SolverRecord, StepRecord, WireRecord};
+pub use record::{
+    BodyRecord, CollisionRecord, ContactRecord, Crossing, Held, Outcome, PairAnswer, PairRecord,
+    Phases, Pose, Slide, SolverRecord, StepRecord, WireRecord,
+};
 pub use resolution::{Remesh, RemeshGuard, RemeshKind};
 pub use settings::Settings;
-pub use step::{Contact, Place, Reason, Slide, StepError};
-
-/// A vector in space: m, m/s, N or N s.
-pub type Vector = nalgebra::Vector3<f64>;
+pub use site::{SegmentId, Site};
+pub use vector::Vector;
+pub use world::World;

@@ -9,9 +9,9 @@
 //! Where wires push on each other they have to bend: there tension does not count, `l_min = l_user`. Segments that
 //! are too short for their tension are held stable by geometric stiffness.
 
-use super::model::strand::MEMORY;
-use super::model::{Node, NodeKind, Segment, Wire, WireId, World};
-use super::step::system::shortest;
+use super::model::wire::MEMORY;
+use super::model::{Node, NodeKind, Segment, Wire, WireId};
+use super::world::World;
 use crate::query::Point;
 
 /// A change of resolution, as the motion that it is.
@@ -83,7 +83,9 @@ pub(super) fn adapt(world: &mut World, guard: &mut dyn RemeshGuard) -> Vec<Remes
 fn wanted(world: &World, at: usize, [first, last]: [usize; 2], guard: &dyn RemeshGuard) -> f64 {
     let wire = &world.wires[at];
     let tension = [first, last].map(|segment| wire.segments[segment].largest_tension());
-    let stable = shortest(wire, tension[0].max(tension[1]), world);
+    let stable = world
+        .settings
+        .shortest_stable(tension[0].max(tension[1]), wire.material.mass_per_length());
     let (from, to) = (wire.nodes[first].arc, wire.nodes[last + 1].arc);
     // Contacts are looked through only where tension asks for more.
     if stable > wire.resolution.length && !guard.bends(WireId(at), from, to) {

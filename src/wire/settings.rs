@@ -54,6 +54,12 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// The shortest segment that is stable under a tension, in m: `h sqrt(T / mu)` over the margin.
+    pub(super) fn shortest_stable(&self, tension: f64, mass_per_length: f64) -> f64 {
+        let speed = (tension.max(0.0) / mass_per_length).sqrt();
+        self.step * speed / self.stability_margin
+    }
+
     pub(super) fn check(&self) -> Result<(), ModelError> {
         positive("step", self.step)?;
         finite_vector("gravity", &self.gravity)?;

@@ -4,10 +4,11 @@
 //! or slides as far as the capstan bound goes. The node leaves where the wire turns away from the body, or ends (`step/ride.rs`).
 
 use super::obstacle::KEYS;
-use crate::wire::model::{BodyId, Wire, World};
+use crate::wire::contact::{Contact, Place};
+use crate::wire::model::{BodyId, Wire};
 use crate::wire::record::ContactRecord;
 use crate::wire::step::ride::{self, Bend};
-use crate::wire::step::{Contact, Place};
+use crate::wire::world::World;
 
 /// The least slope down beside a place at which a wire is bent, and the least turn there, as a difference of two directions.
 const TURN: f64 = 0.02;

@@ -1,16 +1,19 @@
 //! From the motion of all wires to the pairs that meet: broad phase, exclusion, narrow phase.
 
+use super::PairFilter;
 use super::boxes::Boxes;
-use super::record::{CollisionRecord, Crossing, Outcome, PairAnswer, PairRecord};
-use super::segment::{Closest, SegmentId, Site, between, direction, joined, reach};
-use super::{CollisionError, PairFilter};
+use super::segment::{Closest, between, direction, joined, reach};
 use crate::broad::{Aabb, Method, SlowPairs};
 use crate::contact::{self, Verdict};
 use crate::narrow::{NarrowPhase, Report};
 use crate::query::{EdgeEdge, Point};
 use crate::wire::Vector;
-use crate::wire::model::{WireId, World};
+use crate::wire::error::CollisionError;
+use crate::wire::model::WireId;
+use crate::wire::record::{CollisionRecord, Crossing, Outcome, PairAnswer, PairRecord};
+use crate::wire::site::{SegmentId, Site};
 use crate::wire::step::motion::Motion;
+use crate::wire::world::World;
 
 /// The boxes of all segments, and what is known of slow ones. Item `k` is segment `k`, counted through all
 /// wires.

@@ -5,18 +5,21 @@ use std::collections::BTreeSet;
 use super::detect::{Found, Hit};
 use super::hold::Hold;
 use super::obstacle::Obstacles;
-use super::record::{CollisionRecord, Outcome};
 use super::segment::{pair_at, reach};
 use super::touch::{Touch, Touches};
-use super::{CollisionError, Collisions, Mode, bend, remesh};
+use super::{Collisions, Mode, bend, remesh};
 use crate::wire::Vector;
-use crate::wire::model::{WireId, World};
+use crate::wire::contact::Contact;
+use crate::wire::error::CollisionError;
+use crate::wire::error::Reason;
+use crate::wire::model::WireId;
 use crate::wire::record::ContactRecord;
+use crate::wire::record::{CollisionRecord, Outcome};
 use crate::wire::resolution::{Remesh, RemeshGuard, RemeshKind};
 use crate::wire::step::motion::Motion;
 use crate::wire::step::ride::Bend;
 use crate::wire::step::watch::{Judgement, Watch};
-use crate::wire::step::{Contact, Reason};
+use crate::wire::world::World;
 
 /// How often a step is solved again.
 const ROUNDS: usize = 8;

@@ -1,11 +1,12 @@
 //! Motion that is shortened because a crossing is left.
 
 use super::detect::Hit;
-use super::record::Held;
 use crate::wire::Vector;
-use crate::wire::model::{BodyId, WireId, World};
+use crate::wire::contact::{Contact, Place};
+use crate::wire::model::{BodyId, WireId};
+use crate::wire::record::Held;
 use crate::wire::step::motion::Shares;
-use crate::wire::step::{Contact, Place};
+use crate::wire::world::World;
 
 /// How often motion is shortened before nothing moves at all.
 const TRIES: usize = 20;

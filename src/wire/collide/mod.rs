@@ -34,13 +34,11 @@
 mod bend;
 mod boxes;
 mod detect;
-mod error;
 mod form;
 mod guard;
 mod hold;
 mod obstacle;
 mod patch;
-mod record;
 mod remesh;
 mod segment;
 mod touch;
@@ -48,18 +46,17 @@ mod touch;
 #[cfg(test)]
 mod tests;
 
-pub use error::CollisionError;
-pub use record::{CollisionRecord, Crossing, Held, Outcome, PairAnswer, PairRecord};
-pub use segment::{SegmentId, Site};
-
 use crate::broad::Method;
 use crate::certified::Certified;
 use crate::narrow::NarrowPhase;
-use crate::wire::StepRecord;
+use crate::wire::clock::Clock;
+use crate::wire::contact::Contact;
+use crate::wire::error::StepError;
+use crate::wire::model::ModelError;
 use crate::wire::model::check::not_negative;
-use crate::wire::model::{ModelError, World};
-use crate::wire::step::advance::Clock;
-use crate::wire::step::{Contact, StepError};
+use crate::wire::record::StepRecord;
+use crate::wire::site::SegmentId;
+use crate::wire::world::World;
 use detect::Pipeline;
 use guard::Guard;
 use obstacle::Obstacles;

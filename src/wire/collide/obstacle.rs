@@ -8,15 +8,16 @@ use std::collections::BTreeMap;
 use nalgebra::UnitQuaternion;
 
 use super::boxes::Boxes;
-use super::error::CollisionError;
 use super::form::{Form, Placed};
 use super::patch::{along, contacts_of, join, leave_out_ends, things};
-use super::segment::SegmentId;
 use crate::broad::Method;
 use crate::query::Point;
-use crate::wire::model::{BodyId, WireId, World};
+use crate::wire::contact::{Contact, Place};
+use crate::wire::error::CollisionError;
+use crate::wire::model::{BodyId, WireId};
 use crate::wire::record::ContactRecord;
-use crate::wire::step::{Contact, Place};
+use crate::wire::site::SegmentId;
+use crate::wire::world::World;
 
 /// Where the keys of contacts with bodies start.
 pub(super) const KEYS: u64 = 3 << 62;

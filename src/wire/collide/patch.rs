@@ -4,11 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::form::Spot;
 use super::obstacle::Thing;
-use super::segment::SegmentId;
 use crate::query::Point;
 use crate::wire::Vector;
-use crate::wire::model::{BodyId, NodeKind, WireId, World};
-use crate::wire::step::{Contact, Place};
+use crate::wire::contact::{Contact, Place};
+use crate::wire::model::{BodyId, NodeKind, WireId};
+use crate::wire::site::SegmentId;
+use crate::wire::world::World;
 
 /// A contact and the segment that it is on, if it is on one.
 pub(super) type Found = (Option<SegmentId>, Contact);

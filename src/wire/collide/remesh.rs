@@ -1,13 +1,15 @@
 //! Changes of resolution as motions.
 
 use super::PairFilter;
-use super::error::CollisionError;
-use super::segment::{SegmentId, joined};
+use super::segment::joined;
 use crate::broad::Aabb;
 use crate::certified::{Verdict, decide};
 use crate::query::EdgeEdge;
-use crate::wire::model::{NodeKind, WireId, World};
+use crate::wire::error::CollisionError;
+use crate::wire::model::{NodeKind, WireId};
 use crate::wire::resolution::Remesh;
+use crate::wire::site::SegmentId;
+use crate::wire::world::World;
 
 /// Whether the triangle that a change sweeps meets another segment, by the certified path: no time passes in a change, so it is
 /// nothing that a narrow phase for motions would be asked.

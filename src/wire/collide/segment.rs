@@ -1,44 +1,11 @@
 //! Segments of wires, places on them, and how close two are.
 
-use std::fmt;
-
 use crate::closest::closest;
 use crate::query::Point;
 use crate::wire::Vector;
-use crate::wire::model::{Node, NodeKind, Wire, WireId, World};
-use crate::wire::step::Place;
-
-/// A segment of a wire at present; changes of resolution renumber them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct SegmentId {
-    /// The wire.
-    pub wire: WireId,
-    /// The segment between its nodes `segment` and `segment + 1`.
-    pub segment: usize,
-}
-
-/// A place of a wire's material.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Site {
-    /// The wire.
-    pub wire: WireId,
-    /// Arc length in m.
-    pub arc: f64,
-}
-
-impl fmt::Display for Site {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "wire {} at {} m", self.wire.0, self.arc)
-    }
-}
-
-impl From<Site> for Place {
-    fn from(Site { wire, arc }: Site) -> Self {
-        Place::Wire { wire, arc }
-    }
-}
+use crate::wire::model::{Node, NodeKind, Wire};
+use crate::wire::site::{SegmentId, Site};
+use crate::wire::world::World;
 
 impl SegmentId {
     pub(super) fn of(self, world: &World) -> &Wire {

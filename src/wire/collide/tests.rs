@@ -4,6 +4,8 @@ use super::segment::Closest;
 use super::*;
 use crate::query::Point;
 use crate::scenario::scenes::Scene;
+use crate::wire::error::CollisionError;
+use crate::wire::record::Outcome;
 use crate::wire::{
     BodyId, BodyPlan, Drive, Material, Phase, Reason, Remesh, RemeshKind, Settings, Shape, Stop,
     Vector, WireId, WirePlan,

@@ -8,11 +8,12 @@
 
 use std::collections::BTreeSet;
 
-use super::segment::{Closest, SegmentId, Site, direction, joined, pair_at, reach};
+use super::segment::{Closest, direction, joined, pair_at, reach};
 use crate::wire::Vector;
-use crate::wire::model::World;
+use crate::wire::contact::Contact;
 use crate::wire::record::ContactRecord;
-use crate::wire::step::Contact;
+use crate::wire::site::{SegmentId, Site};
+use crate::wire::world::World;
 
 /// Where the keys of contacts between wires start.
 const KEYS: u64 = 1 << 63;

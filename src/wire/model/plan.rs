@@ -1,7 +1,7 @@
 //! Wires to be added to a world.
 
 use super::check::{direction, finite_point, finite_vector, not_negative, positive};
-use super::strand::Segment;
+use super::wire::Segment;
 use super::{BodyId, Material, ModelError, Node, NodeKind, Resolution, Wire};
 use crate::query::Point;
 use crate::wire::Vector;
@@ -76,7 +76,7 @@ impl WirePlan {
         self
     }
 
-    pub(super) fn build(&self, bodies: &[Body]) -> Result<Wire, ModelError> {
+    pub(in crate::wire) fn build(&self, bodies: &[Body]) -> Result<Wire, ModelError> {
         self.material.check()?;
         positive("resolution", self.resolution.length)?;
         finite_vector("velocity", &self.velocity)?;

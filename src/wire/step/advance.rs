@@ -1,20 +1,20 @@
 //! The step of a world: solve, commit, change the resolution.
 
-use std::time::Instant;
-
-use super::Contact;
 use super::capstan;
-use super::contact::{Warm, check};
-use super::error::{Reason, StepError};
 use super::motion::{Motion, Shares, Sliding};
 use super::ride;
 use super::settle::Candidate;
-use super::system::{Structure, System};
+use super::system::System;
 use super::watch::{Given, Judgement, Watch};
-use crate::wire::model::World;
-use crate::wire::model::strand::MEMORY;
+use crate::wire::clock::Clock;
+use crate::wire::contact::{Contact, check};
+use crate::wire::error::{Reason, StepError};
+use crate::wire::model::wire::MEMORY;
 use crate::wire::record::{Phases, StepRecord};
 use crate::wire::resolution::{self, Permit, RemeshGuard};
+use crate::wire::solver_cache::WarmStart;
+use crate::wire::sparse::Structure;
+use crate::wire::world::World;
 
 impl World {
     /// Does one step with the contacts given. Every change of resolution is permitted.
@@ -48,16 +48,18 @@ impl World {
         let failed = |reason| StepError { step, reason };
         let mut phases = Phases::default();
         check(self, watch.contacts()).map_err(failed)?;
-        let mut structure = self.structure.take();
+        let mut structure = self.cache.structure.take();
         let agreed = self.agree(&mut structure, watch, &mut phases);
         let (system, candidate, motion) = agreed.map_err(failed)?;
         let mut clock = Clock::start();
         let mut record = StepRecord::before(self);
         record.contacts = self.contact_records(watch.contacts(), &candidate.swept.impulses);
         record.solver = candidate.solver.clone();
-        self.warm = Warm::new(watch.contacts(), &candidate.swept.impulses);
+        let keys = watch.contacts().iter().map(|contact| contact.key);
+        let impulses = candidate.swept.impulses.iter().copied();
+        self.cache.warm_start = WarmStart::new(keys.zip(impulses));
         let slid = self.commit(&system, &candidate, motion);
-        self.structure = system.into_structure();
+        self.cache.structure = system.into_structure();
         record.after(self);
         phases.commit = clock.lap();
         record.slides = capstan::slides(self, &slid);
@@ -110,23 +112,6 @@ impl World {
         }
         self.steps += 1;
         slid
-    }
-}
-
-/// Measures phases.
-pub(in crate::wire) struct Clock(Instant);
-
-impl Clock {
-    pub(in crate::wire) fn start() -> Self {
-        Clock(Instant::now())
-    }
-
-    /// Seconds since the start or the last lap.
-    pub(in crate::wire) fn lap(&mut self) -> f64 {
-        let now = Instant::now();
-        let seconds = now.duration_since(self.0).as_secs_f64();
-        self.0 = now;
-        seconds
     }
 }
 

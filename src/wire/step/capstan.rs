@@ -13,21 +13,9 @@ use super::law::{Law, friction};
 use super::motion::{Motion, Sliding};
 use super::rows::{Row, unit};
 use crate::wire::Vector;
-use crate::wire::model::{NodeKind, Wire, WireId, World};
-
-/// A wire that slid over a contact node.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Slide {
-    /// The wire.
-    pub wire: WireId,
-    /// The node's number after the motion.
-    pub node: usize,
-    /// How far the node's arc length went, in m; 0 for a node that left its body.
-    pub distance: f64,
-    /// Whether the node left its body and is free now.
-    pub left: bool,
-}
+use crate::wire::model::{NodeKind, Wire, WireId};
+use crate::wire::record::Slide;
+use crate::wire::world::World;
 
 /// What is left of a segment that wire slides out of, as a share of the resolution, and of what it was before the step.
 pub(super) const LEAST: f64 = 1.0 / 16.0;

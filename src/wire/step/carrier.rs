@@ -3,7 +3,8 @@
 use smallvec::SmallVec;
 
 use super::order::Block;
-use crate::wire::model::{BodyId, NodeKind, World};
+use crate::wire::model::{BodyId, NodeKind};
+use crate::wire::world::World;
 use crate::wire::{Contact, Place, Vector};
 
 /// What the velocity of a point is made of.

@@ -14,15 +14,15 @@ use smallvec::SmallVec;
 
 use super::anderson;
 use super::carrier::{Carrier, Columns};
-use super::contact::{Contact, Place};
 use super::coulomb::solve_block;
 use super::delassus::Delassus;
 use super::rows::Spook;
 use super::system::{System, frame};
 use crate::wire::Vector;
-use crate::wire::model::World;
+use crate::wire::contact::{Contact, Place};
 use crate::wire::settings::Settings;
-use crate::wire::solve::SparseColumns;
+use crate::wire::sparse::SparseColumns;
+use crate::wire::world::World;
 
 /// How many contacts have their Schur complement formed if they do not settle in [`FIRST_SWEEPS`]. Fewer cost little
 /// either way; with more, a sweep with it costs more than one without.

@@ -8,11 +8,11 @@ use smallvec::SmallVec;
 
 use super::augmented::Augmented;
 use super::carrier::Layout;
-use super::contact::Contact;
 use super::friction::{normal_row, velocity_of};
 use super::system::frame;
 use crate::wire::Vector;
-use crate::wire::model::World;
+use crate::wire::contact::Contact;
+use crate::wire::world::World;
 
 /// One contact, its law taken as linear at one velocity. Velocities and impulses are those of place A against B, in the frame of
 /// the contact.

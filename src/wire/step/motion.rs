@@ -6,7 +6,7 @@ use super::carrier::{Carrier, Layout};
 use super::spin::turn;
 use crate::query::Point;
 use crate::wire::Vector;
-use crate::wire::model::World;
+use crate::wire::world::World;
 
 /// Positions and velocities at the end of a step.
 pub(in crate::wire) struct Motion {

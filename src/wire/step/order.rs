@@ -4,9 +4,10 @@
 //! Newton's method finds what pushes, sticks and slips along with what pulls ([`touching`](super::touching)). Where it would, as
 //! with wires that are wound about each other, contacts are swept ([`friction`](super::friction)).
 
-use super::contact::{Contact, Place};
-use crate::wire::model::{NodeKind, World};
-use crate::wire::solve::{dissect, least_degree};
+use crate::wire::contact::{Contact, Place};
+use crate::wire::model::NodeKind;
+use crate::wire::sparse::{dissect, least_degree};
+use crate::wire::world::World;
 
 /// Fewer contacts settle by few sweeps.
 const MANY: usize = 8;

@@ -1,11 +1,13 @@
 //! How nodes come to ride bodies, and how they leave.
 
-use super::capstan::{LEAST, Slide, contact_nodes, directions};
+use super::capstan::{LEAST, contact_nodes, directions};
 use super::rows::unit;
 use crate::wire::Vector;
-use crate::wire::model::strand::MEMORY;
-use crate::wire::model::{BodyId, Node, NodeKind, Wire, WireId, World};
+use crate::wire::model::wire::MEMORY;
+use crate::wire::model::{BodyId, Node, NodeKind, Wire, WireId};
+use crate::wire::record::Slide;
 use crate::wire::resolution::{Remesh, RemeshGuard, RemeshKind, put_in, remesh};
+use crate::wire::world::World;
 
 /// Where a body bends a wire.
 #[derive(Clone, Copy, Debug)]

@@ -7,8 +7,9 @@ use super::capstan;
 use super::carrier::{Carrier, Layout};
 use super::law::{Law, Piece};
 use crate::wire::Vector;
-use crate::wire::model::{Wire, World};
+use crate::wire::model::Wire;
 use crate::wire::settings::Settings;
+use crate::wire::world::World;
 
 /// One row of `G v+ + Sigma lambda = target`.
 #[derive(Clone, Debug)]

@@ -1,17 +1,18 @@
 //! The solution of a step: velocities, multipliers, contact impulses, which segments of chains pull, and which wires slide.
 
-use super::Contact;
-use super::advance::Clock;
 use super::capstan::{bounds_lack, stop_slip};
-use super::error::Reason;
 use super::friction::{Swept, lack, sweep};
 use super::order::{self, Block};
 use super::slack::{contradict, pull};
-use super::system::{Structure, System};
+use super::system::System;
 use super::touching;
 use crate::wire::Vector;
-use crate::wire::model::World;
+use crate::wire::clock::Clock;
+use crate::wire::contact::Contact;
+use crate::wire::error::Reason;
 use crate::wire::record::{Phases, SolverRecord};
+use crate::wire::sparse::Structure;
+use crate::wire::world::World;
 
 /// How often contacts are swept again because other segments of chains pull.
 const ROUNDS: usize = 20;
@@ -47,7 +48,7 @@ impl World {
     ) -> Result<(System, Candidate), Reason> {
         let start: Vec<Vector> = contacts
             .iter()
-            .map(|contact| self.warm.impulse(contact.key))
+            .map(|contact| self.cache.warm_start.impulse(contact.key))
             .collect();
         let mut clock = Clock::start();
         let by_ties = order::by_ties(self, contacts);

@@ -12,10 +12,10 @@
 //! `f tan(D/2)` of itself, which is below 1 where wire slides at all.
 
 use super::capstan;
-use super::error::Reason;
 use super::rows::Row;
 use super::system::System;
-use crate::wire::solve::bisect;
+use crate::wire::bisect::bisect;
+use crate::wire::error::Reason;
 
 /// Newton steps that are tried before a step is given up; some dozens are usual for the longest chains.
 const TRIES: usize = 1000;

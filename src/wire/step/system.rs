@@ -3,28 +3,19 @@
 use nalgebra::Matrix3;
 
 use super::carrier::{Carrier, Columns, Layout};
-use super::contact::Contact;
-use super::error::Reason;
 use super::implicit::Implicit;
 use super::law::Piece;
 use super::order::Block;
 use super::rows::{Row, rows, unit};
 use super::spin::spin_freely;
 use crate::wire::Vector;
-use crate::wire::model::{Wire, World};
-use crate::wire::solve::{Ldl, SparseColumns, Symmetric, Triplets};
+use crate::wire::contact::Contact;
+use crate::wire::error::Reason;
+use crate::wire::sparse::{Ldl, SparseColumns, Structure, Symmetric, Triplets};
+use crate::wire::world::World;
 
 /// The largest backward error of a solution that is accepted.
 const RESIDUAL: f64 = 1e-10;
-
-/// What depends on the structure of a system alone: as long as it stands, the elimination tree and the
-/// storage are used again.
-#[derive(Clone, Debug)]
-pub(in crate::wire) struct Structure {
-    index: Vec<(u32, u32)>,
-    matrix: Symmetric,
-    ldl: Ldl,
-}
 
 /// The equations of motion, of nodes, bodies and what slides over contact nodes, and the rows of all wires, ready to be factored.
 pub(super) struct System {
@@ -123,10 +114,12 @@ impl System {
     fn add_geometric_stiffness(&mut self, world: &World) {
         for (w, wire) in world.wires.iter().enumerate() {
             let first = self.layout.first_node[w];
+            let mass_per_length = wire.material.mass_per_length();
+            let shortest = |tension: f64| world.settings.shortest_stable(tension, mass_per_length);
             for segment in 0..wire.segments.len() {
                 let tension = wire.segments[segment].tension;
                 let (t, length) = unit(&wire.span(segment));
-                if length > 0.0 && wire.rest_length(segment) < shortest(wire, tension, world) {
+                if length > 0.0 && wire.rest_length(segment) < shortest(tension) {
                     let step = world.settings.step;
                     let weight = step * step * tension / length;
                     self.stiffen(first + segment, &t, weight);
@@ -321,12 +314,6 @@ fn push(right: &mut [f64], columns: &Columns, impulse: f64) {
     for (column, value) in columns {
         right[*column] += value * impulse;
     }
-}
-
-/// The shortest segment that is stable under a tension, in m: `h sqrt(T / mu)` over the margin.
-pub(in crate::wire) fn shortest(wire: &Wire, tension: f64, world: &World) -> f64 {
-    let speed = (tension.max(0.0) / wire.material.mass_per_length()).sqrt();
-    world.settings.step * speed / world.settings.stability_margin
 }
 
 /// A right-handed frame with `normal` as its first row.

@@ -6,9 +6,9 @@
 //! point of Haslinger (1983) for the friction that their normal impulses allow. Whatever its bound, friction takes energy.
 
 use super::capstan;
-use super::error::Reason;
 use super::slack::{go, leaves_piece, line_search, take_pieces};
 use super::system::System;
+use crate::wire::error::Reason;
 
 /// Factorisations after which this is given up; some dozens are usual.
 const TRIES: usize = 200;

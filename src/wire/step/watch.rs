@@ -1,11 +1,12 @@
 //! Who looks on while a step is made.
 
-use super::error::Reason;
 use super::motion::{Motion, Shares};
 use super::ride::Bend;
-use crate::wire::model::{WireId, World};
+use crate::wire::error::Reason;
+use crate::wire::model::WireId;
 use crate::wire::record::ContactRecord;
 use crate::wire::resolution::{Remesh, RemeshGuard};
+use crate::wire::world::World;
 use crate::wire::{Contact, Vector};
 
 /// Gives the contacts of a step, judges where they lead, and permits changes of resolution.

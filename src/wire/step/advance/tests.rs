@@ -355,7 +355,7 @@ fn structure_of_the_system_is_used_again_while_it_stands() {
     for _ in 0..20 {
         // The second way to the same step: nothing remembered.
         let mut fresh = world.clone();
-        fresh.structure = None;
+        fresh.cache.structure = None;
         let afresh = fresh.step(&[]).unwrap();
         last = world.step(&[]).unwrap();
         assert_eq!(last.wires, afresh.wires);

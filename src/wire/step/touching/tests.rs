@@ -5,8 +5,8 @@ use rand_chacha::ChaCha8Rng;
 
 use super::*;
 use crate::query::Point;
+use crate::wire::contact::{Contact, Place};
 use crate::wire::step::carrier::Columns;
-use crate::wire::step::contact::{Contact, Place};
 use crate::wire::step::friction::{normal_row, sweep};
 use crate::wire::step::order::{by_ties, by_wires};
 use crate::wire::{Material, Settings, Stop, Vector, WireId, WirePlan, World};

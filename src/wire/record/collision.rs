@@ -1,10 +1,10 @@
 //! What is observed of the collisions in a step.
 
-use super::{SegmentId, Site};
 use crate::contact::{Case, Flags};
 use crate::narrow::Report;
 use crate::query::Point;
 use crate::wire::model::{BodyId, WireId};
+use crate::wire::site::{SegmentId, Site};
 
 /// The collisions in one step. Counts are sums over all the times that the step was tested.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -112,7 +112,7 @@ pub struct Held {
 
 impl CollisionRecord {
     /// Counts a test and its answer.
-    pub(super) fn count(&mut self, report: &Report) {
+    pub(in crate::wire) fn count(&mut self, report: &Report) {
         self.tested += 1;
         let case = |&of: &Case| Some(of) == report.case;
         if let Some(at) = Case::ALL.iter().position(case) {

@@ -1,11 +1,11 @@
-//! Sparse symmetric systems: storage, elimination order, factorisation; roots of one variable.
+//! Sparse symmetric systems: storage, elimination order, factorisation.
 
-mod bisect;
 mod ldl;
 mod order;
+mod structure;
 mod symmetric;
 
-pub(super) use bisect::bisect;
 pub(super) use ldl::{Ldl, SparseColumns};
 pub(super) use order::{dissect, least_degree};
+pub(super) use structure::Structure;
 pub(super) use symmetric::{Symmetric, Triplets};

@@ -1,10 +1,17 @@
 //! What is observed of a step.
 
+mod collision;
+
+pub use collision::{CollisionRecord, Crossing, Held, Outcome, PairAnswer, PairRecord};
+
 use nalgebra::UnitQuaternion;
 
-use super::model::{NodeKind, World};
+use super::contact::Contact;
+use super::energy::Energy;
+use super::model::{NodeKind, WireId};
 use super::resolution::Remesh;
-use super::{CollisionRecord, Contact, Energy, Slide, Vector};
+use super::vector::Vector;
+use super::world::World;
 use crate::query::Point;
 
 /// Everything that happened in one step.
@@ -88,6 +95,20 @@ impl ContactRecord {
     }
 }
 
+/// A wire that slid over a contact node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Slide {
+    /// The wire.
+    pub wire: WireId,
+    /// The node's number after the motion.
+    pub node: usize,
+    /// How far the node's arc length went, in m; 0 for a node that left its body.
+    pub distance: f64,
+    /// Whether the node left its body and is free now.
+    pub left: bool,
+}
+
 /// How a system was solved.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -131,7 +152,7 @@ pub struct Phases {
 
 impl StepRecord {
     /// What is known before the motion.
-    pub(super) fn before(world: &World) -> Self {
+    pub(in crate::wire) fn before(world: &World) -> Self {
         let wires = world.wires.iter().map(|wire| WireRecord {
             arcs: wire.nodes.iter().map(|node| node.arc).collect(),
             kinds: wire.nodes.iter().map(|node| node.kind).collect(),
@@ -151,7 +172,7 @@ impl StepRecord {
     }
 
     /// Adds what the motion came to.
-    pub(super) fn after(&mut self, world: &World) {
+    pub(in crate::wire) fn after(&mut self, world: &World) {
         for (record, wire) in self.wires.iter_mut().zip(&world.wires) {
             record.after = wire.nodes.iter().map(|node| node.position).collect();
             record.tensions = wire.segments.iter().map(|s| s.tension).collect();
@@ -172,7 +193,7 @@ fn poses(world: &World) -> impl Iterator<Item = Pose> {
 }
 
 impl World {
-    pub(super) fn contact_records(
+    pub(in crate::wire) fn contact_records(
         &self,
         contacts: &[Contact],
         impulses: &[Vector],

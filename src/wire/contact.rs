@@ -1,9 +1,11 @@
 //! Contacts as data.
 
+use super::Vector;
 use super::error::Reason;
-use crate::wire::Vector;
-use crate::wire::model::check::{finite, finite_vector, not_negative};
-use crate::wire::model::{BodyId, ModelError, WireId, World};
+use super::model::check::{finite, finite_vector, not_negative};
+use super::model::{BodyId, ModelError, WireId};
+use super::site::Site;
+use super::world::World;
 
 /// A place on something that can touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,6 +27,12 @@ pub enum Place {
         /// The arc length.
         arc: f64,
     },
+}
+
+impl From<Site> for Place {
+    fn from(Site { wire, arc }: Site) -> Self {
+        Place::Wire { wire, arc }
+    }
 }
 
 /// Two places that must not come closer, with friction between them.
@@ -83,31 +91,11 @@ impl Contact {
     }
 }
 
-pub(super) fn check(world: &World, contacts: &[Contact]) -> Result<(), Reason> {
+pub(in crate::wire) fn check(world: &World, contacts: &[Contact]) -> Result<(), Reason> {
     for (index, contact) in contacts.iter().enumerate() {
         contact
             .check(world)
             .map_err(|error| Reason::Contact { index, error })?;
     }
     Ok(())
-}
-
-/// Impulses of the last step in N s along x, y, z, by key: where the next solve starts.
-#[derive(Clone, Debug, Default)]
-pub(in crate::wire) struct Warm(Vec<(u64, Vector)>);
-
-impl Warm {
-    pub(super) fn new(contacts: &[Contact], impulses: &[Vector]) -> Self {
-        let keys = contacts.iter().map(|contact| contact.key);
-        let mut sorted: Vec<_> = keys.zip(impulses.iter().copied()).collect();
-        sorted.sort_by_key(|(key, _)| *key);
-        Warm(sorted)
-    }
-
-    pub(super) fn impulse(&self, key: u64) -> Vector {
-        match self.0.binary_search_by_key(&key, |(key, _)| *key) {
-            Ok(at) => self.0[at].1,
-            Err(_) => Vector::zeros(),
-        }
-    }
 }

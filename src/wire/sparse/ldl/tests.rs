@@ -2,7 +2,7 @@ use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
 use super::*;
-use crate::wire::solve::Triplets;
+use crate::wire::sparse::Triplets;
 
 /// A quasi-definite matrix in a random order of its rows: entries, and which pivots are positive.
 #[derive(Clone, Debug)]

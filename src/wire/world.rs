@@ -1,9 +1,8 @@
 //! A world, and how it is put together.
 
-use super::{Body, BodyId, BodyPlan, ModelError, Wire, WireId, WirePlan};
-use crate::wire::settings::Settings;
-use crate::wire::step::contact::Warm;
-use crate::wire::step::system::Structure;
+use super::model::{Body, BodyId, BodyPlan, ModelError, Wire, WireId, WirePlan};
+use super::settings::Settings;
+use super::solver_cache::SolverCache;
 
 /// Bodies and wires that move together.
 #[derive(Clone, Debug)]
@@ -13,10 +12,7 @@ pub struct World {
     pub(in crate::wire) wires: Vec<Wire>,
     /// Steps done.
     pub(in crate::wire) steps: u64,
-    /// Contact impulses of the last step.
-    pub(in crate::wire) warm: Warm,
-    /// The structure of the last system that was solved.
-    pub(in crate::wire) structure: Option<Structure>,
+    pub(in crate::wire) cache: SolverCache,
 }
 
 impl World {
@@ -32,8 +28,7 @@ impl World {
             bodies: Vec::new(),
             wires: Vec::new(),
             steps: 0,
-            warm: Warm::default(),
-            structure: None,
+            cache: SolverCache::default(),
         })
     }
 

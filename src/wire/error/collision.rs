@@ -2,11 +2,11 @@
 
 use std::fmt;
 
-use super::Site;
 use crate::broad::BroadError;
 use crate::narrow::Unsupported;
 use crate::query::QueryError;
 use crate::wire::model::BodyId;
+use crate::wire::site::Site;
 
 /// Why a step with collisions was not done.
 #[derive(Clone, Debug, PartialEq)]

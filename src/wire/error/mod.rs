@@ -1,9 +1,11 @@
 //! Why a step was not done.
 
+mod collision;
+
 use std::fmt;
 
-use crate::wire::collide::CollisionError;
-use crate::wire::model::ModelError;
+use super::model::ModelError;
+pub use collision::CollisionError;
 
 /// A step that was not done. The world is as it was before.
 #[derive(Clone, Debug, PartialEq)]
