@@ -92,8 +92,8 @@ impl BroadPhase {
     /// Every pair of items whose boxes have a point in common and that `keep` does not refuse, each
     /// once, in order.
     ///
-    /// `keep` is asked once for each pair whose boxes overlap, in no certain order: here go pairs that
-    /// nobody has a question about, such as segments that share a node.
+    /// `keep` is asked once for each pair whose boxes overlap, in no certain order: here go pairs
+    /// that nobody has a question about, such as segments that share a node.
     pub fn pairs(&mut self, mut keep: impl FnMut(Pair) -> bool) -> &[Pair] {
         let BroadPhase {
             items,

@@ -4,13 +4,13 @@ use super::Vector;
 use super::error::Reason;
 use super::model::check::{finite, finite_vector, not_negative};
 use super::model::{BodyId, ModelError, WireId};
-use super::site::Site;
+use super::site::WireSite;
 use super::world::World;
 
 /// A place on something that can touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Place {
+pub enum ContactSite {
     /// A place that never moves.
     World,
     /// A point of a body, in its frame relative to the centre of mass, in m.
@@ -29,22 +29,22 @@ pub enum Place {
     },
 }
 
-impl From<Site> for Place {
-    fn from(Site { wire, arc }: Site) -> Self {
-        Place::Wire { wire, arc }
+impl From<WireSite> for ContactSite {
+    fn from(WireSite { wire, arc }: WireSite) -> Self {
+        ContactSite::Wire { wire, arc }
     }
 }
 
 /// Two places that must not come closer, with friction between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Contact {
+pub struct ContactConstraint {
     /// What the contact is known by from step to step. Two at a time must not share it.
     pub key: u64,
-    /// Place A.
-    pub a: Place,
-    /// Place B.
-    pub b: Place,
+    /// ContactSite A.
+    pub a: ContactSite,
+    /// ContactSite B.
+    pub b: ContactSite,
     /// Unit normal from B to A.
     pub normal: Vector,
     /// Distance of the surfaces along the normal in m, below 0 where they penetrate.
@@ -53,7 +53,7 @@ pub struct Contact {
     pub friction: f64,
 }
 
-impl Contact {
+impl ContactConstraint {
     fn check(&self, world: &World) -> Result<(), ModelError> {
         finite_vector("normal", &self.normal)?;
         let length = self.normal.norm();
@@ -68,12 +68,12 @@ impl Contact {
         not_negative("friction", self.friction)?;
         for place in [&self.a, &self.b] {
             match *place {
-                Place::World => {}
-                Place::Body { body, local } => {
+                ContactSite::World => {}
+                ContactSite::Body { body, local } => {
                     finite_vector("local", &local)?;
                     world.body(body)?;
                 }
-                Place::Wire { wire, arc } => {
+                ContactSite::Wire { wire, arc } => {
                     let nodes = world.wire(wire)?.nodes();
                     finite("arc", arc)?;
                     not_negative("arc", arc)?;
@@ -91,7 +91,7 @@ impl Contact {
     }
 }
 
-pub(in crate::wire) fn check(world: &World, contacts: &[Contact]) -> Result<(), Reason> {
+pub(in crate::wire) fn check(world: &World, contacts: &[ContactConstraint]) -> Result<(), Reason> {
     for (index, contact) in contacts.iter().enumerate() {
         contact
             .check(world)

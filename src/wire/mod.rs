@@ -1,12 +1,13 @@
 //! The wire stepper: wires, ropes and chains under large tension, with rigid bodies.
 //!
-//! A [`World`] holds bodies and wires; [`World::step`] moves them by one time step. A wire is a row of
-//! point masses with rows that resist stretch and bending; contacts with friction are given to each
-//! step as data. [`World::step_colliding`] finds them itself, and lets no wire through another. SI units throughout.
-//! The equations, the defaults and where they come from are in `docs/wires.md`.
+//! A [`World`] holds bodies and wires; [`World::step`] moves them by one time step. A wire is a row
+//! of point masses with rows that resist stretch and bending; contacts with friction are given to
+//! each step as data. [`World::step_colliding`] finds them itself, and lets no wire through
+//! another. SI units throughout. The equations, the defaults and where they come from are in
+//! `docs/wires.md`.
 //!
-//! The same input gives the same bits, whatever the build and the machine: one thread, no
-//! order that depends on addresses, no fused operations, and of transcendental functions only the sine
+//! The same input gives the same bits, whatever the build and the machine: one thread, no order
+//! that depends on addresses, no fused operations, and of transcendental functions only the sine
 //! and cosine of the `libm` crate.
 //!
 //! ```
@@ -45,7 +46,7 @@ mod world;
 pub(crate) use model::check;
 
 pub use collide::{Collisions, Mode, PairFilter};
-pub use contact::{Contact, Place};
+pub use contact::{ContactConstraint, ContactSite};
 pub use energy::Energy;
 pub use error::{CollisionError, Reason, StepError};
 pub use model::{
@@ -53,11 +54,11 @@ pub use model::{
     Phase, Resolution, Segment, Shape, Stop, Wire, WireId, WirePlan,
 };
 pub use record::{
-    BodyRecord, CollisionRecord, ContactRecord, Crossing, Held, Outcome, PairAnswer, PairRecord,
-    Phases, Pose, Slide, SolverRecord, StepRecord, WireRecord,
+    BodyRecord, CollisionRecord, ContactRecord, Crossing, CrossingOutcome, PairAnswer, PairRecord,
+    Phases, Pose, ScaledIsland, Slide, SolverRecord, StepRecord, WireRecord,
 };
 pub use resolution::{Remesh, RemeshGuard, RemeshKind};
 pub use settings::Settings;
-pub use site::{SegmentId, Site};
+pub use site::{SegmentId, WireSite};
 pub use vector::Vector;
 pub use world::World;

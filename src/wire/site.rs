@@ -17,14 +17,14 @@ pub struct SegmentId {
 /// A point of a wire's material, which stays the same when the resolution changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Site {
+pub struct WireSite {
     /// The wire.
     pub wire: WireId,
     /// Arc length in m.
     pub arc: f64,
 }
 
-impl fmt::Display for Site {
+impl fmt::Display for WireSite {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "wire {} at {} m", self.wire.0, self.arc)
     }

@@ -1,5 +1,5 @@
-//! What the solver keeps from one step for the next. It changes how fast a step is solved and, within
-//! the tolerances, where sweeps that are cut off end; it is no part of the physical state.
+//! What the solver keeps from one step for the next. It changes how fast a step is solved and,
+//! within the tolerances, where sweeps that are cut off end; it is no part of the physical state.
 
 use super::Vector;
 use super::sparse::Structure;
@@ -12,7 +12,8 @@ pub(in crate::wire) struct SolverCache {
     pub(in crate::wire) structure: Option<Structure>,
 }
 
-/// Contact impulses of the last step in N s along x, y, z, sorted by key: the next solve starts there.
+/// ContactConstraint impulses of the last step in N s along x, y, z, sorted by key: the next solve
+/// starts there.
 #[derive(Clone, Debug, Default)]
 pub(in crate::wire) struct WarmStart(Vec<(u64, Vector)>);
 

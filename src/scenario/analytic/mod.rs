@@ -11,7 +11,7 @@ mod statics;
 use std::error::Error;
 
 use crate::query::Point;
-use crate::wire::{Contact, Settings, World};
+use crate::wire::{ContactConstraint, Settings, World};
 
 /// A case with a known answer.
 #[derive(Clone, Copy, Debug)]
@@ -78,7 +78,7 @@ pub const CASES: [Case; 15] = [
 ];
 
 /// What contacts a world has at present.
-type Contacts<'a> = &'a dyn Fn(&World) -> Vec<Contact>;
+type Contacts<'a> = &'a dyn Fn(&World) -> Vec<ContactConstraint>;
 
 /// A world without gravity and with the given step in s.
 fn weightless(step: f64) -> Settings {
@@ -89,8 +89,8 @@ fn weightless(step: f64) -> Settings {
     }
 }
 
-/// Steps a world to rest by kinetic damping: all velocity is taken whenever kinetic energy starts to fall.
-/// Returns once its peaks are below `least` in J, or after a number of steps.
+/// Steps a world to rest by kinetic damping: all velocity is taken whenever kinetic energy starts
+/// to fall. Returns once its peaks are below `least` in J, or after a number of steps.
 fn settle(
     world: &mut World,
     contacts: Contacts<'_>,
@@ -114,8 +114,8 @@ fn settle(
     Err(format!("not at rest after {steps} steps").into())
 }
 
-/// The period in s of a quantity sampled every `step` seconds: mean distance of its rises through 0, each
-/// interpolated.
+/// The period in s of a quantity sampled every `step` seconds: mean distance of its rises through
+/// 0, each interpolated.
 fn period(samples: &[f64], step: f64) -> f64 {
     let rises: Vec<f64> = samples
         .windows(2)

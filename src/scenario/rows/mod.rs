@@ -1,6 +1,7 @@
 //! What the thesis says of its scenes (4.2), and what comes out of them here.
 //!
-//! `tunnelproof table rows` prints them; `tests/scene_rows.rs` holds each to what is accepted. Nothing is random.
+//! `tunnelproof table rows` prints them; `tests/scene_rows.rs` holds each to what is accepted.
+//! Nothing is random.
 
 mod anchor;
 mod basic;
@@ -11,7 +12,7 @@ use std::error::Error;
 
 use super::scenes::Scene;
 use crate::certified::Certified;
-use crate::wire::{ContactRecord, Mode, Outcome, Place, StepRecord, World};
+use crate::wire::{ContactRecord, ContactSite, CrossingOutcome, Mode, StepRecord, World};
 
 /// What is looked at in one scene.
 #[derive(Clone, Copy, Debug)]
@@ -93,7 +94,7 @@ fn run_guarded(
 ) -> Result<Row, Box<dyn Error>> {
     let mut crossed = 0;
     run(name, Mode::Guard, |world, record| {
-        let made = |outcome: &Outcome| *outcome != Outcome::Prevented;
+        let made = |outcome: &CrossingOutcome| *outcome != CrossingOutcome::Prevented;
         crossed += outcomes(record).filter(made).count();
         look(world, record);
     })?;
@@ -101,13 +102,16 @@ fn run_guarded(
     Ok(Row::near(what, 0.0, crossed as f64, 0.0))
 }
 
-fn outcomes(record: &StepRecord) -> impl Iterator<Item = Outcome> {
+fn outcomes(record: &StepRecord) -> impl Iterator<Item = CrossingOutcome> {
     let crossings = record.collisions.crossings.iter();
     crossings.map(|crossing| crossing.outcome)
 }
 
 /// Contacts that push, by what they are between.
-fn pushing<T>(record: &StepRecord, between: impl Fn(&Place, &Place) -> Option<T>) -> Vec<T> {
+fn pushing<T>(
+    record: &StepRecord,
+    between: impl Fn(&ContactSite, &ContactSite) -> Option<T>,
+) -> Vec<T> {
     let pushing = |contact: &&ContactRecord| contact.normal_force() > 0.0;
     let contacts = record.contacts.iter().filter(pushing);
     contacts
@@ -116,9 +120,9 @@ fn pushing<T>(record: &StepRecord, between: impl Fn(&Place, &Place) -> Option<T>
 }
 
 /// The arc lengths at which two wires push on each other.
-fn between_wires(a: &Place, b: &Place) -> Option<[f64; 2]> {
+fn between_wires(a: &ContactSite, b: &ContactSite) -> Option<[f64; 2]> {
     match (*a, *b) {
-        (Place::Wire { arc, .. }, Place::Wire { arc: other, .. }) => Some([arc, other]),
+        (ContactSite::Wire { arc, .. }, ContactSite::Wire { arc: other, .. }) => Some([arc, other]),
         _ => None,
     }
 }

@@ -4,7 +4,7 @@ use crate::closest::closest;
 use crate::query::Point;
 use crate::wire::Vector;
 use crate::wire::model::{Node, NodeKind, Wire};
-use crate::wire::site::{SegmentId, Site};
+use crate::wire::site::{SegmentId, WireSite};
 use crate::wire::world::World;
 
 impl SegmentId {
@@ -21,24 +21,25 @@ impl SegmentId {
         self.nodes(world).map(|node| node.position)
     }
 
-    /// The place at a share of it, from 0 to 1. Next to a node it is the node's, so that all segments there
-    /// name one place.
-    pub(super) fn site(self, world: &World, share: f64) -> Site {
+    /// The place at a parameter of it, from 0 to 1. Next to a node it is the node's, so that all
+    /// segments there name one place.
+    pub(super) fn site(self, world: &World, parameter: f64) -> WireSite {
         const NEXT: f64 = 1e-9;
         let [start, end] = self.nodes(world).map(|node| node.arc);
-        let arc = if share <= NEXT {
+        let arc = if parameter <= NEXT {
             start
-        } else if share >= 1.0 - NEXT {
+        } else if parameter >= 1.0 - NEXT {
             end
         } else {
-            start + (end - start) * share
+            start + (end - start) * parameter
         };
         let wire = self.wire;
-        Site { wire, arc }
+        WireSite { wire, arc }
     }
 
-    /// The segment at a place, if its wire is there; at a node the one after it, at the last node the last.
-    pub(super) fn at(world: &World, site: &Site) -> Option<Self> {
+    /// The segment at a place, if its wire is there; at a node the one after it, at the last node
+    /// the last.
+    pub(super) fn at(world: &World, site: &WireSite) -> Option<Self> {
         let wire = world.wires.get(site.wire.0)?;
         let (segment, _) = wire.at(site.arc);
         let wire = site.wire;
@@ -47,7 +48,7 @@ impl SegmentId {
 }
 
 /// The segments at two places, if their wires are there.
-pub(super) fn pair_at(world: &World, [a, b]: &[Site; 2]) -> Option<[SegmentId; 2]> {
+pub(super) fn pair_at(world: &World, [a, b]: &[WireSite; 2]) -> Option<[SegmentId; 2]> {
     Some([SegmentId::at(world, a)?, SegmentId::at(world, b)?])
 }
 
@@ -79,9 +80,9 @@ fn fixed_together(x: &Node, y: &Node) -> bool {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Closest {
     /// Where on each, from 0 to 1.
-    pub(super) shares: [f64; 2],
+    pub(super) parameters: [f64; 2],
     /// From B to A.
-    pub(super) apart: Vector,
+    pub(super) separation: Vector,
 }
 
 impl Closest {
@@ -89,9 +90,12 @@ impl Closest {
     pub(super) fn new(points: &[Point; 4]) -> Self {
         let x = points.map(|point| point.coords);
         let (u, v) = closest(&x);
-        let apart = between(points, [u, v]);
-        let shares = [u, v];
-        Closest { shares, apart }
+        let separation = between(points, [u, v]);
+        let parameters = [u, v];
+        Closest {
+            parameters,
+            separation,
+        }
     }
 
     pub(super) fn of(world: &World, [a, b]: [SegmentId; 2]) -> Self {
@@ -100,7 +104,7 @@ impl Closest {
     }
 
     pub(super) fn distance(&self) -> f64 {
-        self.apart.norm()
+        self.separation.norm()
     }
 }
 
@@ -109,7 +113,8 @@ pub(super) fn between([a, b, c, d]: &[Point; 4], [u, v]: [f64; 2]) -> Vector {
     (a - c) + (b - a) * u - (d - c) * v
 }
 
-/// A direction of length 1 to rounding, also where the square of the length is beyond `f64`; none of 0.
+/// A direction of length 1 to rounding, also where the square of the length is beyond `f64`; none
+/// of 0.
 pub(super) fn direction(vector: &Vector) -> Option<Vector> {
     let largest = vector.amax();
     (largest > 0.0 && largest.is_finite()).then(|| (vector / largest).normalize())

@@ -6,7 +6,7 @@ use crate::broad::BroadError;
 use crate::narrow::Unsupported;
 use crate::query::QueryError;
 use crate::wire::model::BodyId;
-use crate::wire::site::Site;
+use crate::wire::site::WireSite;
 
 /// Why a step with collisions was not done.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,7 +14,7 @@ pub enum CollisionError {
     /// Midlines touch where the step starts: no motion, however short, keeps them apart.
     Touching {
         /// The two places.
-        sites: [Site; 2],
+        sites: [WireSite; 2],
     },
     /// The collision library does not take the mesh of a body.
     Mesh {

@@ -26,15 +26,16 @@ pub enum Reason {
         /// What is wrong with it.
         error: ModelError,
     },
-    /// A pivot of the factorisation is on the wrong side of 0 or not finite: masses, stiffness and step
-    /// are too far apart for `f64`.
+    /// A pivot of the factorisation is on the wrong side of 0 or not finite: masses, stiffness and
+    /// step are too far apart for `f64`.
     Pivot {
         /// The unknown that it belongs to, in order of elimination.
         unknown: usize,
     },
     /// The solution does not solve the system.
     Residual {
-        /// Its backward error: residual over magnitude of what was summed up, the largest of all rows.
+        /// Its backward error: residual over magnitude of what was summed up, the largest of all
+        /// rows.
         error: f64,
         /// The largest accepted.
         limit: f64,
@@ -42,7 +43,7 @@ pub enum Reason {
     /// The solution leads to a position, orientation or velocity that is NaN or infinite.
     NotFinite,
     /// It was not found which segments of chains pull, or which wires slide over contact nodes.
-    Slack {
+    ActiveSet {
         /// How many guesses were tried.
         tries: usize,
     },
@@ -63,18 +64,21 @@ impl fmt::Display for StepError {
             Reason::Contact { index, error } => write!(f, "contact {index} is refused: {error}"),
             Reason::Pivot { unknown } => write!(
                 f,
-                "the system cannot be factored: the pivot of unknown {unknown} has the wrong sign or is not finite"
+                "the system cannot be factored: the pivot of unknown {unknown} has the wrong sign \
+                or is not finite"
             ),
             Reason::Residual { error, limit } => write!(
                 f,
-                "the system was not solved: its backward error is {error:e}, it must be at most {limit:e}"
+                "the system was not solved: its backward error is {error:e}, it must be at most \
+                {limit:e}"
             ),
             Reason::NotFinite => f.write_str(
                 "something would end at a position or velocity that is not a finite number",
             ),
-            Reason::Slack { tries } => write!(
+            Reason::ActiveSet { tries } => write!(
                 f,
-                "it was not found within {tries} tries which segments of chains pull and which wires slide"
+                "it was not found within {tries} tries which segments of chains pull and which \
+                wires slide"
             ),
             Reason::Collision(error) => write!(f, "wires cannot be kept apart: {error}"),
         }

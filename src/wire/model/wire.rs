@@ -11,7 +11,7 @@ pub struct WireId(pub usize);
 
 /// How many steps the largest tension is remembered for, and how many lie between two changes of
 /// resolution at one node.
-pub(in crate::wire) const MEMORY: usize = 10;
+pub(in crate::wire) const TENSION_HISTORY: usize = 10;
 
 /// What carries a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,13 +43,13 @@ pub enum NodeKind {
 
 impl NodeKind {
     /// Whether a point of this body carries the node.
-    pub(in crate::wire) fn rides(&self, body: BodyId) -> bool {
+    pub(in crate::wire) fn is_on(&self, body: BodyId) -> bool {
         self.carrier().is_some_and(|(carrier, _)| carrier == body)
     }
 
     /// Whether it is fixed to this body.
     pub(in crate::wire) fn is_eye(&self, body: BodyId) -> bool {
-        matches!(self, NodeKind::Eye { .. }) && self.rides(body)
+        matches!(self, NodeKind::Eye { .. }) && self.is_on(body)
     }
 
     /// The body and the point of it that carry the node, if one does.
@@ -68,16 +68,17 @@ impl NodeKind {
 pub struct Node {
     /// Position in m.
     pub position: Point,
-    /// Velocity in m/s, with which it carries its share of the wire's momentum.
+    /// Velocity in m/s, also that of the part of the wire whose mass it has.
     pub velocity: Vector,
     /// Arc length along the unstretched wire, in m.
     pub arc: f64,
     /// What carries it.
     pub kind: NodeKind,
-    /// How fast its arc length grows because wire slides over it, in m/s; 0 unless it is a contact node.
+    /// How fast its arc length grows because wire slides over it, in m/s; 0 unless it is a contact
+    /// node.
     pub slide: f64,
     /// The step before which the resolution is not changed here.
-    pub(in crate::wire) settled: u64,
+    pub(in crate::wire) remesh_from: u64,
 }
 
 /// What is remembered of a segment from step to step.
@@ -85,26 +86,26 @@ pub struct Node {
 pub struct Segment {
     /// Tension in N in the last step; below 0 is compression.
     pub tension: f64,
-    /// Tensions of the last steps, at the number of the step modulo `MEMORY`.
-    pub(in crate::wire) memory: [f64; MEMORY],
+    /// Tensions of the last steps, at the number of the step modulo `TENSION_HISTORY`.
+    pub(in crate::wire) tension_history: [f64; TENSION_HISTORY],
 }
 
 impl Segment {
     pub(in crate::wire) const NEW: Segment = Segment {
         tension: 0.0,
-        memory: [0.0; MEMORY],
+        tension_history: [0.0; TENSION_HISTORY],
     };
 
     /// The largest tension of the last 10 steps in N, at least 0.
     pub fn largest_tension(&self) -> f64 {
-        self.memory.iter().fold(0.0, |a: f64, &b| a.max(b))
+        self.tension_history.iter().fold(0.0, |a: f64, &b| a.max(b))
     }
 
     /// A segment that remembers the larger tension of two.
     pub(in crate::wire) fn larger(a: &Segment, b: &Segment) -> Segment {
         let mut joint = *a;
         joint.tension = a.tension.max(b.tension);
-        for (mine, other) in joint.memory.iter_mut().zip(b.memory) {
+        for (mine, other) in joint.tension_history.iter_mut().zip(b.tension_history) {
             *mine = mine.max(other);
         }
         joint
@@ -168,17 +169,18 @@ impl Wire {
         self.nodes[segment + 1].position - self.nodes[segment].position
     }
 
-    /// The segment at an arc length and where in it, from 0 to 1; the nearest end outside of the wire.
+    /// The segment at an arc length and where in it, from 0 to 1; the nearest end outside of the
+    /// wire.
     pub fn at(&self, arc: f64) -> (usize, f64) {
         let after = self.nodes.partition_point(|node| node.arc <= arc);
         let segment = after.clamp(1, self.nodes.len() - 1) - 1;
-        let place = (arc - self.nodes[segment].arc) / self.rest_length(segment);
-        (segment, place.clamp(0.0, 1.0))
+        let parameter = (arc - self.nodes[segment].arc) / self.rest_length(segment);
+        (segment, parameter.clamp(0.0, 1.0))
     }
 
     /// The node that is nearest to an arc length, along the wire.
     pub(in crate::wire) fn nearest_node(&self, arc: f64) -> usize {
-        let (segment, share) = self.at(arc);
-        segment + usize::from(share > 0.5)
+        let (segment, parameter) = self.at(arc);
+        segment + usize::from(parameter > 0.5)
     }
 }

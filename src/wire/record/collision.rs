@@ -4,14 +4,14 @@ use crate::contact::{Case, Flags};
 use crate::narrow::Report;
 use crate::query::Point;
 use crate::wire::model::{BodyId, WireId};
-use crate::wire::site::{SegmentId, Site};
+use crate::wire::site::{SegmentId, WireSite};
 
 /// The collisions in one step. Counts are sums over all the times that the step was tested.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CollisionRecord {
     /// Pairs of segments that the broad phase named, joined ones apart.
-    pub named: usize,
+    pub broad_pairs: usize,
     /// Of these, excluded because they move too little to meet.
     pub excluded: usize,
     /// Of these, tested by the narrow phase.
@@ -26,14 +26,16 @@ pub struct CollisionRecord {
     pub temporarily_point: usize,
     /// How often the step was solved again.
     pub rounds: usize,
-    /// Midlines that met on their way: in guard mode every pair of segments in every motion that was tried.
+    /// Midlines that met on their way: in guard mode every pair of segments in every motion that
+    /// was tried.
     pub crossings: Vec<Crossing>,
-    /// Every pair that the broad phase named in the motion that was made, with segments numbered as before it.
+    /// Every pair that the broad phase named in the motion that was made, with segments numbered as
+    /// before it.
     pub pairs: Vec<PairRecord>,
     /// What was not moved all the way.
-    pub held: Vec<Held>,
+    pub scaled_islands: Vec<ScaledIsland>,
     /// Changes of resolution that were refused.
-    pub refused: usize,
+    pub refused_remeshes: usize,
 }
 
 /// Midlines that meet on their way.
@@ -41,7 +43,7 @@ pub struct CollisionRecord {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Crossing {
     /// Where.
-    pub sites: [Site; 2],
+    pub sites: [WireSite; 2],
     /// When, from 0 to 1 in the step.
     pub toi: f64,
     /// The case, if the narrow phase knows it.
@@ -49,7 +51,7 @@ pub struct Crossing {
     /// The configuration at `toi`.
     pub flags: Flags,
     /// What became of it.
-    pub outcome: Outcome,
+    pub outcome: CrossingOutcome,
     /// Where the motion that was tried starts: both ends of the first segment, then of the second.
     pub start: [Point; 4],
     /// Where it ends.
@@ -84,7 +86,7 @@ pub enum PairAnswer {
 /// What became of midlines that met.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Outcome {
+pub enum CrossingOutcome {
     /// Guard mode: that motion was not made.
     Prevented,
     /// Thesis mode: the wires have passed through each other, +1 in the ledger.
@@ -98,15 +100,15 @@ pub enum Outcome {
 /// Things tied to each other that made only a part of their motion, because a crossing was left.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Held {
+pub struct ScaledIsland {
     /// The part, from 0 to 1. Velocities are that part of what was solved for.
-    pub share: f64,
+    pub motion_scale: f64,
     /// The wires.
     pub wires: Vec<WireId>,
     /// The bodies that can move.
     pub bodies: Vec<BodyId>,
-    /// Those of them whose velocity is prescribed: they would have forced a crossing, and are behind
-    /// their script from now on.
+    /// Those of them whose velocity is prescribed: they would have forced a crossing, and are
+    /// behind their script from now on.
     pub behind: Vec<BodyId>,
 }
 

@@ -2,11 +2,13 @@
 
 mod collision;
 
-pub use collision::{CollisionRecord, Crossing, Held, Outcome, PairAnswer, PairRecord};
+pub use collision::{
+    CollisionRecord, Crossing, CrossingOutcome, PairAnswer, PairRecord, ScaledIsland,
+};
 
 use nalgebra::UnitQuaternion;
 
-use super::contact::Contact;
+use super::contact::ContactConstraint;
 use super::energy::Energy;
 use super::model::{NodeKind, WireId};
 use super::resolution::Remesh;
@@ -83,7 +85,7 @@ pub struct Pose {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactRecord {
     /// The contact as it was given.
-    pub contact: Contact,
+    pub contact: ContactConstraint,
     /// Force on its place A in N, friction included.
     pub force: Vector,
 }
@@ -115,16 +117,17 @@ pub struct Slide {
 pub struct SolverRecord {
     /// Backward error of the solution.
     pub residual: f64,
-    /// Factorisations: 1, and one more for every wrong guess of which segments of chains pull, or for every step of Newton's
-    /// method where contacts are in the system.
-    pub tries: usize,
+    /// Factorisations: 1, and one more for every wrong guess of which segments of chains pull, or
+    /// for every step of Newton's method where contacts are in the system.
+    pub factorisations: usize,
     /// Sweeps over the contacts; 0 where they are in the system.
     pub sweeps: usize,
-    /// By how much velocities of contacts are off at most, in m/s: the change in the last sweep, or what was not foretold.
-    /// Above the tolerance of the settings if that took too long.
+    /// The largest error of contact velocities, in m/s: the change in the last sweep, or the part
+    /// that was not predicted. Above the tolerance of the settings if that took too long.
     pub contact_residual: f64,
-    /// By how much the friction at a contact node was bounded otherwise than the tensions beside it bound it, as a share
-    /// of the largest; above 1e-9 only if rounds were not enough.
+    /// The largest difference between a bound of friction at a contact node and the one that the
+    /// tensions beside it give, as a fraction of the largest; above 1e-9 only if rounds were not
+    /// enough.
     pub slide_residual: f64,
 }
 
@@ -195,7 +198,7 @@ fn poses(world: &World) -> impl Iterator<Item = Pose> {
 impl World {
     pub(in crate::wire) fn contact_records(
         &self,
-        contacts: &[Contact],
+        contacts: &[ContactConstraint],
         impulses: &[Vector],
     ) -> Vec<ContactRecord> {
         let pairs = contacts.iter().zip(impulses);

@@ -1,16 +1,17 @@
 //! `A = L D L^T` of a sparse quasi-definite matrix, row by row, without pivoting.
 //!
-//! A symmetric matrix `[[H, G^T], [G, -S]]` with `H` and `S` positive definite has such a factorisation
-//! in every order of elimination (Vanderbei, SIAM J. Optim. 5, 1995). The algorithm is the up-looking
-//! one of Davis (ACM TOMS 31, 2005): row `k` of `L` solves a triangular system with the rows before it,
-//! whose pattern is read off the elimination tree.
+//! A symmetric matrix `[[H, G^T], [G, -S]]` with `H` and `S` positive definite has such a
+//! factorisation in every order of elimination (Vanderbei, SIAM J. Optim. 5, 1995). The algorithm
+//! is the up-looking one of Davis (ACM TOMS 31, 2005): row `k` of `L` solves a triangular system
+//! with the rows before it, whose pattern is read off the elimination tree.
 
 use super::Symmetric;
 
 /// No parent: the root of an elimination tree.
 const ROOT: u32 = u32::MAX;
 
-/// A factorisation: its structure, which depends on the pattern of the matrix alone, and its values.
+/// A factorisation: its structure, which depends on the pattern of the matrix alone, and its
+/// values.
 #[derive(Clone, Debug)]
 pub(in crate::wire) struct Ldl {
     parent: Vec<u32>,
@@ -72,8 +73,8 @@ impl Ldl {
         ldl
     }
 
-    /// The columns of each row of `L`, a child in the elimination tree before its parent, and the rows of
-    /// each column.
+    /// The columns of each row of `L`, a child in the elimination tree before its parent, and the
+    /// rows of each column.
     fn find_patterns(&mut self, matrix: &Symmetric) {
         let n = matrix.size();
         let mut filled = self.starts.clone();
@@ -109,7 +110,8 @@ impl Ldl {
     ///
     /// # Errors
     ///
-    /// The first pivot that is on the wrong side of 0, 0 or not finite: the matrix is not quasi-definite.
+    /// The first pivot that is on the wrong side of 0, 0 or not finite: the matrix is not
+    /// quasi-definite.
     pub(in crate::wire) fn factor(
         &mut self,
         matrix: &Symmetric,
@@ -171,8 +173,8 @@ impl Ldl {
         }
     }
 
-    /// Solves `L Y = C` for three sparse columns `C`, given by rows in any order. Only the rows on the
-    /// way from there to the root of the elimination tree take part.
+    /// Solves `L Y = C` for three sparse columns `C`, given by rows in any order. Only the rows on
+    /// the way from there to the root of the elimination tree take part.
     pub(in crate::wire) fn forward(&self, columns: &[(usize, [f64; 3])]) -> SparseColumns {
         let rows = self.path(columns.iter().map(|&(row, _)| row as u32).collect());
         let place = |row: usize| rows.partition_point(|&other| (other as usize) < row);
@@ -193,8 +195,8 @@ impl Ldl {
         SparseColumns { rows, values }
     }
 
-    /// The rows on the way from any of `open` to the root, ascending: a parent comes after its children,
-    /// so the least open row is the next.
+    /// The rows on the way from any of `open` to the root, ascending: a parent comes after its
+    /// children, so the least open row is the next.
     fn path(&self, mut open: Vec<u32>) -> Vec<u32> {
         let mut rows = Vec::new();
         while let Some(&least) = open.iter().min() {

@@ -21,9 +21,10 @@ pub(in crate::wire) fn dissect(run: Range<usize>, order: &mut Vec<usize>) {
     order.push(middle);
 }
 
-/// Least degree: of the blocks of unknowns that are left, the one that is tied to the fewest unknowns is next, and what it was tied to
-/// is then tied together (Tinney and Walker, Proc. IEEE 55, 1967; George and Liu, SIAM Review 31, 1989). `ties` are the
-/// neighbours of each block, ascending.
+/// Least degree: of the blocks of unknowns that are left, the one that is tied to the fewest
+/// unknowns is next, and what it was tied to is then tied together (Tinney and Walker, Proc. IEEE
+/// 55, 1967; George and Liu, SIAM Review 31, 1989). `ties` are the neighbours of each block,
+/// ascending.
 ///
 /// None if eliminating the blocks takes more than so many multiplications.
 pub(in crate::wire) fn least_degree(

@@ -1,7 +1,8 @@
 //! The Schur complement of contacts as a dense matrix.
 //!
-//! Contact velocities `u = S lambda + b` are kept up to date: a block that changes adds its three columns to them, and
-//! one that does not costs nothing. It bears the name of E. Delassus (1917).
+//! ContactConstraint velocities `u = S lambda + b` are kept up to date: a block that changes adds
+//! its three columns to them, and one that does not costs nothing. It bears the name of E. Delassus
+//! (1917).
 
 use super::friction::{Block, Blocks};
 use crate::wire::Vector;

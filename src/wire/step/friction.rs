@@ -1,11 +1,12 @@
 //! Contacts and friction: projected Gauss-Seidel on 3x3 blocks, in the space of the factor.
 //!
-//! Contact impulses `lambda` change the contact velocities by `S lambda` with the Schur complement
-//! `S = C K^-1 C^T = Y^T D^-1 Y`, `L Y = C^T`. Sweeps do not need `S`: the sum `z = D^-1 Y lambda` is kept, and
-//! a block reads and writes the few entries of `z` on the path of its points to the root of the
-//! elimination tree. So a sweep costs in proportion to the number of contacts. Some dozens of contacts that
-//! a few sweeps do not settle go on with `S` itself ([`Delassus`]): there a sweep is faster, and what
-//! sweeps come to can be foretold ([`anderson`]).
+//! ContactConstraint impulses `lambda` change the contact velocities by `S lambda` with the Schur
+//! complement `S = C K^-1 C^T = Y^T D^-1 Y`, `L Y = C^T`. Sweeps do not need `S`: the sum `z = D^-1
+//! Y lambda` is kept, and a block reads and writes the few entries of `z` on the path of its points
+//! to the root of the elimination tree. So a sweep costs in proportion to the number of contacts.
+//! Some dozens of contacts that do not converge in a few sweeps go on with `S` itself
+//! ([`Delassus`]): there a sweep is faster, and what sweeps come to can be extrapolated
+//! ([`anderson`]).
 
 use std::ops::{Range, RangeInclusive};
 
@@ -19,13 +20,14 @@ use super::delassus::Delassus;
 use super::rows::Spook;
 use super::system::{System, frame};
 use crate::wire::Vector;
-use crate::wire::contact::{Contact, Place};
+use crate::wire::contact::{ContactConstraint, ContactSite};
 use crate::wire::settings::Settings;
 use crate::wire::sparse::SparseColumns;
 use crate::wire::world::World;
 
-/// How many contacts have their Schur complement formed if they do not settle in [`FIRST_SWEEPS`]. Fewer cost little
-/// either way; with more, a sweep with it costs more than one without.
+/// How many contacts have their Schur complement formed if they do not converge in
+/// [`FIRST_SWEEPS`]. Fewer cost little either way; with more, a sweep with it costs more than one
+/// without.
 const FORMED: RangeInclusive<usize> = 8..=256;
 
 /// Sweeps that are tried before the Schur complement is formed.
@@ -60,14 +62,15 @@ pub(super) struct Swept {
     pub(super) residual: f64,
 }
 
-/// Contact impulses for the system as factored, from a start on. `free` is the solution without contacts.
+/// ContactConstraint impulses for the system as factored, from a start on. `free` is the solution
+/// without contacts.
 ///
-/// Sweeps with a formed Schur complement come three to ten times as close to the solution; three fifths of the sweeps are
-/// enough for them.
+/// Sweeps with a formed Schur complement come three to ten times as close to the solution; three
+/// fifths of the sweeps are enough for them.
 pub(super) fn sweep(
     world: &World,
     system: &System,
-    contacts: &[Contact],
+    contacts: &[ContactConstraint],
     free: &[f64],
     start: &[Vector],
 ) -> Swept {
@@ -90,9 +93,9 @@ pub(super) fn sweep(
     }
     for block in &blocks.list {
         let impulse = block.frame.tr_mul(&block.impulse);
-        for (carrier, share) in &block.terms {
+        for (carrier, weight) in &block.terms {
             let mut columns = Columns::new();
-            carrier.columns(&(impulse * *share), &mut columns);
+            carrier.columns(&(impulse * *weight), &mut columns);
             swept.columns.extend(columns);
         }
         swept.impulses.push(impulse);
@@ -100,12 +103,12 @@ pub(super) fn sweep(
     swept
 }
 
-/// By how much one more sweep would change the velocity of a contact at most, in m/s, if these impulses are held for
-/// the system as factored.
-pub(super) fn lack(
+/// The largest change of a contact's velocity, in m/s, that one more sweep from these impulses
+/// would make.
+pub(super) fn contact_residual(
     world: &World,
     system: &System,
-    contacts: &[Contact],
+    contacts: &[ContactConstraint],
     free: &[f64],
     impulses: &[Vector],
 ) -> f64 {
@@ -113,13 +116,13 @@ pub(super) fn lack(
 }
 
 impl Swept {
-    /// Whether the contacts have settled, or there are no more sweeps.
+    /// Whether the contacts have converged, or there are no more sweeps.
     pub(super) fn is_done(&self, settings: &Settings) -> bool {
-        self.is_settled(settings) || self.sweeps >= settings.sweeps
+        self.is_converged(settings) || self.sweeps >= settings.sweeps
     }
 
     /// Whether the last sweep changed no more than is tolerated.
-    pub(super) fn is_settled(&self, settings: &Settings) -> bool {
+    pub(super) fn is_converged(&self, settings: &Settings) -> bool {
         self.sweeps > 0 && self.residual <= settings.contact_tolerance
     }
 
@@ -144,8 +147,8 @@ pub(super) struct Blocks {
     paths: Paths,
 }
 
-/// The ways of contacts to the root of the elimination tree, one after the other, as sweeps go through them: rows, and what
-/// `Y` has there.
+/// The ways of contacts to the root of the elimination tree, one after the other, as sweeps go
+/// through them: rows, and what `Y` has there.
 struct Paths {
     rows: Vec<u32>,
     values: Vec<[f64; 3]>,
@@ -166,7 +169,7 @@ impl Blocks {
     pub(super) fn new(
         world: &World,
         system: &System,
-        contacts: &[Contact],
+        contacts: &[ContactConstraint],
         free: &[f64],
         impulses: &[Vector],
     ) -> Self {
@@ -232,7 +235,7 @@ impl Block {
     fn new(
         world: &World,
         system: &System,
-        contact: &Contact,
+        contact: &ContactConstraint,
         free: &[f64],
         impulse: &Vector,
         paths: &mut Paths,
@@ -250,7 +253,7 @@ impl Block {
         mobility[(0, 0)] += sigma;
         let velocity: Vector = terms
             .iter()
-            .map(|(carrier, share)| carrier.velocity(free) * *share)
+            .map(|(carrier, weight)| carrier.velocity(free) * *weight)
             .sum();
         Block {
             bias: frame * velocity - Vector::new(target, 0.0, 0.0),
@@ -274,8 +277,8 @@ impl Block {
         sum
     }
 
-    /// Solves the block with all others held, from its velocity less what is asked for; by how much its impulse
-    /// changes.
+    /// Solves the block with all others held, from its velocity less what is asked for; by how much
+    /// its impulse changes.
     pub(super) fn solve(&mut self, excess: &Vector) -> Vector {
         let others = excess - self.mobility * self.impulse;
         let impulse = solve_block(&self.mobility, &others, self.friction, &self.impulse);
@@ -291,10 +294,10 @@ fn columns(
     terms: &SmallVec<[(Carrier, f64); 4]>,
 ) -> SmallVec<[(usize, [f64; 3]); 24]> {
     let mut all: SmallVec<[(usize, [f64; 3]); 24]> = SmallVec::new();
-    for (carrier, share) in terms {
+    for (carrier, weight) in terms {
         let rows = [0, 1, 2].map(|row| {
             let mut columns = Columns::new();
-            let direction = frame.row(row).transpose() * *share;
+            let direction = frame.row(row).transpose() * *weight;
             carrier.columns(&direction, &mut columns);
             columns
         });
@@ -304,9 +307,9 @@ fn columns(
     all
 }
 
-/// What the normal row asks for and its regularisation. Apart, `J v+ >= -g/h`; where the two penetrate,
-/// a SPOOK row, which forgets the velocity of an impact.
-pub(super) fn normal_row(settings: &Settings, contact: &Contact, speed: f64) -> [f64; 2] {
+/// What the normal row asks for and its regularisation. Apart, `J v+ >= -g/h`; where the two
+/// penetrate, a SPOOK row, which forgets the velocity of an impact.
+pub(super) fn normal_row(settings: &Settings, contact: &ContactConstraint, speed: f64) -> [f64; 2] {
     if contact.gap >= 0.0 {
         return [-contact.gap / settings.step, 0.0];
     }
@@ -321,15 +324,15 @@ pub(super) fn normal_row(settings: &Settings, contact: &Contact, speed: f64) -> 
 }
 
 /// The velocity of a place before the step.
-pub(super) fn velocity_of(world: &World, place: &Place) -> Vector {
+pub(super) fn velocity_of(world: &World, place: &ContactSite) -> Vector {
     match *place {
-        Place::World => Vector::zeros(),
-        Place::Body { body, local } => world.bodies[body.0].velocity_at(&local),
-        Place::Wire { wire, arc } => {
+        ContactSite::World => Vector::zeros(),
+        ContactSite::Body { body, local } => world.bodies[body.0].velocity_at(&local),
+        ContactSite::Wire { wire, arc } => {
             let wire = &world.wires[wire.0];
-            let (segment, share) = wire.at(arc);
+            let (segment, parameter) = wire.at(arc);
             let nodes = &wire.nodes[segment..segment + 2];
-            nodes[0].velocity * (1.0 - share) + nodes[1].velocity * share
+            nodes[0].velocity * (1.0 - parameter) + nodes[1].velocity * parameter
         }
     }
 }

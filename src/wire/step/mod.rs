@@ -1,22 +1,22 @@
 //! One step: SPOOK with contacts.
 
+mod active_set;
 pub(super) mod advance;
 mod anderson;
 mod augmented;
+pub(super) mod callbacks;
 mod capstan;
 mod carrier;
+mod constitutive;
+pub(super) mod contact_nodes;
 mod coulomb;
 mod delassus;
 mod friction;
 mod implicit;
-mod law;
 pub(super) mod motion;
+mod multipliers;
 mod order;
-pub(super) mod ride;
 mod rows;
-mod settle;
-mod slack;
+mod solve_step;
 mod spin;
 mod system;
-mod touching;
-pub(super) mod watch;

@@ -5,7 +5,7 @@ use smallvec::{SmallVec, smallvec};
 
 use super::capstan;
 use super::carrier::{Carrier, Layout};
-use super::law::{Law, Piece};
+use super::constitutive::{Branch, ConstitutiveLaw};
 use crate::wire::Vector;
 use crate::wire::model::Wire;
 use crate::wire::settings::Settings;
@@ -25,9 +25,9 @@ pub(super) struct Row {
     /// What the row asks for, in m/s or 1/s, prescribed velocities included on the left.
     pub(super) target: f64,
     /// How the multiplier follows from the excess.
-    pub(super) law: Law,
-    /// The piece of the law that is solved with.
-    pub(super) piece: Piece,
+    pub(super) law: ConstitutiveLaw,
+    /// The branch of the law that is solved with.
+    pub(super) branch: Branch,
 }
 
 impl Row {
@@ -45,7 +45,7 @@ impl Row {
     pub(super) fn given(&self) -> f64 {
         let terms = self.terms.iter();
         terms.fold(0.0, |sum, (carrier, direction)| {
-            sum + carrier.given().dot(direction)
+            sum + carrier.prescribed_velocity().dot(direction)
         })
     }
 
@@ -72,30 +72,30 @@ impl Row {
         terms.chain(slides).fold(self.target.abs(), f64::max)
     }
 
-    /// Whether its piece is found by the solution.
+    /// Whether its branch is found by the solution.
     pub(super) fn may_change(&self) -> bool {
         match self.law {
-            Law::Free => false,
+            ConstitutiveLaw::Linear => false,
             // A segment without length has no direction.
-            Law::Pulls => {
+            ConstitutiveLaw::TensionOnly => {
                 let mut terms = self.terms.iter();
                 terms.any(|(_, along)| along.norm_squared() > 0.0)
             }
-            Law::Grips { .. } => true,
+            ConstitutiveLaw::Friction { .. } => true,
         }
     }
 
     /// Whether it is friction that lets no wire slide.
     pub(super) fn sticks(&self) -> bool {
-        let grips = matches!(self.law, Law::Grips { .. });
-        grips && self.piece.active && self.piece.start == 0.0
+        let friction = matches!(self.law, ConstitutiveLaw::Friction { .. });
+        friction && self.branch.active && self.branch.start == 0.0
     }
 
     /// The multiplier that is in no unknown but held.
-    pub(super) fn each_held(&self, mut take: impl FnMut(usize, f64)) {
-        let held = self.piece.held;
-        if held != 0.0 {
-            self.each_column(|column, value| take(column, value * held));
+    pub(super) fn each_offset(&self, mut take: impl FnMut(usize, f64)) {
+        let offset = self.branch.offset;
+        if offset != 0.0 {
+            self.each_column(|column, value| take(column, value * offset));
         }
     }
 }
@@ -137,7 +137,8 @@ pub(super) fn unit(vector: &Vector) -> (Vector, f64) {
     }
 }
 
-/// All rows: first those of stretch, one for each segment in order, then those of bend, last those of sliding.
+/// All rows: first those of stretch, one for each segment in order, then those of bend, last those
+/// of sliding.
 pub(super) fn rows(world: &World, layout: &Layout) -> Vec<Row> {
     let mut rows = Vec::with_capacity(layout.stretch.len() + 3 * layout.bend.len());
     for (wire, &first) in world.wires.iter().zip(&layout.first_node) {
@@ -163,12 +164,12 @@ pub(super) fn rows(world: &World, layout: &Layout) -> Vec<Row> {
             }
         }
     }
-    rows.extend(capstan::grips(world, layout));
+    rows.extend(capstan::friction_rows(world, layout));
     rows
 }
 
-/// `g = |d| - l0`, `G = [-t, t]`, `eps = l0 / (E A)`. A segment without length has no direction: its
-/// row does not count.
+/// `g = |d| - l0`, `G = [-t, t]`, `eps = l0 / (E A)`. A segment without length has no direction:
+/// its row does not count.
 fn stretch(
     wire: &Wire,
     segment: usize,
@@ -193,11 +194,15 @@ fn stretch(
         sigma: spook.sigma,
         target: spook.target(length - rest, speed),
         law: if material.is_chain() {
-            Law::Pulls
+            ConstitutiveLaw::TensionOnly
         } else {
-            Law::Free
+            ConstitutiveLaw::Linear
         },
-        piece: if counts { Piece::FULL } else { Piece::NONE },
+        branch: if counts {
+            Branch::ACTIVE
+        } else {
+            Branch::INACTIVE
+        },
     }
 }
 
@@ -234,8 +239,12 @@ fn bend(
             slides: SmallVec::new(),
             sigma: spook.sigma,
             target: spook.target((t2 - t1)[axis], turning[axis]),
-            law: Law::Free,
-            piece: if active { Piece::FULL } else { Piece::NONE },
+            law: ConstitutiveLaw::Linear,
+            branch: if active {
+                Branch::ACTIVE
+            } else {
+                Branch::INACTIVE
+            },
         }
     })
 }

@@ -3,13 +3,13 @@
 use nalgebra::Matrix3;
 
 use super::carrier::{Carrier, Columns, Layout};
+use super::constitutive::Branch;
 use super::implicit::Implicit;
-use super::law::Piece;
 use super::order::Block;
 use super::rows::{Row, rows, unit};
 use super::spin::spin_freely;
 use crate::wire::Vector;
-use crate::wire::contact::Contact;
+use crate::wire::contact::ContactConstraint;
 use crate::wire::error::Reason;
 use crate::wire::sparse::{Ldl, SparseColumns, Structure, Symmetric, Triplets};
 use crate::wire::world::World;
@@ -17,7 +17,8 @@ use crate::wire::world::World;
 /// The largest backward error of a solution that is accepted.
 const RESIDUAL: f64 = 1e-10;
 
-/// The equations of motion, of nodes, bodies and what slides over contact nodes, and the rows of all wires, ready to be factored.
+/// The equations of motion, of nodes, bodies and what slides over contact nodes, and the rows of
+/// all wires, ready to be factored.
 pub(super) struct System {
     pub(super) layout: Layout,
     pub(super) rows: Vec<Row>,
@@ -136,14 +137,19 @@ impl System {
             let mut columns = Columns::new();
             start.columns(&-across, &mut columns);
             end.columns(&across, &mut columns);
-            let given = (end.given() - start.given()).dot(&across);
+            let given = (end.prescribed_velocity() - start.prescribed_velocity()).dot(&across);
             self.triplets.add_outer(&columns, weight);
             push(&mut self.right, &columns, -weight * given);
         }
     }
 
-    /// Takes contacts into the system, with the impulses that are foretold for them.
-    pub(super) fn take(&mut self, world: &World, contacts: &[Contact], impulses: &[Vector]) {
+    /// Takes contacts into the system, with the impulses that are predicted for them.
+    pub(super) fn take(
+        &mut self,
+        world: &World,
+        contacts: &[ContactConstraint],
+        impulses: &[Vector],
+    ) {
         let mut masses = vec![0.0; self.layout.size];
         let entries = self.triplets.index.iter().zip(&self.triplets.value);
         for (&(i, j), value) in entries.take(self.mass_entries) {
@@ -194,7 +200,7 @@ impl System {
         }
         for row in &self.rows {
             // A row that is not active keeps its place in the structure: -1 x multiplier = 0.
-            let Piece { active, start, .. } = row.piece;
+            let Branch { active, start, .. } = row.branch;
             let weight = if active { 1.0 } else { 0.0 };
             let triplets = &mut self.triplets;
             row.each_column(|column, value| triplets.add(column, row.multiplier, weight * value));
@@ -216,7 +222,8 @@ impl System {
         factored.map_err(|unknown| Reason::Pivot { unknown })
     }
 
-    /// The solution with impulses on velocities, given as columns and values, and its backward error.
+    /// The solution with impulses on velocities, given as columns and values, and its backward
+    /// error.
     pub(super) fn solve(&self, impulses: &[(usize, f64)]) -> Result<(Vec<f64>, f64), Reason> {
         let Some(structure) = &self.structure else {
             return Ok((Vec::new(), 0.0));
@@ -251,7 +258,7 @@ impl System {
     fn right_side(&self, impulses: &[(usize, f64)]) -> Vec<f64> {
         let mut right = self.right.clone();
         for row in &self.rows {
-            row.each_held(|column, impulse| right[column] -= impulse);
+            row.each_offset(|column, impulse| right[column] -= impulse);
         }
         for contact in &self.implicit {
             contact.each_impulse(|column, impulse| right[column] += impulse);
@@ -288,8 +295,8 @@ impl System {
             .map_or(&[], |structure| structure.ldl.pivots())
     }
 
-    /// The largest residual relative to the largest magnitude that was summed up: equations of motion among
-    /// each other (N s), rows among each other (m/s). NaN if there is one.
+    /// The largest residual relative to the largest magnitude that was summed up: equations of
+    /// motion among each other (N s), rows among each other (m/s). NaN if there is one.
     fn backward_error(&self, residual: &[f64], magnitude: &[f64]) -> f64 {
         let worst = |of_motion: bool| {
             let rows = residual.iter().zip(magnitude).zip(&self.is_velocity);

@@ -102,8 +102,8 @@ proptest! {
         let scale = dense.amax().max(1e-300);
         let difference = x.iter().zip(dense.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         prop_assert!(difference <= 1e-6 * scale, "{difference} of {scale}");
-        // Higham, Accuracy and Stability of Numerical Algorithms, theorem 10.4 for L D L^T: the residual
-        // is at most a small multiple of n units of rounding of |L| |D| |L^T| |x|.
+        // Higham, Accuracy and Stability of Numerical Algorithms, theorem 10.4 for L D L^T: the
+        // residual is at most a small multiple of n units of rounding of |L| |D| |L^T| |x|.
         let (residual, magnitude) = matrix.residual(&b, &x);
         let grown = grown(&ldl, &x);
         let units = 8.0 * system.n as f64 * f64::EPSILON;
@@ -113,7 +113,10 @@ proptest! {
     }
 
     #[test]
-    fn sparse_columns_are_those_of_a_dense_forward_solve(system in system(), at in any::<[u8; 3]>()) {
+    fn sparse_columns_are_those_of_a_dense_forward_solve(
+        system in system(),
+        at in any::<[u8; 3]>(),
+    ) {
         let (_, ldl) = factored(&system);
         let columns: Vec<(usize, [f64; 3])> = at
             .iter()

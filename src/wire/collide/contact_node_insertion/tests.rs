@@ -96,7 +96,8 @@ fn wire_slides_over_edges_by_the_capstan_bound() {
         speeds.push(-world.bodies()[2].velocity().z);
     });
     assert_eq!(contact_nodes(&world).len(), 2);
-    // Atwood's machine, with the ratio of tensions of a right angle at each edge, and the chain's mass.
+    // Atwood's machine, with the ratio of tensions of a right angle at each edge, and the chain's
+    // mass.
     let ratio = (1.0 + FRICTION) / (1.0 - FRICTION);
     let line = Material::steel(RADIUS).mass_per_length();
     let [left, right] =

@@ -1,17 +1,17 @@
-//! How nodes come to ride bodies, and how they leave.
+//! Attaches nodes to bodies as contact nodes, and releases them.
 
 use super::capstan::{LEAST, contact_nodes, directions};
 use super::rows::unit;
 use crate::wire::Vector;
-use crate::wire::model::wire::MEMORY;
+use crate::wire::model::wire::TENSION_HISTORY;
 use crate::wire::model::{BodyId, Node, NodeKind, Wire, WireId};
 use crate::wire::record::Slide;
 use crate::wire::resolution::{Remesh, RemeshGuard, RemeshKind, put_in, remesh};
 use crate::wire::world::World;
 
-/// Where a body bends a wire.
+/// Where a body insertions a wire.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::wire) struct Bend {
+pub(in crate::wire) struct ContactNodeInsertion {
     pub(in crate::wire) wire: WireId,
     /// The place on the wire, in m.
     pub(in crate::wire) arc: f64,
@@ -21,42 +21,42 @@ pub(in crate::wire) struct Bend {
     pub(in crate::wire) friction: f64,
 }
 
-/// Gives wires contact nodes where bodies bend them: free nodes that are near come to ride the body, and elsewhere nodes are put in,
-/// as far as `guard` permits it.
-pub(super) fn arrive(
+/// Gives wires contact nodes where bodies bend them. A free node that is near is attached to the
+/// body; elsewhere a new node is put in, if `guard` permits it.
+pub(super) fn insert(
     world: &mut World,
-    bends: &[Bend],
+    insertions: &[ContactNodeInsertion],
     guard: &mut dyn RemeshGuard,
 ) -> Vec<Remesh> {
     let mut changes = Vec::new();
-    for bend in bends {
-        let wire = &world.wires[bend.wire.0];
-        if let Some(node) = node_near(wire, bend.arc) {
+    for insertion in insertions {
+        let wire = &world.wires[insertion.wire.0];
+        if let Some(node) = node_near(wire, insertion.arc) {
             let last = wire.nodes.len() - 1;
             if wire.nodes[node].kind == NodeKind::Free && node > 0 && node < last {
                 let along = wire.span(node - 1) + wire.span(node);
-                if let Some(arrived) = arrived(world, bend, wire.nodes[node], &along) {
-                    world.wires[bend.wire.0].nodes[node] = arrived;
+                if let Some(attached) = attached(world, insertion, wire.nodes[node], &along) {
+                    world.wires[insertion.wire.0].nodes[node] = attached;
                 }
             }
             continue;
         }
-        let (segment, share) = wire.at(bend.arc);
+        let (segment, parameter) = wire.at(insertion.arc);
         let [start, end] = [wire.nodes[segment], wire.nodes[segment + 1]];
         let node = Node {
-            position: start.position + wire.span(segment) * share,
-            velocity: start.velocity.lerp(&end.velocity, share),
-            arc: bend.arc,
+            position: start.position + wire.span(segment) * parameter,
+            velocity: start.velocity.lerp(&end.velocity, parameter),
+            arc: insertion.arc,
             kind: NodeKind::Free,
             slide: 0.0,
-            settled: world.steps + MEMORY as u64,
+            remesh_from: world.steps + TENSION_HISTORY as u64,
         };
-        let Some(node) = arrived(world, bend, node, &wire.span(segment)) else {
+        let Some(node) = attached(world, insertion, node, &wire.span(segment)) else {
             continue;
         };
-        let change = remesh(bend.wire.0, RemeshKind::Split, &[start, node, end]);
+        let change = remesh(insertion.wire.0, RemeshKind::Split, &[start, node, end]);
         if guard.permits(world, &change) {
-            put_in(&mut world.wires[bend.wire.0], segment, node);
+            put_in(&mut world.wires[insertion.wire.0], segment, node);
             changes.push(change);
         }
     }
@@ -70,37 +70,43 @@ pub(in crate::wire) fn node_near(wire: &Wire, arc: f64) -> Option<usize> {
     near.then_some(node)
 }
 
-/// A free node that comes to ride a body, where the wire runs along a vector: the inverse of [`free`]. None if the wire slides faster
-/// than it may at a contact node.
-fn arrived(world: &World, bend: &Bend, node: Node, along: &Vector) -> Option<Node> {
-    let body = &world.bodies[bend.body.0];
+/// Attaches a free node to a body, where the wire runs along a vector: the inverse of [`detach`].
+/// None if the wire slides faster than it may at a contact node.
+fn attached(
+    world: &World,
+    insertion: &ContactNodeInsertion,
+    node: Node,
+    along: &Vector,
+) -> Option<Node> {
+    let body = &world.bodies[insertion.body.0];
     let into = |vector: &Vector| body.orientation.inverse_transform_vector(vector);
     let local = into(&(node.position - body.position));
     let (along, _) = unit(along);
     let slide = (body.velocity_at(&local) - node.velocity).dot(&along);
-    let length = world.wires[bend.wire.0].resolution.length;
+    let length = world.wires[insertion.wire.0].resolution.length;
     let farthest = world.settings.slide_limit.min(length / 4.0);
     (slide.abs() * world.settings.step <= farthest).then(|| Node {
         velocity: node.velocity + along * slide,
         kind: NodeKind::Contact {
-            body: bend.body,
+            body: insertion.body,
             local,
-            normal: into(&bend.normal),
-            friction: bend.friction,
+            normal: into(&insertion.normal),
+            friction: insertion.friction,
         },
         slide,
         ..node
     })
 }
 
-/// Frees the nodes that leave: where the wire turns away from the body, near a free end, and where nodes crowd.
-pub(super) fn leave(world: &mut World) -> Vec<Slide> {
+/// Frees the nodes that leave: where the wire turns away from the body, near a free end, and where
+/// nodes crowd.
+pub(super) fn release(world: &mut World) -> Vec<Slide> {
     let mut slides = Vec::new();
     for at in 0..world.wires.len() {
         for node in contact_nodes(&world.wires[at]) {
             let wire = &world.wires[at];
             if is_pulled_off(world, at, node) || runs_out(wire, node) || is_crowded(wire, node) {
-                free(&mut world.wires[at], node);
+                detach(&mut world.wires[at], node);
                 slides.push(Slide {
                     wire: WireId(at),
                     node,
@@ -140,8 +146,9 @@ fn is_crowded(wire: &Wire, node: usize) -> bool {
     before && wire.rest_length(node - 1) < LEAST * LEAST * wire.resolution.length
 }
 
-/// Frees a node. It goes on with its wire, which slides against the direction in which arc length grows.
-pub(super) fn free(wire: &mut Wire, node: usize) {
+/// Frees a node. It goes on with its wire, which slides against the direction in which arc length
+/// grows.
+pub(super) fn detach(wire: &mut Wire, node: usize) {
     let [before, after] = directions(wire, node);
     let node = &mut wire.nodes[node];
     node.kind = NodeKind::Free;

@@ -1,18 +1,20 @@
-//! Wires against bodies, and bodies against each other: discretely, where a step starts (thesis, 3.2.4).
+//! Wires against bodies, and bodies against each other: discretely, where a step starts (thesis,
+//! 3.2.4).
 //!
-//! A place is a contact if the surfaces may meet within the step: nearer than both move and fall in it. A contact
-//! that is apart lets its places come as far as they touch, so what comes fast is stopped at the surface.
+//! A place is a contact if the surfaces may meet within the step: nearer than both move and fall in
+//! it. A contact that is apart lets its places come as far as they touch, so what comes fast is
+//! stopped at the surface.
 
 use std::collections::BTreeMap;
 
 use nalgebra::UnitQuaternion;
 
 use super::boxes::Boxes;
-use super::form::{Form, Placed};
-use super::patch::{along, contacts_of, join, leave_out_ends, things};
+use super::collision_shape::{CollisionShape, PlacedShape};
+use super::manifold::{along, contacts_of, join, leave_out_ends, things};
 use crate::broad::Method;
 use crate::query::Point;
-use crate::wire::contact::{Contact, Place};
+use crate::wire::contact::{ContactConstraint, ContactSite};
 use crate::wire::error::CollisionError;
 use crate::wire::model::{BodyId, WireId};
 use crate::wire::record::ContactRecord;
@@ -23,12 +25,12 @@ use crate::wire::world::World;
 pub(super) const KEYS: u64 = 3 << 62;
 
 /// The contacts with bodies of one world, from step to step.
-pub(super) struct Obstacles {
+pub(super) struct BodyContacts {
     boxes: Boxes,
     /// Of each body.
-    forms: Vec<Form>,
+    forms: Vec<CollisionShape>,
     /// The contacts of the last step.
-    last: Vec<Contact>,
+    last: Vec<ContactConstraint>,
     /// Keys given so far.
     given: u64,
     /// Places of wires at which a body pushed in the last step.
@@ -37,21 +39,21 @@ pub(super) struct Obstacles {
 
 /// What has a box.
 #[derive(Clone, Copy)]
-pub(super) enum Thing {
+pub(super) enum Collider {
     Body(BodyId),
     Segment(SegmentId),
 }
 
 /// A thing where the step starts, and how far it may come in it.
 struct Moving<'f> {
-    thing: Thing,
-    placed: Placed<'f>,
+    thing: Collider,
+    placed: PlacedShape<'f>,
     travel: f64,
 }
 
-impl Obstacles {
+impl BodyContacts {
     pub(super) fn new(method: Method) -> Self {
-        Obstacles {
+        BodyContacts {
             boxes: Boxes::new(method),
             forms: Vec::new(),
             last: Vec::new(),
@@ -70,7 +72,7 @@ impl Obstacles {
         &mut self,
         world: &World,
         friction: f64,
-    ) -> Result<(Vec<Contact>, usize), CollisionError> {
+    ) -> Result<(Vec<ContactConstraint>, usize), CollisionError> {
         self.learn(world)?;
         if world.bodies.is_empty() {
             return Ok((Vec::new(), 0));
@@ -98,7 +100,7 @@ impl Obstacles {
     /// Bodies that were added since the last step.
     fn learn(&mut self, world: &World) -> Result<(), CollisionError> {
         for body in self.forms.len()..world.bodies.len() {
-            let form = Form::of_body(&world.bodies[body].shape);
+            let form = CollisionShape::of_body(&world.bodies[body].shape);
             let body = BodyId(body);
             self.forms
                 .push(form.map_err(|_| CollisionError::Mesh { body })?);
@@ -107,7 +109,7 @@ impl Obstacles {
     }
 
     /// Gives each contact the key of the nearest one of the last step between the same things.
-    fn name(&mut self, contacts: &mut [Contact]) {
+    fn name(&mut self, contacts: &mut [ContactConstraint]) {
         let mut known = Known::default();
         for contact in self.last.drain(..) {
             known.add(contact);
@@ -125,8 +127,8 @@ impl Obstacles {
     pub(super) fn note(&mut self, records: &[ContactRecord]) {
         self.pushed.clear();
         for record in records {
-            let Contact { key, a, .. } = record.contact;
-            if let (Place::Wire { wire, arc }, true) =
+            let ContactConstraint { key, a, .. } = record.contact;
+            if let (ContactSite::Wire { wire, arc }, true) =
                 (a, key > KEYS && record.normal_force() > 0.0)
             {
                 self.pushed.push((wire, arc));
@@ -159,13 +161,13 @@ impl Obstacles {
 struct Known {
     /// Those on wires: arc length as bits, which ascend as it does, then a number, and the key.
     on_wires: BTreeMap<[usize; 3], BTreeMap<(u64, usize), u64>>,
-    between_bodies: BTreeMap<[usize; 3], Vec<Contact>>,
+    between_bodies: BTreeMap<[usize; 3], Vec<ContactConstraint>>,
 }
 
 impl Known {
-    fn add(&mut self, contact: Contact) {
+    fn add(&mut self, contact: ContactConstraint) {
         let things = things(&contact);
-        if let Place::Wire { arc, .. } = contact.a {
+        if let ContactSite::Wire { arc, .. } = contact.a {
             let keys = self.on_wires.entry(things).or_default();
             keys.insert((arc.to_bits(), keys.len()), contact.key);
         } else {
@@ -175,8 +177,8 @@ impl Known {
     }
 
     /// Takes the key of the contact that is nearest to this one.
-    fn take_nearest(&mut self, contact: &Contact) -> Option<u64> {
-        let Place::Wire { arc, .. } = contact.a else {
+    fn take_nearest(&mut self, contact: &ContactConstraint) -> Option<u64> {
+        let ContactSite::Wire { arc, .. } = contact.a else {
             let contacts = self.between_bodies.get_mut(&things(contact))?;
             let distance = |at: &usize| along(&contacts[*at].a, &contact.a);
             let all = 0..contacts.len();
@@ -194,7 +196,7 @@ impl Known {
 }
 
 /// All segments, each as a shape around its middle.
-fn segments(world: &World) -> Vec<(SegmentId, Form)> {
+fn segments(world: &World) -> Vec<(SegmentId, CollisionShape)> {
     let all = world.wires.iter().enumerate().flat_map(|(w, wire)| {
         let wire_id = WireId(w);
         (0..wire.segments.len()).map(move |segment| {
@@ -202,15 +204,16 @@ fn segments(world: &World) -> Vec<(SegmentId, Form)> {
             SegmentId { wire, segment }
         })
     });
-    let form = |id: SegmentId| Form::of_segment(&id.ends(world), id.of(world).material.radius);
+    let form =
+        |id: SegmentId| CollisionShape::of_segment(&id.ends(world), id.of(world).material.radius);
     all.map(|id| (id, form(id))).collect()
 }
 
 /// Bodies, then segments, with the way that each may come in the step: at its speed and falling.
 fn moving<'f>(
     world: &World,
-    forms: &'f [Form],
-    segments: &'f [(SegmentId, Form)],
+    forms: &'f [CollisionShape],
+    segments: &'f [(SegmentId, CollisionShape)],
 ) -> Vec<Moving<'f>> {
     let step = world.settings.step;
     let fall = world.settings.gravity.norm() * step;
@@ -228,7 +231,7 @@ fn moving<'f>(
         };
         let falling = if body.dynamic { fall } else { 0.0 };
         Moving {
-            thing: Thing::Body(BodyId(b)),
+            thing: Collider::Body(BodyId(b)),
             placed: form.at(&body.position, &body.orientation),
             travel: step * (velocity.norm() + spin.norm() * extent + falling),
         }
@@ -237,7 +240,7 @@ fn moving<'f>(
         let [start, end] = id.ends(world);
         let speed = id.nodes(world).map(|node| node.velocity.norm());
         Moving {
-            thing: Thing::Segment(*id),
+            thing: Collider::Segment(*id),
             placed: form.at(&nalgebra::center(&start, &end), &UnitQuaternion::identity()),
             travel: step * (speed[0].max(speed[1]) + fall),
         }
@@ -245,17 +248,20 @@ fn moving<'f>(
     bodies.chain(segments).collect()
 }
 
-/// Whether two things are a pair to test: a segment and a body of which it is no end and that does not carry both of its nodes, or
-/// two bodies of which forces move one.
-fn is_pair(world: &World, pair: [Thing; 2]) -> bool {
+/// Whether two things are a pair to test: a segment and a body of which it is no end and that does
+/// not carry both of its nodes, or two bodies of which forces move one.
+fn is_pair(world: &World, pair: [Collider; 2]) -> bool {
     match pair {
-        [Thing::Body(a), Thing::Body(b)] => [a, b].iter().any(|body| world.bodies[body.0].dynamic),
-        [Thing::Body(body), Thing::Segment(id)] | [Thing::Segment(id), Thing::Body(body)] => {
-            let rides = id.nodes(world).map(|node| node.kind.rides(body));
-            let is_end = id.nodes(world).iter().any(|node| node.kind.is_eye(body));
-            !is_end && rides != [true; 2]
+        [Collider::Body(a), Collider::Body(b)] => {
+            [a, b].iter().any(|body| world.bodies[body.0].dynamic)
         }
-        [Thing::Segment(_), Thing::Segment(_)] => false,
+        [Collider::Body(body), Collider::Segment(id)]
+        | [Collider::Segment(id), Collider::Body(body)] => {
+            let is_on = id.nodes(world).map(|node| node.kind.is_on(body));
+            let is_end = id.nodes(world).iter().any(|node| node.kind.is_eye(body));
+            !is_end && is_on != [true; 2]
+        }
+        [Collider::Segment(_), Collider::Segment(_)] => false,
     }
 }
 

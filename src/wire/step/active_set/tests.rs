@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::*;
 use crate::query::Point;
-use crate::wire::step::law::Piece;
+use crate::wire::step::constitutive::Branch;
 use crate::wire::step::order::by_wires;
 use crate::wire::{Material, Settings, Stop, Vector, WirePlan, World};
 
@@ -13,7 +13,8 @@ fn vector(rng: &mut ChaCha8Rng, size: f64) -> Vector {
     Vector::from_fn(|_, _| rng.random_range(-size..=size))
 }
 
-/// A chain of a few segments, some longer and some shorter than unstretched, with velocities of their own.
+/// A chain of a few segments, some longer and some shorter than unstretched, with velocities of
+/// their own.
 fn chain(rng: &mut ChaCha8Rng) -> World {
     let mut world = World::new(Settings::default()).unwrap();
     let mut point = Point::origin();
@@ -36,16 +37,17 @@ fn chain(rng: &mut ChaCha8Rng) -> World {
     world
 }
 
-/// The solution for the one guess of which segments pull that it does not contradict, of all there are.
+/// The solution for the one guess of which segments pull that it does not violates_branches, of all
+/// there are.
 fn by_guessing(system: &mut System) -> Vec<f64> {
     let mut found = Vec::new();
     for guess in 0..1_u32 << system.rows.len() {
         for (bit, row) in system.rows.iter_mut().enumerate() {
-            row.piece = [Piece::NONE, Piece::FULL][guess as usize >> bit & 1];
+            row.branch = [Branch::INACTIVE, Branch::ACTIVE][guess as usize >> bit & 1];
         }
         system.factor().unwrap();
         let (x, _) = system.solve(&[]).unwrap();
-        if !contradict(&system.rows, &x) {
+        if !violates_branches(&system.rows, &x) {
             found.push(x);
         }
     }
@@ -64,8 +66,8 @@ fn pulling_segments_are_those_of_the_only_guess_that_holds() {
         // From whatever velocities the search starts.
         for speed in [0.0, 1.0, 1000.0] {
             let start = expected.iter().map(|_| rng.random_range(-1.0..1.0) * speed);
-            let pulled = pull(&mut system, &[], start.collect()).unwrap();
-            more_than_one += usize::from(pulled.tries > 1);
+            let pulled = find_active_set(&mut system, &[], start.collect()).unwrap();
+            more_than_one += usize::from(pulled.factorisations > 1);
             let difference = pulled.x.iter().zip(&expected).map(|(a, b)| (a - b).abs());
             assert!(difference.fold(0.0, f64::max) < 1e-9);
         }
@@ -88,7 +90,7 @@ fn slack_chains_of_thousands_of_segments_are_stepped_until_they_are_taut() {
     }
     let mut most = 0;
     for _ in 0..60 {
-        most = most.max(world.step(&[]).unwrap().solver.tries);
+        most = most.max(world.step(&[]).unwrap().solver.factorisations);
     }
     let pulling = world.wires()[0]
         .segments()

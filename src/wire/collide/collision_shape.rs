@@ -1,7 +1,7 @@
 //! Shapes in the terms of the collision library, and where two of them touch.
 //!
-//! A piece of wire is a capsule (thesis, table 3.2); triangle meshes bring their own hierarchy of volumes, the middle
-//! phase. The library is built without operations that depend on the machine.
+//! A piece of wire is a capsule (thesis, table 3.2); triangle meshes bring their own hierarchy of
+//! volumes, the middle phase. The library is built without operations that depend on the machine.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -21,7 +21,7 @@ use crate::wire::Vector;
 use crate::wire::model::{Mesh, Shape};
 
 /// A shape in its own frame.
-pub(super) struct Form {
+pub(super) struct CollisionShape {
     shape: SharedShape,
     /// From the library's frame to its own.
     turned: Rotation,
@@ -30,13 +30,13 @@ pub(super) struct Form {
 }
 
 /// A shape at its place.
-pub(super) struct Placed<'f> {
-    form: &'f Form,
+pub(super) struct PlacedShape<'f> {
+    form: &'f CollisionShape,
     pose: Pose,
 }
 
 /// Where two shapes touch, or nearly do.
-pub(super) struct Spot {
+pub(super) struct ManifoldPoint {
     /// On the surface of each.
     pub(super) points: [Point; 2],
     /// Unit normal from the second to the first.
@@ -45,7 +45,7 @@ pub(super) struct Spot {
     pub(super) gap: f64,
 }
 
-impl Form {
+impl CollisionShape {
     /// The shape of a body, in the body's frame.
     pub(super) fn of_body(shape: &Shape) -> Result<Self, TriMeshBuilderError> {
         let mut turned = Rotation::IDENTITY;
@@ -74,7 +74,7 @@ impl Form {
                 sphere.center.length() + sphere.radius
             }
         };
-        Ok(Form {
+        Ok(CollisionShape {
             shape,
             turned,
             extent,
@@ -85,7 +85,7 @@ impl Form {
     pub(super) fn of_segment(ends: &[Point; 2], radius: f64) -> Self {
         let half = (ends[1] - ends[0]) / 2.0;
         let shape = SharedShape::capsule(to_library(&-half), to_library(&half), radius);
-        Form {
+        CollisionShape {
             shape,
             turned: Rotation::IDENTITY,
             extent: half.norm() + radius,
@@ -93,11 +93,15 @@ impl Form {
     }
 
     /// This shape where its frame is.
-    pub(super) fn at(&self, position: &Point, orientation: &UnitQuaternion<f64>) -> Placed<'_> {
+    pub(super) fn at(
+        &self,
+        position: &Point,
+        orientation: &UnitQuaternion<f64>,
+    ) -> PlacedShape<'_> {
         let q = orientation.coords;
         let rotation = Rotation::from_xyzw(q.x, q.y, q.z, q.w);
         let pose = Pose::from_parts(to_library(&position.coords), rotation * self.turned);
-        Placed { form: self, pose }
+        PlacedShape { form: self, pose }
     }
 }
 
@@ -110,7 +114,7 @@ fn trimesh(mesh: &Mesh) -> Result<SharedShape, TriMeshBuilderError> {
     SharedShape::trimesh_with_flags(vertices, triangles.collect(), flags)
 }
 
-impl Placed<'_> {
+impl PlacedShape<'_> {
     /// A box that holds it and everything nearer than `margin`; all of space for a plane.
     pub(super) fn aabb(&self, margin: f64) -> Result<Aabb, BroadError> {
         if self.form.extent.is_infinite() {
@@ -123,8 +127,8 @@ impl Placed<'_> {
         Aabb::new(low.into(), high.into())
     }
 
-    /// Whether two pieces of a midline, from the first corner over the second to the third, do not meet it, but the triangle does that
-    /// straightening them sweeps.
+    /// Whether two pieces of a midline, from the first corner over the second to the third, do not
+    /// meet it, but the triangle does that straightening them sweeps.
     pub(super) fn is_swept(&self, corners: &[Point; 3]) -> bool {
         let [a, b, c] = corners.map(|corner| to_library(&corner.coords));
         let before = [Segment::new(a, b), Segment::new(b, c)];
@@ -139,8 +143,9 @@ impl Placed<'_> {
         met.is_ok_and(|intersection| intersection.intersecting)
     }
 
-    /// Where the surfaces are closer than `reach`: one to four places on convex shapes, more on others.
-    pub(super) fn touches(&self, other: &Self, reach: f64) -> Vec<Spot> {
+    /// Where the surfaces are closer than `reach`: one to four places on convex shapes, more on
+    /// others.
+    pub(super) fn touches(&self, other: &Self, reach: f64) -> Vec<ManifoldPoint> {
         let mut manifolds: Vec<ContactManifold<(), ()>> = Vec::new();
         let between = self.pose.inv_mul(&other.pose);
         let shapes = [self, other].map(|placed| &*placed.form.shape);
@@ -169,7 +174,7 @@ impl Placed<'_> {
         manifold: &ContactManifold<(), ()>,
         point: &TrackedContact<()>,
         reach: f64,
-    ) -> Option<Spot> {
+    ) -> Option<ManifoldPoint> {
         let normal = -from_library(self.pose.rotation * manifold.local_n1);
         let points = [
             self.pose.transform_point(point.local_p1),
@@ -178,7 +183,7 @@ impl Placed<'_> {
         // The library may name points of a face that are farther away.
         let near = point.dist <= reach;
         let is_unit = (normal.norm() - 1.0).abs() < 1e-6;
-        (near && is_unit).then(|| Spot {
+        (near && is_unit).then(|| ManifoldPoint {
             points: points.map(|point| Point::from(from_library(point))),
             normal: normal.normalize(),
             gap: point.dist,

@@ -45,15 +45,17 @@ fn minimum(rounds: usize, at: impl Fn(f64) -> f64) -> f64 {
 
 /// The least distance on a segment: it is convex along it.
 fn least(shape: &Shape, [a, b]: &[Point; 2]) -> f64 {
-    minimum(200, |share| {
-        distance(shape, &a.coords.lerp(&b.coords, share))
+    minimum(200, |parameter| {
+        distance(shape, &a.coords.lerp(&b.coords, parameter))
     })
 }
 
-/// The least distance on a triangle, whose second corner is `b`: of pieces between its sides from there.
+/// The least distance on a triangle, whose second corner is `b`: of pieces between its sides from
+/// there.
 fn least_on_triangle(shape: &Shape, [a, b, c]: &[Point; 3]) -> f64 {
-    let piece = |share: f64| [a, c].map(|end| Point::from(b.coords.lerp(&end.coords, share)));
-    minimum(60, |share| least(shape, &piece(share)))
+    let piece =
+        |parameter: f64| [a, c].map(|end| Point::from(b.coords.lerp(&end.coords, parameter)));
+    minimum(60, |parameter| least(shape, &piece(parameter)))
 }
 
 fn shapes() -> [Shape; 5] {
@@ -78,10 +80,10 @@ fn shapes() -> [Shape; 5] {
 const RADIUS: f64 = 0.05;
 
 /// Where a segment touches a shape at the origin.
-fn touches(shape: &Shape, ends: &[Point; 2], reach: f64) -> Vec<Spot> {
+fn touches(shape: &Shape, ends: &[Point; 2], reach: f64) -> Vec<ManifoldPoint> {
     let (body, wire) = (
-        Form::of_body(shape).unwrap(),
-        Form::of_segment(ends, RADIUS),
+        CollisionShape::of_body(shape).unwrap(),
+        CollisionShape::of_segment(ends, RADIUS),
     );
     let middle = nalgebra::center(&ends[0], &ends[1]);
     let turned = UnitQuaternion::identity();
@@ -89,7 +91,7 @@ fn touches(shape: &Shape, ends: &[Point; 2], reach: f64) -> Vec<Spot> {
         .touches(&body.at(&Point::origin(), &turned), reach)
 }
 
-fn deepest(spots: &[Spot]) -> f64 {
+fn deepest(spots: &[ManifoldPoint]) -> f64 {
     spots
         .iter()
         .fold(f64::INFINITY, |gap, spot| gap.min(spot.gap))
@@ -133,10 +135,11 @@ proptest! {
             if swept.abs().min(before.abs()) < 1e-4 {
                 continue;
             }
-            let body = Form::of_body(&shape).unwrap();
+            let body = CollisionShape::of_body(&shape).unwrap();
             let body = body.at(&Point::origin(), &UnitQuaternion::identity());
             let expected = swept < 0.0 && before > 0.0;
-            prop_assert_eq!(body.is_swept(&[a, b, c]), expected, "{:?} {} {}", shape, swept, before);
+            let found = body.is_swept(&[a, b, c]);
+            prop_assert_eq!(found, expected, "{:?} {} {}", shape, swept, before);
         }
         // Of a mesh there is a surface only.
         let half = Vector::new(0.3, 0.5, 0.7);
@@ -144,7 +147,7 @@ proptest! {
         let before = pieces.map(|piece| least(&shape, &piece));
         if before[0].min(before[1]) > 1e-4 {
             let body = |shape: &Shape| {
-                let body = Form::of_body(shape).unwrap();
+                let body = CollisionShape::of_body(shape).unwrap();
                 let (at, turned) = (Point::new(0.1, 0.0, 0.0), UnitQuaternion::identity());
                 body.at(&at, &turned).is_swept(&[a, b, c])
             };

@@ -1,14 +1,15 @@
-//! The solution of a step: velocities, multipliers, contact impulses, which segments of chains pull, and which wires slide.
+//! The solution of a step: velocities, multipliers, contact impulses, which segments of chains
+//! pull, and which wires slide.
 
-use super::capstan::{bounds_lack, stop_slip};
-use super::friction::{Swept, lack, sweep};
+use super::active_set::{find_active_set, violates_branches};
+use super::capstan::{bound_residual, stop_slip};
+use super::friction::{Swept, contact_residual, sweep};
+use super::multipliers;
 use super::order::{self, Block};
-use super::slack::{contradict, pull};
 use super::system::System;
-use super::touching;
 use crate::wire::Vector;
 use crate::wire::clock::Clock;
-use crate::wire::contact::Contact;
+use crate::wire::contact::ContactConstraint;
 use crate::wire::error::Reason;
 use crate::wire::record::{Phases, SolverRecord};
 use crate::wire::sparse::Structure;
@@ -25,16 +26,17 @@ pub(super) struct Candidate {
 }
 
 impl World {
-    /// Solves for velocities, multipliers and contact impulses; finds out which segments of chains pull and which wires
-    /// slide over contact nodes, starting from those that did in the last step.
-    pub(super) fn settle(
+    /// Solves for velocities, multipliers and contact impulses; finds out which segments of chains
+    /// pull and which wires slide over contact nodes, starting from those that did in the last
+    /// step.
+    pub(super) fn solve_step(
         &self,
         structure: &mut Option<Structure>,
-        contacts: &[Contact],
+        contacts: &[ContactConstraint],
         phases: &mut Phases,
     ) -> Result<(System, Candidate), Reason> {
         let (system, mut candidate) = self.solution(structure, contacts, phases)?;
-        candidate.solver.slide_residual = bounds_lack(&system.rows, &candidate.x);
+        candidate.solver.slide_residual = bound_residual(&system.rows, &candidate.x);
         stop_slip(&system.rows, &mut candidate.x);
         Ok((system, candidate))
     }
@@ -43,7 +45,7 @@ impl World {
     fn solution(
         &self,
         structure: &mut Option<Structure>,
-        contacts: &[Contact],
+        contacts: &[ContactConstraint],
         phases: &mut Phases,
     ) -> Result<(System, Candidate), Reason> {
         let start: Vec<Vector> = contacts
@@ -51,18 +53,18 @@ impl World {
             .map(|contact| self.cache.warm_start.impulse(contact.key))
             .collect();
         let mut clock = Clock::start();
-        let by_ties = order::by_ties(self, contacts);
+        let by_least_degree = order::by_least_degree(self, contacts);
         phases.assembly += clock.lap();
-        if let Some(order) = by_ties {
+        if let Some(order) = by_least_degree {
             let mut system = self.assemble(&order, structure, phases);
-            match self.settle_touching(&mut system, contacts, &start, phases) {
+            match self.solve_with_implicit_contacts(&mut system, contacts, &start, phases) {
                 Some(candidate) => return Ok((system, candidate)),
                 // What does not come to an end is swept.
                 None => *structure = system.into_structure(),
             }
         }
         let mut system = self.assemble(&order::by_wires(self), structure, phases);
-        let candidate = self.settle_swept(&mut system, contacts, &start, phases)?;
+        let candidate = self.solve_with_swept_contacts(&mut system, contacts, &start, phases)?;
         Ok((system, candidate))
     }
 
@@ -78,13 +80,13 @@ impl World {
         system
     }
 
-    /// Contacts are swept while the same segments pull; then it is found which pull and slide under these impulses, until
-    /// that changes nothing. Friction may let it change for ever: after [`ROUNDS`] the impulses are held, and what
-    /// contacts lack then is in the record.
-    fn settle_swept(
+    /// Contacts are swept while the same segments pull; then it is found which pull and slide under
+    /// these impulses, until that changes nothing. Friction may let it change for ever: after
+    /// [`ROUNDS`] the impulses stay as they are, and the record has the residual of the contacts.
+    fn solve_with_swept_contacts(
         &self,
         system: &mut System,
-        contacts: &[Contact],
+        contacts: &[ContactConstraint],
         start: &[Vector],
         phases: &mut Phases,
     ) -> Result<Candidate, Reason> {
@@ -92,55 +94,56 @@ impl World {
         system.factor()?;
         phases.factor += clock.lap();
         let mut candidate = self.solve(system, contacts, start, phases)?;
-        let mut tries = 1;
+        let mut factorisations = 1;
         for round in 1..=ROUNDS {
-            if !contradict(&system.rows, &candidate.x) {
+            if !violates_branches(&system.rows, &candidate.x) {
                 break;
             }
             clock.lap();
-            let pulled = pull(system, &candidate.swept.columns, candidate.x)?;
+            let active_set = find_active_set(system, &candidate.swept.columns, candidate.x)?;
             phases.factor += clock.lap();
-            tries += pulled.tries;
+            factorisations += active_set.factorisations;
             if round < ROUNDS && !contacts.is_empty() {
                 let impulses = candidate.swept.impulses;
                 candidate = self.solve(system, contacts, &impulses, phases)?;
                 continue;
             }
-            (candidate.x, candidate.solver.residual) = (pulled.x, pulled.residual);
+            (candidate.x, candidate.solver.residual) = (active_set.x, active_set.backward_error);
             if !contacts.is_empty() {
                 let (free, _) = system.solve(&[])?;
                 let impulses = &candidate.swept.impulses;
-                let residual = lack(self, system, contacts, &free, impulses);
+                let residual = contact_residual(self, system, contacts, &free, impulses);
                 candidate.solver.contact_residual = residual;
             }
             break;
         }
-        candidate.solver.tries = tries;
+        candidate.solver.factorisations = factorisations;
         Ok(candidate)
     }
 
-    /// With the contacts in the system, from impulses that are foretold. None if that does not come to an end.
-    fn settle_touching(
+    /// With the contacts in the system, from impulses that are predicted. None if that does not
+    /// come to an end.
+    fn solve_with_implicit_contacts(
         &self,
         system: &mut System,
-        contacts: &[Contact],
-        foretold: &[Vector],
+        contacts: &[ContactConstraint],
+        predicted: &[Vector],
         phases: &mut Phases,
     ) -> Option<Candidate> {
         let mut clock = Clock::start();
-        system.take(self, contacts, foretold);
-        let found = touching::find(system, system.start(self), self.settings.contact_tolerance);
-        let touching = std::mem::take(&mut system.implicit);
+        system.take(self, contacts, predicted);
+        let found = multipliers::solve(system, system.start(self), self.settings.contact_tolerance);
+        let implicit = std::mem::take(&mut system.implicit);
         phases.contacts += clock.lap();
         let found = found.ok()?;
         let solver = SolverRecord {
-            residual: found.residual,
-            tries: found.tries,
+            residual: found.backward_error,
+            factorisations: found.factorisations,
             sweeps: 0,
-            contact_residual: found.lack,
+            contact_residual: found.contact_residual,
             slide_residual: 0.0,
         };
-        let impulses = touching
+        let impulses = implicit
             .iter()
             .map(|contact| contact.world_impulse(&found.x));
         let swept = Swept {
@@ -158,7 +161,7 @@ impl World {
     fn solve(
         &self,
         system: &System,
-        contacts: &[Contact],
+        contacts: &[ContactConstraint],
         start: &[Vector],
         phases: &mut Phases,
     ) -> Result<Candidate, Reason> {
@@ -173,7 +176,7 @@ impl World {
         }
         let solver = SolverRecord {
             residual,
-            tries: 1,
+            factorisations: 1,
             sweeps: swept.sweeps,
             contact_residual: swept.residual,
             slide_residual: 0.0,

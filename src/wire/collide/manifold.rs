@@ -1,31 +1,31 @@
-//! From where surfaces touch to contacts: which places count, and what they are between.
+//! Reduces the contact manifolds of pairs to the contacts that the solver gets.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::form::Spot;
-use super::obstacle::Thing;
+use super::body_contacts::Collider;
+use super::collision_shape::ManifoldPoint;
 use crate::query::Point;
 use crate::wire::Vector;
-use crate::wire::contact::{Contact, Place};
+use crate::wire::contact::{ContactConstraint, ContactSite};
 use crate::wire::model::{BodyId, NodeKind, WireId};
 use crate::wire::site::SegmentId;
 use crate::wire::world::World;
 
 /// A contact and the segment that it is on, if it is on one.
-pub(super) type Found = (Option<SegmentId>, Contact);
+pub(super) type Found = (Option<SegmentId>, ContactConstraint);
 
-/// Adds the contacts of one pair. On a segment, a place between two others counts only if it is deeper, and none in the half that a
-/// contact node on this body ends: the node holds that.
+/// Adds the contacts of one pair. On a segment, a place between two others counts only if it is
+/// deeper, and none in the half that a contact node on this body ends: the node holds that.
 pub(super) fn contacts_of(
     world: &World,
-    [a, b]: [Thing; 2],
-    spots: Vec<Spot>,
+    [a, b]: [Collider; 2],
+    spots: Vec<ManifoldPoint>,
     friction: f64,
     found: &mut Vec<Found>,
 ) {
     const DEEPER: f64 = 1e-9;
-    let Thing::Body(other) = b else { return };
-    let contacts = spots.iter().map(|spot| Contact {
+    let Collider::Body(other) = b else { return };
+    let contacts = spots.iter().map(|spot| ContactConstraint {
         key: 0,
         a: place(world, a, spot.points[0]),
         b: on_body(world, other, spot.points[1]),
@@ -33,12 +33,12 @@ pub(super) fn contacts_of(
         gap: spot.gap,
         friction,
     });
-    let mut contacts: Vec<Contact> = contacts.collect();
-    let Thing::Segment(id) = a else {
+    let mut contacts: Vec<ContactConstraint> = contacts.collect();
+    let Collider::Segment(id) = a else {
         found.extend(contacts.into_iter().map(|contact| (None, contact)));
         return;
     };
-    contacts.retain(|contact| !is_held(world, id, other, arc(contact)));
+    contacts.retain(|contact| !is_beside_contact_node(world, id, other, arc(contact)));
     contacts.sort_by(|a, b| arc(a).total_cmp(&arc(b)));
     let outer = [contacts.first(), contacts.last()];
     let outer = outer.map(|contact| contact.map_or(0.0, |contact| contact.gap));
@@ -52,51 +52,56 @@ pub(super) fn contacts_of(
 }
 
 /// Whether a place of a segment is in the half that a node on a body ends.
-fn is_held(world: &World, id: SegmentId, body: BodyId, arc: f64) -> bool {
+fn is_beside_contact_node(world: &World, id: SegmentId, body: BodyId, arc: f64) -> bool {
     let [start, end] = id.nodes(world);
     let nearer = if arc - start.arc < end.arc - arc {
         start
     } else {
         end
     };
-    nearer.kind.rides(body)
+    nearer.kind.is_on(body)
 }
 
 /// The place of a point that is on the surface of a thing.
-fn place(world: &World, thing: Thing, point: Point) -> Place {
+fn place(world: &World, thing: Collider, point: Point) -> ContactSite {
     match thing {
-        Thing::Body(body) => on_body(world, body, point),
-        Thing::Segment(id) => {
+        Collider::Body(body) => on_body(world, body, point),
+        Collider::Segment(id) => {
             let [start, end] = id.ends(world);
             let way = end - start;
-            let share = (point - start).dot(&way) / way.norm_squared();
-            let share = if share.is_finite() { share } else { 0.0 };
-            id.site(world, share).into()
+            let parameter = (point - start).dot(&way) / way.norm_squared();
+            let parameter = if parameter.is_finite() {
+                parameter
+            } else {
+                0.0
+            };
+            id.site(world, parameter).into()
         }
     }
 }
 
-fn on_body(world: &World, id: BodyId, point: Point) -> Place {
+fn on_body(world: &World, id: BodyId, point: Point) -> ContactSite {
     let body = &world.bodies[id.0];
     let local = body
         .orientation
         .inverse_transform_vector(&(point - body.position));
-    Place::Body { body: id, local }
+    ContactSite::Body { body: id, local }
 }
 
-fn arc(contact: &Contact) -> f64 {
+fn arc(contact: &ContactConstraint) -> f64 {
     match contact.a {
-        Place::Wire { arc, .. } => arc,
+        ContactSite::Wire { arc, .. } => arc,
         _ => 0.0,
     }
 }
 
-/// Leaves out the ends of wires: from a node that is fixed to a body, whatever of the wire penetrates this body without
-/// a gap is one with it. So a wire may come from a point inside of a body.
+/// Leaves out the ends of wires: from a node that is fixed to a body, whatever of the wire
+/// penetrates this body without a gap is one with it. So a wire may come from a point inside of a
+/// body.
 pub(super) fn leave_out_ends(world: &World, found: &mut Vec<Found>) {
     let mut deep: BTreeSet<(BodyId, SegmentId)> = BTreeSet::new();
     for (segment, contact) in found.iter() {
-        if let (Some(segment), Place::Body { body, .. }, true) =
+        if let (Some(segment), ContactSite::Body { body, .. }, true) =
             (segment, contact.b, contact.gap < 0.0)
         {
             deep.insert((body, *segment));
@@ -118,18 +123,18 @@ pub(super) fn leave_out_ends(world: &World, found: &mut Vec<Found>) {
         }
     }
     found.retain(|(segment, contact)| match (segment, contact.b) {
-        (Some(segment), Place::Body { body, .. }) => !ends.contains(&(body, *segment)),
+        (Some(segment), ContactSite::Body { body, .. }) => !ends.contains(&(body, *segment)),
         _ => true,
     });
 }
 
 /// At a node both segments name one place: the deeper one stays.
-pub(super) fn join(found: Vec<Found>) -> Vec<Contact> {
+pub(super) fn join(found: Vec<Found>) -> Vec<ContactConstraint> {
     const SAME_DIRECTION: f64 = 0.99;
-    let mut joined: Vec<Contact> = Vec::with_capacity(found.len());
+    let mut joined: Vec<ContactConstraint> = Vec::with_capacity(found.len());
     let mut at: BTreeMap<([usize; 3], u64), usize> = BTreeMap::new();
     for (_, contact) in found {
-        let Place::Wire { arc, .. } = contact.a else {
+        let ContactSite::Wire { arc, .. } = contact.a else {
             joined.push(contact);
             continue;
         };
@@ -149,21 +154,21 @@ pub(super) fn join(found: Vec<Found>) -> Vec<Contact> {
 }
 
 /// What a contact is between: whether A is a wire, its number, the number of the body B.
-pub(super) fn things(contact: &Contact) -> [usize; 3] {
-    let number = |place: &Place| match *place {
-        Place::World => [0, 0],
-        Place::Body { body, .. } => [0, body.0],
-        Place::Wire { wire, .. } => [1, wire.0],
+pub(super) fn things(contact: &ContactConstraint) -> [usize; 3] {
+    let number = |place: &ContactSite| match *place {
+        ContactSite::World => [0, 0],
+        ContactSite::Body { body, .. } => [0, body.0],
+        ContactSite::Wire { wire, .. } => [1, wire.0],
     };
     let ([kind, a], [_, b]) = (number(&contact.a), number(&contact.b));
     [kind, a, b]
 }
 
 /// How far two places of one thing are apart, in m.
-pub(super) fn along(a: &Place, b: &Place) -> f64 {
+pub(super) fn along(a: &ContactSite, b: &ContactSite) -> f64 {
     match (a, b) {
-        (Place::Wire { arc: a, .. }, Place::Wire { arc: b, .. }) => (a - b).abs(),
-        (Place::Body { local: a, .. }, Place::Body { local: b, .. }) => {
+        (ContactSite::Wire { arc: a, .. }, ContactSite::Wire { arc: b, .. }) => (a - b).abs(),
+        (ContactSite::Body { local: a, .. }, ContactSite::Body { local: b, .. }) => {
             Vector::metric_distance(a, b)
         }
         _ => f64::INFINITY,

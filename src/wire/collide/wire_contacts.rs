@@ -1,18 +1,19 @@
 //! Contacts between wires, from step to step.
 //!
-//! A contact is known by its places on the material, never by segment numbers, which change. Each step it
-//! goes to the closest points of its two segments; at an end it hands over to the neighbour if that is
-//! closer and has no contact of its own. Two within a diameter of each other are one. Its normal is the direction between the closest points where the
-//! step starts, reversed while the wires are on each other's wrong side. That side is counted by
-//! crossings, never read from positions: it is how thesis mode brings wires back.
+//! A contact is known by its places on the material, never by segment numbers, which change. Each
+//! step it goes to the closest points of its two segments; at an end it hands over to the neighbour
+//! if that is closer and has no contact of its own. Two within a diameter of each other are one.
+//! Its normal is the direction between the closest points where the step starts, reversed while the
+//! wires are on each other's wrong side. That side is counted by crossings, never read from
+//! positions: it is how thesis mode brings wires back.
 
 use std::collections::BTreeSet;
 
 use super::segment::{Closest, direction, joined, pair_at, reach};
 use crate::wire::Vector;
-use crate::wire::contact::Contact;
+use crate::wire::contact::ContactConstraint;
 use crate::wire::record::ContactRecord;
-use crate::wire::site::{SegmentId, Site};
+use crate::wire::site::{SegmentId, WireSite};
 use crate::wire::world::World;
 
 /// Where the keys of contacts between wires start.
@@ -20,9 +21,9 @@ const KEYS: u64 = 1 << 63;
 
 /// One contact.
 #[derive(Clone, Debug)]
-pub(super) struct Touch {
+pub(super) struct WireContact {
     pub(super) key: u64,
-    pub(super) sites: [Site; 2],
+    pub(super) sites: [WireSite; 2],
     /// The wires are on each other's wrong side.
     pub(super) wrong: bool,
     /// The last normal, from B to A.
@@ -35,18 +36,18 @@ pub(super) struct Touch {
 
 /// All contacts, oldest first.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Touches {
-    list: Vec<Touch>,
+pub(super) struct WireContacts {
+    list: Vec<WireContact>,
     made: u64,
 }
 
 type PairSet = BTreeSet<[SegmentId; 2]>;
 
-impl Touches {
+impl WireContacts {
     /// A new contact, not yet among the others.
-    pub(super) fn make(&mut self, sites: [Site; 2], normal: Vector) -> Touch {
+    pub(super) fn make(&mut self, sites: [WireSite; 2], normal: Vector) -> WireContact {
         self.made += 1;
-        Touch {
+        WireContact {
             key: KEYS + self.made,
             sites,
             wrong: false,
@@ -56,7 +57,8 @@ impl Touches {
         }
     }
 
-    /// Moves every contact to where the wires are now closest; contacts that come to one place become one.
+    /// Moves every contact to where the wires are now closest; contacts that come to one place
+    /// become one.
     pub(super) fn refresh(&mut self, world: &World) {
         let mut taken: PairSet = self.list.iter().filter_map(|t| t.pair(world)).collect();
         for mut touch in std::mem::take(&mut self.list) {
@@ -75,12 +77,12 @@ impl Touches {
     }
 
     /// What the solver is given.
-    pub(super) fn contacts(&self, friction: f64) -> impl Iterator<Item = Contact> {
+    pub(super) fn contacts(&self, friction: f64) -> impl Iterator<Item = ContactConstraint> {
         self.list.iter().map(move |t| t.contact(friction))
     }
 
     /// Adds contacts, at most one for each pair of segments and each place.
-    pub(super) fn add(&mut self, world: &World, new: impl IntoIterator<Item = Touch>) {
+    pub(super) fn add(&mut self, world: &World, new: impl IntoIterator<Item = WireContact>) {
         let mut taken: PairSet = self.list.iter().filter_map(|t| t.pair(world)).collect();
         for touch in new {
             let free = touch.pair(world).is_some_and(|pair| taken.insert(pair));
@@ -96,13 +98,17 @@ impl Touches {
     }
 
     /// The contact nearest to two places along the wires, not farther than their segments are long.
-    pub(super) fn nearest(&mut self, world: &World, sites: &[Site; 2]) -> Option<&mut Touch> {
-        let length = |site: &Site| {
+    pub(super) fn nearest(
+        &mut self,
+        world: &World,
+        sites: &[WireSite; 2],
+    ) -> Option<&mut WireContact> {
+        let length = |site: &WireSite| {
             let segment = SegmentId::at(world, site)?;
             Some(segment.of(world).rest_length(segment.segment))
         };
         let most = length(&sites[0])? + length(&sites[1])?;
-        let way = |touch: &Touch| {
+        let way = |touch: &WireContact| {
             let along = |k: usize| (touch.sites[k].arc - sites[k].arc).abs();
             let same = (0..2).all(|k| touch.sites[k].wire == sites[k].wire);
             same.then(|| along(0) + along(1)).filter(|way| *way <= most)
@@ -128,19 +134,20 @@ impl Touches {
 
     /// Whether a contact pushes on a wire strictly between two arc lengths.
     pub(super) fn pushes_between(&self, wire: usize, from: f64, to: f64) -> bool {
-        let inside = |site: &Site| site.wire.0 == wire && site.arc > from && site.arc < to;
+        let inside = |site: &WireSite| site.wire.0 == wire && site.arc > from && site.arc < to;
         let mut pushing = self.list.iter().filter(|touch| touch.pushing);
         pushing.any(|touch| touch.sites.iter().any(inside))
     }
 }
 
-impl Touch {
+impl WireContact {
     fn pair(&self, world: &World) -> Option<[SegmentId; 2]> {
         pair_at(world, &self.sites)
     }
 
-    /// Whether it is one contact with these places: not farther along either wire than they are thick.
-    fn is_at(&self, world: &World, sites: &[Site; 2]) -> bool {
+    /// Whether it is one contact with these places: not farther along either wire than they are
+    /// thick.
+    fn is_at(&self, world: &World, sites: &[WireSite; 2]) -> bool {
         let same = |k: usize| self.sites[k].wire == sites[k].wire;
         if !(same(0) && same(1)) {
             return false;
@@ -149,13 +156,13 @@ impl Touch {
         (0..2).all(|k| (self.sites[k].arc - sites[k].arc).abs() <= wires[0] + wires[1])
     }
 
-    fn contact(&self, friction: f64) -> Contact {
+    fn contact(&self, friction: f64) -> ContactConstraint {
         self.row(self.normal, self.gap, friction)
     }
 
     /// The contact with a normal and a gap.
-    pub(super) fn row(&self, normal: Vector, gap: f64, friction: f64) -> Contact {
-        Contact {
+    pub(super) fn row(&self, normal: Vector, gap: f64, friction: f64) -> ContactConstraint {
+        ContactConstraint {
             key: self.key,
             a: self.sites[0].into(),
             b: self.sites[1].into(),
@@ -177,12 +184,12 @@ impl Touch {
             taken.remove(&from);
             taken.insert(pair);
         }
-        let [u, v] = closest.shares;
+        let [u, v] = closest.parameters;
         self.sites = [pair[0].site(world, u), pair[1].site(world, v)];
-        if let Some(direction) = direction(&closest.apart) {
+        if let Some(direction) = direction(&closest.separation) {
             self.normal = if self.wrong { -direction } else { direction };
         }
-        self.gap = self.normal.dot(&closest.apart) - reach(world, pair);
+        self.gap = self.normal.dot(&closest.separation) - reach(world, pair);
     }
 }
 
@@ -196,7 +203,7 @@ fn hand_over(
     let step = |which: usize| {
         let count = pair[which].of(world).segments.len();
         let at = pair[which].segment;
-        let to = match closest.shares[which] {
+        let to = match closest.parameters[which] {
             0.0 => at.checked_sub(1),
             1.0 => Some(at + 1).filter(|&to| to < count),
             _ => None,

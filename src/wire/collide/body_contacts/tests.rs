@@ -4,8 +4,8 @@ use super::super::{Collisions, StepRecord};
 use crate::query::Point;
 use crate::wire::model::box_mesh;
 use crate::wire::{
-    BodyPlan, Contact, Drive, Material, Phase, Place, Settings, Shape, Stop, Vector, WirePlan,
-    World,
+    BodyPlan, ContactConstraint, ContactSite, Drive, Material, Phase, Settings, Shape, Stop,
+    Vector, WirePlan, World,
 };
 use nalgebra::UnitQuaternion;
 
@@ -155,7 +155,7 @@ fn bodies_rest_on_each_other_and_stick_up_to_the_coefficient_of_friction() {
         assert!((normal / (-tilt.z * weight) - 1.0).abs() < 0.01, "{normal}");
         for body in &world.bodies()[1..] {
             let way = body.position().x;
-            // Sliding: g cos (tan - f) t^2 / 2.
+            // SlideRate: g cos (tan - f) t^2 / 2.
             let expected = if sticks {
                 0.0
             } else {
@@ -223,7 +223,10 @@ fn node_that_keeps_a_wire_around_a_corner_is_not_taken_out_and_one_beside_a_body
         // Now it should be one segment.
         world.wires[wire.0].resolution.length = 2.0;
         let record = step(&mut world, &mut Collisions::default(), 1);
-        assert_eq!(record.collisions.refused, 1 - record.remeshes.len());
+        assert_eq!(
+            record.collisions.refused_remeshes,
+            1 - record.remeshes.len()
+        );
         !record.remeshes.is_empty()
     };
     assert!(taken_out(1.0) && !taken_out(0.0));
@@ -236,8 +239,11 @@ fn contact_names_wire_and_body_with_its_normal_to_the_wire() {
     lay(&mut world, Material::steel(0.02), 0.02, Vector::zeros());
     let record = step(&mut world, &mut Collisions::default(), 1);
     for contact in &record.contacts {
-        let Contact { a, b, normal, .. } = contact.contact;
-        assert!(matches!((a, b), (Place::Wire { .. }, Place::Body { .. })));
+        let ContactConstraint { a, b, normal, .. } = contact.contact;
+        assert!(matches!(
+            (a, b),
+            (ContactSite::Wire { .. }, ContactSite::Body { .. })
+        ));
         assert!((normal - Vector::z()).norm() < 1e-9);
     }
 }
