@@ -41,9 +41,9 @@ impl From<WireSite> for ContactSite {
 pub struct ContactConstraint {
     /// What the contact is known by from step to step. Two at a time must not share it.
     pub key: u64,
-    /// ContactSite A.
+    /// Place A.
     pub a: ContactSite,
-    /// ContactSite B.
+    /// Place B.
     pub b: ContactSite,
     /// Unit normal from B to A.
     pub normal: Vector,

@@ -12,7 +12,7 @@ pub(in crate::wire) struct SolverCache {
     pub(in crate::wire) structure: Option<Structure>,
 }
 
-/// ContactConstraint impulses of the last step in N s along x, y, z, sorted by key: the next solve
+/// Contact impulses of the last step in N s along x, y, z, sorted by key: the next solve
 /// starts there.
 #[derive(Clone, Debug, Default)]
 pub(in crate::wire) struct WarmStart(Vec<(u64, Vector)>);

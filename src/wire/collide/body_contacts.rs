@@ -209,7 +209,8 @@ fn segments(world: &World) -> Vec<(SegmentId, CollisionShape)> {
     all.map(|id| (id, form(id))).collect()
 }
 
-/// Bodies, then segments, with the way that each may come in the step: at its speed and falling.
+/// Bodies, then segments, with the largest displacement of each in the step: at its speed and
+/// falling.
 fn moving<'f>(
     world: &World,
     forms: &'f [CollisionShape],

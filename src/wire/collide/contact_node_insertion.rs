@@ -44,10 +44,10 @@ fn insertion(world: &World, contact: &ContactConstraint) -> Option<ContactNodeIn
             (place, beside(wire, segment, body))
         }
     };
-    let way = |node: usize| Some((wire.nodes.get(node)?.position - place).normalize());
-    let [before, after] = [way(before)?, way(after)?];
+    let direction = |node: usize| Some((wire.nodes.get(node)?.position - place).normalize());
+    let [before, after] = [direction(before)?, direction(after)?];
     // Down on one side, and not as far up on the other: over an edge, not beside one.
-    let slopes = [before, after].map(|way| way.dot(&contact.normal));
+    let slopes = [before, after].map(|direction| direction.dot(&contact.normal));
     let out = -(before + after);
     let bent = slopes[0].min(slopes[1]) <= -TURN && out.dot(&contact.normal) >= TURN;
     bent.then(|| ContactNodeInsertion {

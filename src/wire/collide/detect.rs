@@ -180,8 +180,8 @@ impl MidlineHit {
     /// along it where the step starts. None if they touch there and do not move.
     ///
     /// Where they meet inside both, it is across both at that time, on the side from which they
-    /// come. Else, or if they come along it by less than a tenth of their way, from the closest
-    /// points where the step starts; if they touch there, against their motion.
+    /// come. Else, or if they come along it by less than a tenth of their displacement, from the
+    /// closest points where the step starts; if they touch there, against their motion.
     pub(super) fn normal(&self) -> Option<(Vector, f64)> {
         const TENTH: f64 = 0.1;
         let parameters = [self.contact.first.u, self.contact.first.v];

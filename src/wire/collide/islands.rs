@@ -11,7 +11,7 @@ use crate::wire::world::World;
 /// How often motion is shortened before nothing moves at all.
 const ATTEMPTS: usize = 20;
 
-/// The part of the way to a crossing that is gone.
+/// Motion goes up to this fraction of the time to a crossing.
 const SAFETY: f64 = 0.9;
 
 /// Islands, the things that are tied to each other by eyes and contacts, and the scale of its
@@ -22,7 +22,7 @@ const SAFETY: f64 = 0.9;
 /// not meet is tested again. After some attempts nothing moves, and where nothing moves nothing new
 /// meets.
 pub(super) struct Islands {
-    /// Wires, then bodies: each one's way to the root of its island.
+    /// Wires, then bodies: the parent of each in the union-find forest of islands.
     parent: Vec<usize>,
     /// Of roots.
     scale: Vec<f64>,

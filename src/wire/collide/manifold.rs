@@ -68,8 +68,8 @@ fn place(world: &World, thing: Collider, point: Point) -> ContactSite {
         Collider::Body(body) => on_body(world, body, point),
         Collider::Segment(id) => {
             let [start, end] = id.ends(world);
-            let way = end - start;
-            let parameter = (point - start).dot(&way) / way.norm_squared();
+            let span = end - start;
+            let parameter = (point - start).dot(&span) / span.norm_squared();
             let parameter = if parameter.is_finite() {
                 parameter
             } else {

@@ -143,9 +143,9 @@ impl<'n> Collisions<'n> {
     }
 
     /// The same with contact nodes for adaptive wires: where a body that was found to touch one
-    /// bends it between two nodes, it gets another one there, which is attached to the body, and over which
-    /// wire sticks or slides ([`NodeKind::Contact`](crate::wire::NodeKind)). It leaves where the
-    /// wire turns away from the body, and with the end of the wire.
+    /// bends it between two nodes, it gets another one there, which is attached to the body, and
+    /// over which wire sticks or slides ([`NodeKind::Contact`](crate::wire::NodeKind)). It leaves
+    /// where the wire turns away from the body, and with the end of the wire.
     #[must_use]
     pub fn with_contact_nodes(mut self) -> Self {
         self.contact_nodes = true;

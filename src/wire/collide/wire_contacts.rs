@@ -108,12 +108,13 @@ impl WireContacts {
             Some(segment.of(world).rest_length(segment.segment))
         };
         let most = length(&sites[0])? + length(&sites[1])?;
-        let way = |touch: &WireContact| {
+        let distance = |touch: &WireContact| {
             let along = |k: usize| (touch.sites[k].arc - sites[k].arc).abs();
             let same = (0..2).all(|k| touch.sites[k].wire == sites[k].wire);
-            same.then(|| along(0) + along(1)).filter(|way| *way <= most)
+            same.then(|| along(0) + along(1))
+                .filter(|distance| *distance <= most)
         };
-        let near = self.list.iter_mut().filter_map(|t| Some((way(t)?, t)));
+        let near = self.list.iter_mut().filter_map(|t| Some((distance(t)?, t)));
         near.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, t)| t)
     }
 

@@ -26,19 +26,19 @@ pub struct CollisionRecord {
     pub temporarily_point: usize,
     /// How often the step was solved again.
     pub rounds: usize,
-    /// Midlines that met on their way: in guard mode every pair of segments in every motion that
-    /// was tried.
+    /// Midlines that met during the motion: in guard mode every pair of segments in every motion
+    /// that was tried.
     pub crossings: Vec<Crossing>,
     /// Every pair that the broad phase named in the motion that was made, with segments numbered as
     /// before it.
     pub pairs: Vec<PairRecord>,
-    /// What was not moved all the way.
+    /// Islands whose motion was scaled down.
     pub scaled_islands: Vec<ScaledIsland>,
     /// Changes of resolution that were refused.
     pub refused_remeshes: usize,
 }
 
-/// Midlines that meet on their way.
+/// Midlines that meet during the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Crossing {

@@ -99,7 +99,7 @@ pub(super) fn update_branches(rows: &mut [Row], x: &[f64]) -> bool {
     changed
 }
 
-/// Goes a fraction of the way.
+/// Moves `x` by a fraction of the step to the Newton point.
 pub(super) fn advance(x: &mut [f64], newton: &[f64], fraction: f64) {
     for (x, newton) in x.iter_mut().zip(newton) {
         *x += fraction * (newton - *x);
@@ -110,12 +110,12 @@ pub(super) fn advance(x: &mut [f64], newton: &[f64], fraction: f64) {
 /// to a fraction of itself.
 pub(super) fn line_search(system: &System, x: &[f64], newton: &[f64], resolution: f64) -> f64 {
     // Quadratic as factored, the slope would rise from `-curvature` to 0 on the way.
-    let mut way: Vec<f64> = newton.iter().zip(x).map(|(to, from)| to - from).collect();
+    let mut displacement: Vec<f64> = newton.iter().zip(x).map(|(to, from)| to - from).collect();
     let mut changes = Vec::new();
     for row in &system.rows {
         let ends = [row.excess(x), row.excess(newton)];
         let counts = if row.branch.active { 1.0 } else { 0.0 };
-        way[row.multiplier] = counts * (ends[1] - ends[0]) / row.sigma;
+        displacement[row.multiplier] = counts * (ends[1] - ends[0]) / row.sigma;
         if row.may_change() {
             changes.push((ends, row));
         }
@@ -124,7 +124,7 @@ pub(super) fn line_search(system: &System, x: &[f64], newton: &[f64], resolution
     let contacts: Vec<_> = contacts
         .map(|contact| contact.slope_between(x, newton))
         .collect();
-    let curvature = system.curvature(&way);
+    let curvature = system.curvature(&displacement);
     let slope = |fraction: f64| {
         let terms = changes.iter().map(|([start, end], row)| {
             let rise = end - start;

@@ -7,9 +7,9 @@
 
 use std::collections::VecDeque;
 
+use super::contact_blocks::{Block, Swept};
 use super::coulomb::to_cone;
 use super::delassus::Delassus;
-use super::friction::{Block, Swept};
 use crate::wire::Vector;
 use crate::wire::settings::Settings;
 

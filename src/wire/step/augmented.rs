@@ -133,7 +133,7 @@ impl Augmented {
     }
 
     /// Predicts the impulse that came out at a velocity.
-    pub(super) fn follow(&mut self, velocity: &Vector, impulse: &Vector) {
+    pub(super) fn update_prediction(&mut self, velocity: &Vector, impulse: &Vector) {
         self.slides = self.is_sliding(velocity);
         self.predicted = Vector::new(impulse.x.max(0.0), impulse.y, impulse.z);
         self.bound = self.friction * self.predicted.x;

@@ -1,4 +1,4 @@
-//! ContactConstraint nodes: where a wire turns over a body, and sticks or slides.
+//! Contact nodes: where a wire turns over a body, and sticks or slides.
 //!
 //! A contact node is attached to a point of a body until it is released
 //! ([`contact_nodes`](super::contact_nodes)). Wire slides over it at a speed that is an unknown of
@@ -13,10 +13,10 @@ use smallvec::{SmallVec, smallvec};
 use super::carrier::Layout;
 use super::constitutive::{ConstitutiveLaw, friction_bound};
 use super::motion::{ProposedMotion, SlideRate};
-use super::rows::{Row, unit};
-use crate::wire::Vector;
+use super::rows::Row;
 use crate::wire::model::{NodeKind, Wire, WireId};
 use crate::wire::record::Slide;
+use crate::wire::vector::{Vector, unit};
 use crate::wire::world::World;
 
 /// What is left of a segment that wire slides out of, as a fraction of the resolution, and of what
@@ -106,7 +106,7 @@ fn reach(wire: &Wire, node: usize, world: &World) -> [f64; 2] {
 /// Sets the bounds of friction to what follows from a solution.
 pub(super) fn update_bounds(rows: &mut [Row], x: &[f64]) {
     for row in rows {
-        row.law.follow(x);
+        row.law.update_bound(x);
     }
 }
 

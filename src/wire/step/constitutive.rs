@@ -93,7 +93,7 @@ impl ConstitutiveLaw {
     }
 
     /// Sets the bound of friction to the one that follows from a solution.
-    pub(super) fn follow(&mut self, x: &[f64]) {
+    pub(super) fn update_bound(&mut self, x: &[f64]) {
         let bounds = self.bounds(x);
         if let (ConstitutiveLaw::Friction { bound, .. }, Some([_, due])) = (self, bounds) {
             *bound = due;
@@ -196,7 +196,7 @@ mod tests {
             assert_eq!(friction_bound(factor, [0.0, 0.0]), f64::INFINITY);
         }
         let mut law = friction_law(0.0);
-        law.follow(&[30.0, 20.0]);
+        law.update_bound(&[30.0, 20.0]);
         assert_eq!(law.bounds(&[10.0, 0.0]), Some([5.0, 1.0]));
     }
 

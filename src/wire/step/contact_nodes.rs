@@ -1,12 +1,11 @@
 //! Attaches nodes to bodies as contact nodes, and releases them.
 
 use super::capstan::{LEAST, contact_nodes, directions};
-use super::rows::unit;
-use crate::wire::Vector;
 use crate::wire::model::wire::TENSION_HISTORY;
 use crate::wire::model::{BodyId, Node, NodeKind, Wire, WireId};
 use crate::wire::record::Slide;
 use crate::wire::resolution::{Remesh, RemeshGuard, RemeshKind, put_in, remesh};
+use crate::wire::vector::{Vector, unit};
 use crate::wire::world::World;
 
 /// Where a body insertions a wire.

@@ -8,10 +8,9 @@ use smallvec::SmallVec;
 
 use super::augmented::Augmented;
 use super::carrier::Layout;
-use super::friction::{normal_row, velocity_of};
-use super::system::frame;
-use crate::wire::Vector;
+use super::contact_blocks::{normal_row, velocity_of};
 use crate::wire::contact::ContactConstraint;
+use crate::wire::vector::{Vector, frame};
 use crate::wire::world::World;
 
 /// One contact, its law taken as linear at one velocity. Velocities and impulses are those of place
@@ -127,10 +126,10 @@ impl Implicit {
     }
 
     /// Predicts what a solution came to.
-    pub(super) fn follow(&mut self, x: &[f64]) {
+    pub(super) fn update_prediction(&mut self, x: &[f64]) {
         let velocity = self.at(x);
         let impulse = self.linear(&velocity);
-        self.law.follow(&velocity, &impulse);
+        self.law.update_prediction(&velocity, &impulse);
     }
 
     /// On the way between two solutions: the power of the linear law's impulse less that of the

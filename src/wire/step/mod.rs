@@ -8,6 +8,7 @@ pub(super) mod callbacks;
 mod capstan;
 mod carrier;
 mod constitutive;
+mod contact_blocks;
 pub(super) mod contact_nodes;
 mod coulomb;
 mod delassus;

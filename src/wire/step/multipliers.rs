@@ -23,7 +23,7 @@ const ROUNDS: usize = 30;
 /// linear.
 const LINEARISATION: f64 = 0.1;
 
-/// To which fraction of itself the way to go is solution.
+/// Relative resolution of the line search.
 const RESOLUTION: f64 = 1e-3;
 
 /// A residual of at most `NEARLY` times the tolerance that does not fall `STAYS` times in a row is
@@ -72,7 +72,7 @@ pub(super) fn solve(system: &mut System, x: Vec<f64>, tolerance: f64) -> Result<
         }
         capstan::update_bounds(&mut system.rows, &solution.x);
         for contact in &mut system.implicit {
-            contact.follow(&solution.x);
+            contact.update_prediction(&solution.x);
         }
     }
     (solution.x, solution.backward_error) = system.solve(&[])?;

@@ -3,12 +3,11 @@
 use nalgebra::Matrix3;
 use smallvec::{SmallVec, smallvec};
 
-use super::capstan;
 use super::carrier::{Carrier, Layout};
 use super::constitutive::{Branch, ConstitutiveLaw};
-use crate::wire::Vector;
 use crate::wire::model::Wire;
 use crate::wire::settings::Settings;
+use crate::wire::vector::{Vector, unit};
 use crate::wire::world::World;
 
 /// One row of `G v+ + Sigma lambda = target`.
@@ -91,7 +90,7 @@ impl Row {
         friction && self.branch.active && self.branch.start == 0.0
     }
 
-    /// The multiplier that is in no unknown but held.
+    /// The constant part of the multiplier, which is in no unknown.
     pub(super) fn each_offset(&self, mut take: impl FnMut(usize, f64)) {
         let offset = self.branch.offset;
         if offset != 0.0 {
@@ -127,18 +126,8 @@ impl Spook {
     }
 }
 
-/// A direction, and its length; a direction of 0 where there is no length.
-pub(super) fn unit(vector: &Vector) -> (Vector, f64) {
-    let length = vector.norm();
-    if length > 0.0 {
-        (vector / length, length)
-    } else {
-        (Vector::zeros(), 0.0)
-    }
-}
-
-/// All rows: first those of stretch, one for each segment in order, then those of bend, last those
-/// of sliding.
+/// The rows of all wires: first those of stretch, one for each segment in order, then those of
+/// bend.
 pub(super) fn rows(world: &World, layout: &Layout) -> Vec<Row> {
     let mut rows = Vec::with_capacity(layout.stretch.len() + 3 * layout.bend.len());
     for (wire, &first) in world.wires.iter().zip(&layout.first_node) {
@@ -164,7 +153,6 @@ pub(super) fn rows(world: &World, layout: &Layout) -> Vec<Row> {
             }
         }
     }
-    rows.extend(capstan::friction_rows(world, layout));
     rows
 }
 

@@ -3,7 +3,8 @@
 
 use super::active_set::{find_active_set, violates_branches};
 use super::capstan::{bound_residual, stop_slip};
-use super::friction::{Swept, contact_residual, sweep};
+use super::contact_blocks::Swept;
+use super::friction::{contact_residual, sweep};
 use super::multipliers;
 use super::order::{self, Block};
 use super::system::System;

@@ -1,17 +1,16 @@
 //! The system of one step: `[[M~, G^T], [G, -Sigma]] [v+; -lambda] = [M v + h f; target]`.
 
-use nalgebra::Matrix3;
-
+use super::capstan;
 use super::carrier::{Carrier, Columns, Layout};
 use super::constitutive::Branch;
 use super::implicit::Implicit;
 use super::order::Block;
-use super::rows::{Row, rows, unit};
+use super::rows::{Row, rows};
 use super::spin::spin_freely;
-use crate::wire::Vector;
 use crate::wire::contact::ContactConstraint;
 use crate::wire::error::Reason;
 use crate::wire::sparse::{Ldl, SparseColumns, Structure, Symmetric, Triplets};
+use crate::wire::vector::{Vector, frame, unit};
 use crate::wire::world::World;
 
 /// The largest backward error of a solution that is accepted.
@@ -37,7 +36,8 @@ impl System {
     /// Puts the system of the next step together. `structure` is that of the last one.
     pub(super) fn new(world: &World, order: &[Block], structure: Option<Structure>) -> Self {
         let layout = Layout::new(world, order);
-        let rows = rows(world, &layout);
+        let mut rows = rows(world, &layout);
+        rows.extend(capstan::friction_rows(world, &layout));
         let mut system = System {
             triplets: Triplets::default(),
             mass_entries: 0,
@@ -321,12 +321,4 @@ fn push(right: &mut [f64], columns: &Columns, impulse: f64) {
     for (column, value) in columns {
         right[*column] += value * impulse;
     }
-}
-
-/// A right-handed frame with `normal` as its first row.
-pub(super) fn frame(normal: &Vector) -> Matrix3<f64> {
-    let axis = normal.iamin();
-    let first = normal.cross(&Vector::ith(axis, 1.0)).normalize();
-    let second = normal.cross(&first);
-    Matrix3::from_rows(&[normal.transpose(), first.transpose(), second.transpose()])
 }

@@ -1,6 +1,8 @@
 use super::super::{anderson, delassus::Delassus};
 use super::*;
 use crate::query::Point;
+use crate::wire::contact::ContactSite;
+use crate::wire::step::contact_blocks::Block;
 use crate::wire::step::order::by_wires;
 use crate::wire::{Material, Stop, WirePlan};
 

@@ -7,7 +7,8 @@ use super::*;
 use crate::query::Point;
 use crate::wire::contact::{ContactConstraint, ContactSite};
 use crate::wire::step::carrier::Columns;
-use crate::wire::step::friction::{normal_row, sweep};
+use crate::wire::step::contact_blocks::normal_row;
+use crate::wire::step::friction::sweep;
 use crate::wire::step::order::{by_least_degree, by_wires};
 use crate::wire::{Material, Settings, Stop, Vector, WireId, WirePlan, World};
 
