@@ -21,7 +21,8 @@ use std::ops::Range;
 use rustc_hash::FxHashMap;
 
 use super::aabb::Aabb;
-use super::items::{ItemId, Items, Pair};
+use super::item_id::ItemId;
+use super::items::{Items, Pair};
 
 /// The level of all that is longer than 2^1022 metres, or infinite. It has one cell.
 const TOP: u64 = 2045;

@@ -36,6 +36,7 @@ mod aabb;
 mod brute;
 mod error;
 mod grid;
+mod item_id;
 mod items;
 mod phase;
 mod separation;
@@ -46,6 +47,7 @@ mod tests;
 
 pub use aabb::Aabb;
 pub use error::BroadError;
-pub use items::{ItemId, Pair};
+pub use item_id::ItemId;
+pub use items::Pair;
 pub use phase::{BroadPhase, Method};
 pub use slow::{Exclusions, SlowPairs};

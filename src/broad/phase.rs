@@ -4,7 +4,8 @@ use super::aabb::Aabb;
 use super::brute;
 use super::error::BroadError;
 use super::grid::HierarchicalGrid;
-use super::items::{ItemId, Items, Pair};
+use super::item_id::ItemId;
+use super::items::{Items, Pair};
 use super::sweep::SweepAndPrune;
 
 /// How a [`BroadPhase`] searches. The pairs do not depend on it.

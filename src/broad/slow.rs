@@ -4,7 +4,8 @@ use crate::query::Point;
 
 use super::aabb::{check, check_radius};
 use super::error::BroadError;
-use super::items::{ItemId, Pair};
+use super::item_id::ItemId;
+use super::items::Pair;
 use super::separation::{distance_above, distance_below};
 
 /// Leaves out pairs of moving segments that are farther apart than they can have moved.

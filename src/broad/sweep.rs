@@ -12,7 +12,8 @@
 //! axes cost four comparisons, less than two more lists in order.
 
 use super::aabb::Aabb;
-use super::items::{ItemId, Items, Pair};
+use super::item_id::ItemId;
+use super::items::{Items, Pair};
 
 /// Moves for each item after which insertion sort gives up: about as many as an ordinary sort
 /// makes.

@@ -11,7 +11,7 @@ use nalgebra::UnitQuaternion;
 
 use super::boxes::Boxes;
 use super::collision_shape::{CollisionShape, PlacedShape};
-use super::manifold::{along, contacts_of, join, leave_out_ends, things};
+use super::manifold::{Collider, along, contacts_of, join, leave_out_ends, things};
 use crate::broad::Method;
 use crate::query::Point;
 use crate::wire::contact::{ContactConstraint, ContactSite};
@@ -35,13 +35,6 @@ pub(super) struct BodyContacts {
     given: u64,
     /// Places of wires at which a body pushed in the last step.
     pushed: Vec<(WireId, f64)>,
-}
-
-/// What has a box.
-#[derive(Clone, Copy)]
-pub(super) enum Collider {
-    Body(BodyId),
-    Segment(SegmentId),
 }
 
 /// A thing where the step starts, and how far it may come in it.

@@ -3,7 +3,7 @@
 use crate::broad::{Aabb, BroadError, BroadPhase, ItemId, Method, Pair};
 use crate::wire::clock::Clock;
 
-/// Collider `k` of the list is item `k`.
+/// Thing `k` of the list is item `k`.
 pub(super) struct Boxes {
     broad: BroadPhase,
     items: Vec<ItemId>,

@@ -1,7 +1,7 @@
 //! From the motion of all wires to the pairs that meet: broad phase, exclusion, narrow phase.
 
-use super::PairFilter;
 use super::boxes::Boxes;
+use super::segment::PairFilter;
 use super::segment::{Closest, between, direction, joined, reach};
 use crate::broad::{Aabb, Method, SlowPairs};
 use crate::contact::{self, Verdict};

@@ -3,11 +3,12 @@
 use std::collections::BTreeSet;
 
 use super::body_contacts::BodyContacts;
+use super::collisions::{Collisions, Mode};
 use super::detect::{Detections, MidlineHit};
 use super::islands::Islands;
 use super::segment::{pair_at, reach};
 use super::wire_contacts::{WireContact, WireContacts};
-use super::{Collisions, Mode, contact_node_insertion, remesh};
+use super::{contact_node_insertion, remesh};
 use crate::wire::Vector;
 use crate::wire::contact::ContactConstraint;
 use crate::wire::error::CollisionError;

@@ -2,7 +2,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::body_contacts::Collider;
 use super::collision_shape::ManifoldPoint;
 use crate::query::Point;
 use crate::wire::Vector;
@@ -10,6 +9,13 @@ use crate::wire::contact::{ContactConstraint, ContactSite};
 use crate::wire::model::{BodyId, NodeKind, WireId};
 use crate::wire::site::SegmentId;
 use crate::wire::world::World;
+
+/// What has a box.
+#[derive(Clone, Copy)]
+pub(super) enum Collider {
+    Body(BodyId),
+    Segment(SegmentId),
+}
 
 /// A contact and the segment that it is on, if it is on one.
 pub(super) type Found = (Option<SegmentId>, ContactConstraint);

@@ -1,6 +1,6 @@
 //! Changes of resolution as motions.
 
-use super::PairFilter;
+use super::segment::PairFilter;
 use super::segment::joined;
 use crate::broad::Aabb;
 use crate::certified::{Verdict, decide};

@@ -7,6 +7,9 @@ use crate::wire::model::{Node, NodeKind, Wire};
 use crate::wire::site::{SegmentId, WireSite};
 use crate::wire::world::World;
 
+/// Which pairs of segments are tested at all, over and above those that are joined.
+pub type PairFilter<'n> = &'n dyn Fn(SegmentId, SegmentId) -> bool;
+
 impl SegmentId {
     pub(super) fn of(self, world: &World) -> &Wire {
         &world.wires[self.wire.0]

@@ -1,11 +1,15 @@
 //! Scenes with known outcomes.
 
 use super::segment::Closest;
+use super::wire_contacts::WireContacts;
 use super::*;
+use crate::broad::Method;
+use crate::certified::Certified;
 use crate::query::Point;
 use crate::scenario::scenes::Scene;
 use crate::wire::error::CollisionError;
 use crate::wire::record::CrossingOutcome;
+use crate::wire::site::SegmentId;
 use crate::wire::{
     BodyId, BodyPlan, Drive, Material, Phase, Reason, Remesh, RemeshKind, Settings, Shape, Stop,
     Vector, WireId, WirePlan,

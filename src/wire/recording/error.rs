@@ -2,8 +2,8 @@
 
 use std::{fmt, io};
 
-use super::VERSION;
-use super::frame::MOST_BYTES;
+use super::layout::MOST_BYTES;
+use super::layout::VERSION;
 
 /// A recording that cannot be read on.
 #[derive(Clone, Debug, PartialEq)]

@@ -38,17 +38,15 @@
 mod error;
 mod frame;
 mod header;
+mod layout;
 mod reader;
 mod writer;
 
 pub use error::{Fault, ReadError, WriteError};
-pub use frame::MOST_BYTES;
 pub use header::{BodySummary, Header, WireSummary};
+pub use layout::{MOST_BYTES, VERSION};
 pub use reader::Recording;
 pub use writer::Recorder;
-
-/// The version of the layout that is written, and the only one that is read.
-pub const VERSION: u32 = 3;
 
 #[cfg(test)]
 mod tests;

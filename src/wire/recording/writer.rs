@@ -2,10 +2,10 @@
 
 use std::io::Write;
 
-use super::VERSION;
 use super::error::WriteError;
 use super::frame::{LABEL, pack};
 use super::header::Header;
+use super::layout::VERSION;
 use crate::wire::{StepRecord, World};
 
 /// How a recording starts: the magic number of a skippable zstd frame, the length of the rest, a

@@ -226,3 +226,17 @@ impl Layout {
         }
     }
 }
+
+/// The velocity of a place before the step.
+pub(super) fn velocity_of(world: &World, place: &ContactSite) -> Vector {
+    match *place {
+        ContactSite::World => Vector::zeros(),
+        ContactSite::Body { body, local } => world.bodies[body.0].velocity_at(&local),
+        ContactSite::Wire { wire, arc } => {
+            let wire = &world.wires[wire.0];
+            let (segment, parameter) = wire.at(arc);
+            let nodes = &wire.nodes[segment..segment + 2];
+            nodes[0].velocity * (1.0 - parameter) + nodes[1].velocity * parameter
+        }
+    }
+}

@@ -6,11 +6,11 @@ use std::ops::Range;
 use nalgebra::Matrix3;
 use smallvec::SmallVec;
 
-use super::carrier::{Carrier, Columns};
+use super::carrier::{Carrier, Columns, velocity_of};
 use super::coulomb::solve_block;
-use super::rows::Spook;
+use super::rows::normal_row;
 use super::system::System;
-use crate::wire::contact::{ContactConstraint, ContactSite};
+use crate::wire::contact::ContactConstraint;
 use crate::wire::settings::Settings;
 use crate::wire::sparse::SparseColumns;
 use crate::wire::vector::{Vector, frame};
@@ -235,34 +235,4 @@ fn columns(
         all.extend(entries);
     }
     all
-}
-
-/// What the normal row asks for and its regularisation. Apart, `J v+ >= -g/h`; where the two
-/// penetrate, a SPOOK row, which forgets the velocity of an impact.
-pub(super) fn normal_row(settings: &Settings, contact: &ContactConstraint, speed: f64) -> [f64; 2] {
-    if contact.gap >= 0.0 {
-        return [-contact.gap / settings.step, 0.0];
-    }
-    let damping = settings.contact_damping * settings.step;
-    let spook = Spook::new(settings.contact_compliance, damping, settings.step);
-    let kept = if speed < -settings.impact_speed {
-        0.0
-    } else {
-        speed
-    };
-    [spook.target(contact.gap, kept), spook.sigma]
-}
-
-/// The velocity of a place before the step.
-pub(super) fn velocity_of(world: &World, place: &ContactSite) -> Vector {
-    match *place {
-        ContactSite::World => Vector::zeros(),
-        ContactSite::Body { body, local } => world.bodies[body.0].velocity_at(&local),
-        ContactSite::Wire { wire, arc } => {
-            let wire = &world.wires[wire.0];
-            let (segment, parameter) = wire.at(arc);
-            let nodes = &wire.nodes[segment..segment + 2];
-            nodes[0].velocity * (1.0 - parameter) + nodes[1].velocity * parameter
-        }
-    }
 }

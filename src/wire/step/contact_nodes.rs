@@ -8,7 +8,7 @@ use crate::wire::resolution::{Remesh, RemeshGuard, RemeshKind, put_in, remesh};
 use crate::wire::vector::{Vector, unit};
 use crate::wire::world::World;
 
-/// Where a body insertions a wire.
+/// A place where a body bends a wire, which needs a contact node there.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::wire) struct ContactNodeInsertion {
     pub(in crate::wire) wire: WireId,

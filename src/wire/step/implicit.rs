@@ -7,8 +7,8 @@ use nalgebra::Matrix3;
 use smallvec::SmallVec;
 
 use super::augmented::Augmented;
-use super::carrier::Layout;
-use super::contact_blocks::{normal_row, velocity_of};
+use super::carrier::{Layout, velocity_of};
+use super::rows::normal_row;
 use crate::wire::contact::ContactConstraint;
 use crate::wire::vector::{Vector, frame};
 use crate::wire::world::World;

@@ -5,6 +5,7 @@ use smallvec::{SmallVec, smallvec};
 
 use super::carrier::{Carrier, Layout};
 use super::constitutive::{Branch, ConstitutiveLaw};
+use crate::wire::contact::ContactConstraint;
 use crate::wire::model::Wire;
 use crate::wire::settings::Settings;
 use crate::wire::vector::{Vector, unit};
@@ -124,6 +125,22 @@ impl Spook {
     pub(super) fn target(&self, violation: f64, velocity: f64) -> f64 {
         self.upsilon * (velocity - 4.0 / self.step * violation)
     }
+}
+
+/// What the normal row asks for and its regularisation. Apart, `J v+ >= -g/h`; where the two
+/// penetrate, a SPOOK row, which forgets the velocity of an impact.
+pub(super) fn normal_row(settings: &Settings, contact: &ContactConstraint, speed: f64) -> [f64; 2] {
+    if contact.gap >= 0.0 {
+        return [-contact.gap / settings.step, 0.0];
+    }
+    let damping = settings.contact_damping * settings.step;
+    let spook = Spook::new(settings.contact_compliance, damping, settings.step);
+    let kept = if speed < -settings.impact_speed {
+        0.0
+    } else {
+        speed
+    };
+    [spook.target(contact.gap, kept), spook.sigma]
 }
 
 /// The rows of all wires: first those of stretch, one for each segment in order, then those of
