@@ -191,8 +191,8 @@ impl Tally {
     fn step(&mut self, mut before: Vec<Wire>, record: &StepRecord, world: &World) {
         self.steps += 1;
         self.prevented += record.collisions.crossings.len();
-        self.held += record.collisions.held.len();
-        self.refused += record.collisions.refused;
+        self.held += record.collisions.scaled_islands.len();
+        self.refused += record.collisions.refused_remeshes;
         self.remeshed += record.remeshes.len();
         let kinds = record.wires.iter().flat_map(|wire| &wire.kinds);
         let riding = kinds.filter(|kind| matches!(kind, NodeKind::Contact { .. }));

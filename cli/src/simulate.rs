@@ -11,7 +11,7 @@ use tunnelproof::contact::{Case, Flags, Verdict};
 use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
 use tunnelproof::query::EdgeEdge;
 use tunnelproof::thesis::Thesis;
-use tunnelproof::wire::{Mode, Outcome, StepError, StepRecord, World};
+use tunnelproof::wire::{CrossingOutcome, Mode, StepError, StepRecord, World};
 
 use crate::sweep::Setting;
 use tunnelproof_reference::certify::table::grouped;
@@ -200,7 +200,7 @@ impl Summary {
         self.wall_collision += record.phases.broad + record.phases.narrow;
         self.wall_narrow += record.phases.narrow;
         let found = &record.collisions;
-        self.named += found.named;
+        self.named += found.broad_pairs;
         self.excluded += found.excluded;
         self.tested += found.tested;
         self.tested_bodies += found.tested_bodies;
@@ -210,15 +210,15 @@ impl Summary {
         self.temporarily_parallel += found.temporarily_parallel;
         for crossing in &found.crossings {
             *match crossing.outcome {
-                Outcome::Prevented => &mut self.prevented,
-                Outcome::Tunnelled => &mut self.tunnelled,
-                Outcome::Returned => &mut self.returned,
-                Outcome::Grazed => &mut self.grazed,
+                CrossingOutcome::Prevented => &mut self.prevented,
+                CrossingOutcome::Tunnelled => &mut self.tunnelled,
+                CrossingOutcome::Returned => &mut self.returned,
+                CrossingOutcome::Grazed => &mut self.grazed,
             } += 1;
         }
-        self.held += found.held.len();
+        self.held += found.scaled_islands.len();
         self.remeshes += record.remeshes.len();
-        self.refused += found.refused;
+        self.refused += found.refused_remeshes;
         let tensions = record.wires.iter().flat_map(|wire| &wire.tensions);
         self.tension = tensions.fold(self.tension, |a: f64, &b| a.max(b));
         self.contacts = self.contacts.max(record.contacts.len());

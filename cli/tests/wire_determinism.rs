@@ -9,8 +9,8 @@
 use tunnelproof::certified::Certified;
 use tunnelproof::query::Point;
 use tunnelproof::wire::{
-    BodyPlan, Collisions, Contact, Drive, Material, Mesh, Mode, Place, Settings, Shape, Stop,
-    Vector, WirePlan, World,
+    BodyPlan, Collisions, ContactConstraint, ContactSite, Drive, Material, Mesh, Mode, Settings,
+    Shape, Stop, Vector, WirePlan, World,
 };
 use tunnelproof_cli::scenes::Scene;
 
@@ -40,15 +40,15 @@ fn world() -> World {
 }
 
 /// Every corner of the box against the ground.
-fn contacts(world: &World) -> Vec<Contact> {
+fn contacts(world: &World) -> Vec<ContactConstraint> {
     let corner = |key: u64| {
         let sign = |bit: u64| if key >> bit & 1 == 1 { 1.0 } else { -1.0 };
         let local = Vector::new(0.3 * sign(0), 0.4 * sign(1), 0.5 * sign(2));
         let body = tunnelproof::wire::BodyId(0);
-        Contact {
+        ContactConstraint {
             key,
-            a: Place::Body { body, local },
-            b: Place::World,
+            a: ContactSite::Body { body, local },
+            b: ContactSite::World,
             normal: Vector::z(),
             gap: world.bodies()[0].point(&local).z,
             friction: 0.5,
@@ -159,8 +159,8 @@ fn steps_with_bodies_give_the_same_bits_in_every_build() {
         let record = world.step_colliding(&mut collisions, &[]).unwrap();
         for contact in &record.contacts {
             match (contact.contact.a, contact.contact.b) {
-                (Place::Wire { .. }, Place::Body { .. }) => on_wires += 1,
-                (Place::Body { .. }, Place::Body { .. }) => on_bodies += 1,
+                (ContactSite::Wire { .. }, ContactSite::Body { .. }) => on_wires += 1,
+                (ContactSite::Body { .. }, ContactSite::Body { .. }) => on_bodies += 1,
                 _ => {}
             }
         }

@@ -207,7 +207,8 @@ pub static FIGURES: [Figure; 12] = [
     },
     Figure {
         name: "4.7",
-        caption: "Nearly collinear: the midlines pass beside each other, only the radii would touch.",
+        caption: "Nearly collinear: the midlines pass beside each other, only the radii would \
+        touch.",
         start: [
             [-2.0, 0.0, 0.0],
             [-1.0, 0.0, 0.0],
@@ -225,7 +226,8 @@ pub static FIGURES: [Figure; 12] = [
     },
     Figure {
         name: "4.8",
-        caption: "Parallel: green from the top right to the middle, blue upwards, contact at t = 0.6.",
+        caption: "Parallel: green from the top right to the middle, blue upwards, contact at t = \
+        0.6.",
         start: [
             [1.0, 1.0, 0.0],
             [3.0, 1.0, 0.0],
@@ -279,7 +281,8 @@ pub static FIGURES: [Figure; 12] = [
     },
     Figure {
         name: "4.11",
-        caption: "Coplanar: as 4.10, but blue's upper end meets green, parallel at t = 0.5, two points.",
+        caption: "Coplanar: as 4.10, but blue's upper end meets green, parallel at t = 0.5, two \
+        points.",
         start: [
             [0.0, 0.0, 0.0],
             [1.0, 2.0, 0.0],

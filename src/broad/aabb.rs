@@ -32,18 +32,18 @@ impl Aabb {
         Ok(Aabb { low, high })
     }
 
-    /// A box that holds everything within `radius` of the convex hull of some points, while each goes
-    /// on a straight line from its place in `start` to its place in `end`: the swept box of a segment,
-    /// given by its ends.
+    /// A box that holds everything within `radius` of the convex hull of some points, while each
+    /// goes on a straight line from its place in `start` to its place in `end`: the swept box of a
+    /// segment, given by its ends.
     ///
     /// Exact for a radius of 0, else rounded outward. A point on its way lies between its places on
-    /// every axis, and of two things that come within `r + s` of each other, the boxes of radius `r` and
-    /// `s` overlap.
+    /// every axis, and of two things that come within `r + s` of each other, the boxes of radius
+    /// `r` and `s` overlap.
     ///
     /// # Errors
     ///
-    /// [`BroadError`] if there are no points, a coordinate is not finite, or the radius is not a finite
-    /// number of at least 0.
+    /// [`BroadError`] if there are no points, a coordinate is not finite, or the radius is not a
+    /// finite number of at least 0.
     pub fn swept(start: &[Point], end: &[Point], radius: f64) -> Result<Self, BroadError> {
         check(start, false)?;
         check(end, true)?;

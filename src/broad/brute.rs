@@ -1,5 +1,5 @@
-//! Every pair of all: right by inspection, so what the other methods are tested by; fast enough for a
-//! few dozen items.
+//! Every pair of all: right by inspection, so what the other methods are tested by; fast enough for
+//! a few dozen items.
 
 use super::items::{Items, Pair};
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::items::ItemId;
+use super::item_id::ItemId;
 
 /// Why something is no box, no moving segment or no item.
 #[derive(Clone, Copy, Debug, PartialEq)]

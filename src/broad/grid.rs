@@ -1,17 +1,18 @@
 //! Hierarchical grid: cells of a size for each size of box.
 //!
-//! The levels have cells of a power of two metres. A box is on the finest level whose cells are longer
-//! than it is, so it meets at most two of them on an axis, and it is entered in all that it meets. The
-//! boxes come in the order of their levels, coarsest first; each is looked up in the cells that it meets
-//! on every level that has boxes, before it is entered itself.
+//! The levels have cells of a power of two metres. A box is on the finest level whose cells are
+//! longer than it is, so it meets at most two of them on an axis, and it is entered in all that it
+//! meets. The boxes come in the order of their levels, coarsest first; each is looked up in the
+//! cells that it meets on every level that has boxes, before it is entered itself.
 //!
-//! **No pair is missed, none is named twice.** The cell of a coordinate is a monotone function of it,
-//! rounding included. So where two boxes overlap, the ranges of cells that they meet overlap, on any
-//! level; on the level of the box that was entered first, both meet the cell of which each coordinate is
-//! the larger one of the two ranges' first ones. There, and nowhere else, the pair is counted.
+//! **No pair is missed, none is named twice.** The cell of a coordinate is a monotone function of
+//! it, rounding included. So where two boxes overlap, the ranges of cells that they meet overlap,
+//! on any level; on the level of the box that was entered first, both meet the cell of which each
+//! coordinate is the larger one of the two ranges' first ones. There, and nowhere else, the pair is
+//! counted.
 //!
-//! **No input is slow.** Where a level has no more boxes than a box meets cells on it, they are compared
-//! one by one. So a box looks up at most as many cells as there are boxes.
+//! **No input is slow.** Where a level has no more boxes than a box meets cells on it, they are
+//! compared one by one. So a box looks up at most as many cells as there are boxes.
 //!
 //! Source: Ericson, Real-Time Collision Detection, 7.2; the proof is this project's.
 
@@ -20,13 +21,14 @@ use std::ops::Range;
 use rustc_hash::FxHashMap;
 
 use super::aabb::Aabb;
-use super::items::{ItemId, Items, Pair};
+use super::item_id::ItemId;
+use super::items::{Items, Pair};
 
 /// The level of all that is longer than 2^1022 metres, or infinite. It has one cell.
 const TOP: u64 = 2045;
 
-/// Cells are at least this many binary digits above the last one of a coordinate in them, so that their
-/// numbers fit.
+/// Cells are at least this many binary digits above the last one of a coordinate in them, so that
+/// their numbers fit.
 const DIGITS: u64 = 50;
 
 /// A cell of one level.
@@ -149,8 +151,8 @@ impl Entry {
     }
 }
 
-/// The level of a box: the exponent field of its longest side, as `f64` stores it. Cells of level `n` are
-/// `2^(n - 1022)` metres long, so longer than that side.
+/// The level of a box: the exponent field of its longest side, as `f64` stores it. Cells of level
+/// `n` are `2^(n - 1022)` metres long, so longer than that side.
 fn level(aabb: &Aabb) -> u64 {
     let exponent = |x: f64| (x.to_bits() >> 52) & 0x7ff;
     let axis = |axis: usize| {
@@ -162,10 +164,11 @@ fn level(aabb: &Aabb) -> u64 {
     axis(0).max(axis(1)).max(axis(2)).min(TOP)
 }
 
-/// The cell of a coordinate on one axis: monotone in `x`, at most `2^50` in magnitude on the level of a
-/// box that `x` is in, and above.
+/// The cell of a coordinate on one axis: monotone in `x`, at most `2^50` in magnitude on the level
+/// of a box that `x` is in, and above.
 fn cell(x: f64, level: u64) -> i64 {
-    // 2^(1022 - level); on the top level 0, where all products are 0 or, as of infinity, NaN: cell 0.
+    // 2^(1022 - level); on the top level 0, where all products are 0 or, as of infinity, NaN: cell
+    // 0.
     let per_metre = f64::from_bits((TOP - level) << 52);
     (x * per_metre).floor() as i64
 }

@@ -2,18 +2,7 @@
 
 use super::aabb::Aabb;
 use super::error::BroadError;
-
-/// One item of a broad phase. The id of an item removed is given again to a later one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct ItemId(usize);
-
-impl ItemId {
-    /// A number below the largest count of items there has been: fit to index what else is known of
-    /// the items.
-    pub fn index(self) -> usize {
-        self.0
-    }
-}
+use super::item_id::ItemId;
 
 /// Two items, the one of the smaller id first. Pairs are in the order of their first ids, then of
 /// their second.

@@ -4,7 +4,8 @@ use super::aabb::Aabb;
 use super::brute;
 use super::error::BroadError;
 use super::grid::HierarchicalGrid;
-use super::items::{ItemId, Items, Pair};
+use super::item_id::ItemId;
+use super::items::{Items, Pair};
 use super::sweep::SweepAndPrune;
 
 /// How a [`BroadPhase`] searches. The pairs do not depend on it.
@@ -92,8 +93,8 @@ impl BroadPhase {
     /// Every pair of items whose boxes have a point in common and that `keep` does not refuse, each
     /// once, in order.
     ///
-    /// `keep` is asked once for each pair whose boxes overlap, in no certain order: here go pairs that
-    /// nobody has a question about, such as segments that share a node.
+    /// `keep` is asked once for each pair whose boxes overlap, in no certain order: here go pairs
+    /// that nobody has a question about, such as segments that share a node.
     pub fn pairs(&mut self, mut keep: impl FnMut(Pair) -> bool) -> &[Pair] {
         let BroadPhase {
             items,

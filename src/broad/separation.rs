@@ -3,18 +3,20 @@
 use crate::closest::closest;
 use crate::query::Point;
 
-/// 8 units of rounding of `f64`, 2^-50: more than the errors of the sums below, 4.2 of them at most, and the last rounding come to.
+/// 8 units of rounding of `f64`, 2^-50: more than the errors of the sums below, 4.2 of them at
+/// most, and the last rounding come to.
 const EIGHT_U: f64 = 4.0 * f64::EPSILON;
 
 /// 2^-900. Beside it an underflow is nothing.
 const SMALL: f64 = f64::from_bits((1023 - 900) << 52);
 
-/// A lower bound on the distance of two segments in metres, given by their ends: within rounding of it,
-/// or 0 where nothing is proved. All coordinates are finite.
+/// A lower bound on the distance of two segments in metres, given by their ends: within rounding of
+/// it, or 0 where nothing is proved. All coordinates are finite.
 ///
-/// Along any direction `d`, all of one segment is at least `min (q - p) . d` beyond all of the other, over
-/// ends `p` and `q`; their distance is at least that over `|d|`. The direction is the one of the closest
-/// points, as well as `f64` finds them: a poor one makes the bound poor, not wrong.
+/// Along any direction `d`, all of one segment is at least `min (q - p) . d` beyond all of the
+/// other, over ends `p` and `q`; their distance is at least that over `|d|`. The direction is the
+/// one of the closest points, as well as `f64` finds them: a poor one makes the bound poor, not
+/// wrong.
 pub(super) fn distance_below(first: &[Point; 2], second: &[Point; 2]) -> f64 {
     let Some(direction) = direction(first, second) else {
         return 0.0;
@@ -28,8 +30,8 @@ pub(super) fn distance_below(first: &[Point; 2], second: &[Point; 2]) -> f64 {
     (least / norm_above(&direction)).next_down().max(0.0)
 }
 
-/// From the closest point of one segment to the other's, its largest component 1 or -1; nothing if it is
-/// not finite or has no length.
+/// From the closest point of one segment to the other's, its largest component 1 or -1; nothing if
+/// it is not finite or has no length.
 fn direction(first: &[Point; 2], second: &[Point; 2]) -> Option<[f64; 3]> {
     let ([a, b], [c, d]) = (first, second);
     let (u, v) = closest(&[a.coords, b.coords, c.coords, d.coords]);
@@ -41,9 +43,10 @@ fn direction(first: &[Point; 2], second: &[Point; 2]) -> Option<[f64; 3]> {
 
 /// A lower bound on `(q - p) . d`, the components of `d` at most 1 in magnitude.
 ///
-/// With `u` = 2^-53, a difference has a relative error of `u`, a product of another, or 2^-1075 where it underflows, and each of the two
-/// sums of one more. So the sum is off by less than 4.2 `u` times the sum of magnitudes, and what underflows, which beside a sum of 2^-900
-/// is nothing. The bound takes off 8 `u` of it, and loses another `u` or so by rounding.
+/// With `u` = 2^-53, a difference has a relative error of `u`, a product of another, or 2^-1075
+/// where it underflows, and each of the two sums of one more. So the sum is off by less than 4.2
+/// `u` times the sum of magnitudes, and what underflows, which beside a sum of 2^-900 is nothing.
+/// The bound takes off 8 `u` of it, and loses another `u` or so by rounding.
 fn advance_below(p: &Point, q: &Point, d: &[f64; 3]) -> f64 {
     let [x, y, z] = [0, 1, 2].map(|axis| (q[axis] - p[axis]) * d[axis]);
     let magnitude = x.abs() + y.abs() + z.abs();
@@ -54,8 +57,8 @@ fn advance_below(p: &Point, q: &Point, d: &[f64; 3]) -> f64 {
     }
 }
 
-/// The same by rounding each operation downward. Not NaN: infinity, which only an overflow makes, is not multiplied by 0, and no sum
-/// is +inf.
+/// The same by rounding each operation downward. Not NaN: infinity, which only an overflow makes,
+/// is not multiplied by 0, and no sum is +inf.
 fn advance_below_anywhere(p: &Point, q: &Point, d: &[f64; 3]) -> f64 {
     let mut sum = 0.0;
     for axis in 0..3 {
@@ -70,7 +73,8 @@ fn advance_below_anywhere(p: &Point, q: &Point, d: &[f64; 3]) -> f64 {
     sum
 }
 
-/// An upper bound on the distance between two points in metres; 0 if they are one. All coordinates are finite.
+/// An upper bound on the distance between two points in metres; 0 if they are one. All coordinates
+/// are finite.
 pub(super) fn distance_above(p: &Point, q: &Point) -> f64 {
     if p == q {
         return 0.0;
@@ -80,9 +84,10 @@ pub(super) fn distance_above(p: &Point, q: &Point) -> f64 {
 
 /// An upper bound on the length of a vector of which each component is given rounded, none NaN.
 ///
-/// With `u` = 2^-53, each component has a relative error of `u`, each square of another, or 2^-1075 where it underflows, which beside a sum of
-/// 2^-900 is nothing; two sums and the root have one of `u` each. So the root is at most 3.6 `u` too small; the factor makes it 8 `u` larger,
-/// less a rounding.
+/// With `u` = 2^-53, each component has a relative error of `u`, each square of another, or 2^-1075
+/// where it underflows, which beside a sum of 2^-900 is nothing; two sums and the root have one of
+/// `u` each. So the root is at most 3.6 `u` too small; the factor makes it 8 `u` larger, less a
+/// rounding.
 fn norm_above(v: &[f64; 3]) -> f64 {
     let [x, y, z] = v.map(|x| x * x);
     let squares = x + y + z;
@@ -138,7 +143,8 @@ mod tests {
         assert!(distance_above(&Point::origin(), &Point::new(0.0, 5e-324, 0.0)) >= 5e-324);
     }
 
-    /// Lengths of vectors of whole numbers times powers of two, which are known exactly, where squares underflow and overflow too.
+    /// Lengths of vectors of whole numbers times powers of two, which are known exactly, where
+    /// squares underflow and overflow too.
     #[test]
     fn bounds_are_on_their_sides_of_lengths_that_are_known() {
         for [x, y, z, length] in [
@@ -184,9 +190,14 @@ mod tests {
                 let ratio = exact(bound) * exact(bound) / &squares;
                 prop_assert!(ratio >= exact(1.0) && ratio <= exact(1.0 + 1e-14), "{bound}");
             }
-            let advance: BigRational = (exact_v.iter().zip(direction)).map(|(x, d)| x * exact(d)).sum();
+            let terms = exact_v.iter().zip(direction);
+            let advance: BigRational = terms.map(|(x, d)| x * exact(d)).sum();
             let [p, q] = [p, q].map(Point::from);
-            for bound in [advance_below(&p, &q, &direction), advance_below_anywhere(&p, &q, &direction)] {
+            let bounds = [
+                advance_below(&p, &q, &direction),
+                advance_below_anywhere(&p, &q, &direction),
+            ];
+            for bound in bounds {
                 let lack = &advance - exact(bound);
                 prop_assert!(lack >= exact(0.0) && lack <= exact(1e-14 * length), "{bound}");
             }

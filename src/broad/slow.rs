@@ -4,25 +4,27 @@ use crate::query::Point;
 
 use super::aabb::{check, check_radius};
 use super::error::BroadError;
-use super::items::{ItemId, Pair};
+use super::item_id::ItemId;
+use super::items::Pair;
 use super::separation::{distance_above, distance_below};
 
 /// Leaves out pairs of moving segments that are farther apart than they can have moved.
 ///
-/// Each step: [`place`](Self::place) every segment where the step takes it, then ask which pairs are
-/// [`remaining`](Self::remaining). A pair is left out only if it is proved that its segments stay farther apart than
-/// their radii, at all times of the step: a bound on their distance when it was last measured, rounded
-/// down, less bounds on all that they have moved since, rounded up.
+/// Each step: [`place`](Self::place) every segment where the step takes it, then ask which pairs
+/// are [`remaining`](Self::remaining). A pair is left out only if it is proved that its segments
+/// stay farther apart than their radii, at all times of the step: a bound on their distance when it
+/// was last measured, rounded down, less bounds on all that they have moved since, rounded up.
 ///
-/// A point of a segment whose ends go on straight lines moves no farther than one of the ends does, so the
-/// distance of two segments shrinks by no more than the longer way of either's ends, in sum. What is no
-/// motion of one segment (an id given again to another, a radius that grows) counts as if it were one.
+/// A point of a segment whose ends go on straight lines moves no farther than one of the ends does,
+/// so the distance of two segments shrinks by no more than the longer way of either's ends, in sum.
+/// What is no motion of one segment (an id given again to another, a radius that grows) counts as
+/// if it were one.
 #[derive(Clone, Debug, Default)]
 pub struct SlowPairs {
     /// By the index of the item.
     tracks: Vec<Option<Track>>,
-    /// The pairs that were left out of the last step, and how much farther than their radii they are
-    /// apart at least.
+    /// The pairs that were left out of the last step, and how much farther than their radii they
+    /// are apart at least.
     excluded: Vec<(Pair, f64)>,
     remaining: Vec<Pair>,
     counts: Exclusions,
@@ -50,16 +52,17 @@ struct Track {
 }
 
 impl SlowPairs {
-    /// Where a segment is now, given by its ends, to which it came on straight lines; it stays until it is
-    /// placed again. `radius` is how far from the segment it counts as touched, 0 to ask for the midlines
-    /// alone.
+    /// Where a segment is now, given by its ends, to which it came on straight lines; it stays
+    /// until it is placed again. `radius` is how far from the segment it counts as touched, 0 to
+    /// ask for the midlines alone.
     ///
-    /// A new segment that moves in its first step is placed twice, where it starts and where it ends. A
-    /// move that is taken back is two moves.
+    /// A new segment that moves in its first step is placed twice, where it starts and where it
+    /// ends. A move that is taken back is two moves.
     ///
     /// # Errors
     ///
-    /// [`BroadError`] if a coordinate is not finite or the radius not a finite number of at least 0.
+    /// [`BroadError`] if a coordinate is not finite or the radius not a finite number of at least
+    /// 0.
     pub fn place(&mut self, item: ItemId, ends: [Point; 2], radius: f64) -> Result<(), BroadError> {
         check(&ends, true)?;
         check_radius(radius)?;
@@ -80,8 +83,8 @@ impl SlowPairs {
         Ok(())
     }
 
-    /// Ends a step: of the pairs whose boxes overlap, those that need a test. The segments start the next
-    /// step where they are.
+    /// Ends a step: of the pairs whose boxes overlap, those that need a test. The segments start
+    /// the next step where they are.
     ///
     /// Pairs with an item that was never placed remain.
     pub fn remaining(&mut self, pairs: &[Pair]) -> &[Pair] {
@@ -101,8 +104,8 @@ impl SlowPairs {
         &self.remaining
     }
 
-    /// How much farther than their radii the segments of a pair stay apart during this step, at least, if
-    /// that is proved to be above 0; `last` is the same at the end of the last step.
+    /// How much farther than their radii the segments of a pair stay apart during this step, at
+    /// least, if that is proved to be above 0; `last` is the same at the end of the last step.
     fn slack(&mut self, pair: Pair, last: Option<f64>) -> Option<f64> {
         let track = |item: ItemId| self.tracks.get(item.index()).copied().flatten();
         let (first, second) = (track(pair.first())?, track(pair.second())?);

@@ -1,20 +1,22 @@
 //! Sweep-and-prune: boxes in the order of their lower ends along one axis.
 //!
-//! A box is compared with those that begin before it ends, on that axis. The order is kept from search
-//! to search and mended by insertion sort, which takes linear time where little has changed; where much
-//! has, it gives up for an ordinary sort. The axis is the one on which the fewest intervals overlap,
-//! counted exactly, so that a thousand things lying on one plane do not matter; it is counted again
-//! when a sweep has come to compare twice as many. Order and axis are hints: the pairs do not depend on
-//! them.
+//! A box is compared with those that begin before it ends, on that axis. The order is kept from
+//! search to search and mended by insertion sort, which takes linear time where little has changed;
+//! where much has, it gives up for an ordinary sort. The axis is the one on which the fewest
+//! intervals overlap, counted exactly, so that a thousand things lying on one plane do not matter;
+//! it is counted again when a sweep has come to compare twice as many. Order and axis are hints:
+//! the pairs do not depend on them.
 //!
-//! Source: Baraff, Dynamic Simulation of Non-Penetrating Rigid Bodies, 5.3 (one list for each axis); Ericson,
-//! Real-Time Collision Detection, 7.5.2 (one axis). One list does: the other two axes cost four
-//! comparisons, less than two more lists in order.
+//! Source: Baraff, Dynamic Simulation of Non-Penetrating Rigid Bodies, 5.3 (one list for each
+//! axis); Ericson, Real-Time Collision Detection, 7.5.2 (one axis). One list does: the other two
+//! axes cost four comparisons, less than two more lists in order.
 
 use super::aabb::Aabb;
-use super::items::{ItemId, Items, Pair};
+use super::item_id::ItemId;
+use super::items::{Items, Pair};
 
-/// Moves for each item after which insertion sort gives up: about as many as an ordinary sort makes.
+/// Moves for each item after which insertion sort gives up: about as many as an ordinary sort
+/// makes.
 const PATIENCE: usize = 16;
 
 /// What is kept from search to search.
@@ -103,8 +105,9 @@ impl SweepAndPrune {
 
 /// How many pairs of boxes overlap on one axis: what a sweep along it compares.
 ///
-/// Of two intervals, both begin before the other's end if they overlap, else one does. So with `n` the
-/// number of all, the number of (end, beginning not after it) is `n + n (n - 1) / 2 + overlaps`.
+/// Of two intervals, both begin before the other's end if they overlap, else one does. So with `n`
+/// the number of all, the number of (end, beginning not after it) is `n + n (n - 1) / 2 +
+/// overlaps`.
 fn count_overlaps(items: &Items, axis: usize) -> usize {
     let sorted = |end: fn(&Aabb) -> &[f64; 3]| {
         let mut ends: Vec<f64> = items.iter().map(|(_, aabb)| end(aabb)[axis]).collect();

@@ -345,8 +345,8 @@ fn slow_pairs_that_touch_by_their_radii_are_never_left_out() {
 
 #[test]
 fn slow_pairs_forget_no_motion() {
-    // One end that swings through, a radius that grows, a move taken back, a pair not asked about for a
-    // step.
+    // One end that swings through, a radius that grows, a move taken back, a pair not asked about
+    // for a step.
     let (mut slow, [first, second], pair) = crossed(1.0, [0.0; 2]);
     let [still, _] = along_y(1.0);
     slow.place(second, [still, Point::new(0.0, 1.0, -3.0)], 0.0)

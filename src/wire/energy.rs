@@ -1,7 +1,8 @@
 //! Energy and momentum of a world.
 
 use super::Vector;
-use super::model::{Node, NodeKind, Wire, World};
+use super::model::{Node, NodeKind, Wire};
+use super::world::World;
 
 /// Energies in J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -23,8 +24,8 @@ impl Energy {
 }
 
 impl World {
-    /// The energies of all that forces move. Nodes that are fixed do not count, those on dynamic bodies do, and so does
-    /// what slides over contact nodes.
+    /// The energies of all that forces move. Nodes that are fixed do not count, those on dynamic
+    /// bodies do, and so does what slides over contact nodes.
     pub fn energy(&self) -> Energy {
         let gravity = &self.settings.gravity;
         let mut energy = Energy::default();
@@ -94,8 +95,8 @@ fn sliding(wire: &Wire) -> f64 {
         .sum()
 }
 
-/// `g^2 / (2 eps)` of every row: stretch, which a chain has only where it is longer than unstretched, and
-/// bend.
+/// `g^2 / (2 eps)` of every row: stretch, which a chain has only where it is longer than
+/// unstretched, and bend.
 fn elastic(wire: &Wire) -> f64 {
     let material = &wire.material;
     let direction = |segment: usize| {

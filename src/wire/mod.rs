@@ -1,12 +1,13 @@
 //! The wire stepper: wires, ropes and chains under large tension, with rigid bodies.
 //!
-//! A [`World`] holds bodies and wires; [`World::step`] moves them by one time step. A wire is a row of
-//! point masses with rows that resist stretch and bending; contacts with friction are given to each
-//! step as data. [`World::step_colliding`] finds them itself, and lets no wire through another. SI units throughout.
-//! The equations, the defaults and where they come from are in `docs/wires.md`.
+//! A [`World`] holds bodies and wires; [`World::step`] moves them by one time step. A wire is a row
+//! of point masses with rows that resist stretch and bending; contacts with friction are given to
+//! each step as data. [`World::step_colliding`] finds them itself, and lets no wire through
+//! another. SI units throughout. The equations, the defaults and where they come from are in
+//! `docs/wires.md`.
 //!
-//! The same input gives the same bits, whatever the build and the machine: one thread, no
-//! order that depends on addresses, no fused operations, and of transcendental functions only the sine
+//! The same input gives the same bits, whatever the build and the machine: one thread, no order
+//! that depends on addresses, no fused operations, and of transcendental functions only the sine
 //! and cosine of the `libm` crate.
 //!
 //! ```
@@ -22,30 +23,39 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod bisect;
+mod clock;
 mod collide;
+mod contact;
 mod energy;
+mod error;
 mod model;
 mod record;
 #[cfg(feature = "recording")]
 pub mod recording;
 mod resolution;
 mod settings;
-mod solve;
+mod site;
+mod solver_cache;
+mod sparse;
 mod step;
+mod vector;
+mod world;
 
-pub use collide::{
-    CollisionError, CollisionRecord, Collisions, Crossing, Held, Mode, Outcome, PairAnswer,
-    PairFilter, PairRecord, SegmentId, Site,
-};
+pub use collide::{Collisions, Mode, PairFilter};
+pub use contact::{ContactConstraint, ContactSite};
 pub use energy::Energy;
+pub use error::{CollisionError, Reason, StepError};
 pub use model::{
     Body, BodyId, BodyPlan, Drive, MassProperties, Material, Mesh, ModelError, Node, NodeKind,
-    Phase, Resolution, Segment, Shape, Stop, Wire, WireId, WirePlan, World,
+    Phase, Resolution, Segment, Shape, Stop, Wire, WireId, WirePlan,
 };
-pub use record::{BodyRecord, ContactRecord, Phases, Pose, SolverRecord, StepRecord, WireRecord};
+pub use record::{
+    BodyRecord, CollisionRecord, ContactRecord, Crossing, CrossingOutcome, PairAnswer, PairRecord,
+    Phases, Pose, ScaledIsland, Slide, SolverRecord, StepRecord, WireRecord,
+};
 pub use resolution::{Remesh, RemeshGuard, RemeshKind};
 pub use settings::Settings;
-pub use step::{Contact, Place, Reason, Slide, StepError};
-
-/// A vector in space: m, m/s, N or N s.
-pub type Vector = nalgebra::Vector3<f64>;
+pub use site::{SegmentId, WireSite};
+pub use vector::Vector;
+pub use world::World;

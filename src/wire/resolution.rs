@@ -1,17 +1,17 @@
 //! Resolution that follows tension.
 //!
-//! Waves across a wire under tension `T` run at `sqrt(T/mu)`; the step is stable as long as they do not
-//! cross a segment in less than `h`. So nodes are taken out where segments are shorter than
-//! `l_min = max(l_user, h sqrt(T/mu) / margin)` with the largest `T` of the last [`MEMORY`] steps, and put in
-//! where they are longer than a multiple of it. At one node at least [`MEMORY`] steps lie between two
-//! changes.
+//! Waves across a wire under tension `T` run at `sqrt(T/mu)`; the step is stable as long as they do
+//! not cross a segment in less than `h`. So nodes are taken out where segments are shorter than
+//! `l_min = max(l_user, h sqrt(T/mu) / margin)` with the largest `T` of the last
+//! [`TENSION_HISTORY`] steps, and put in where they are longer than a multiple of it. At one node
+//! at least [`TENSION_HISTORY`] steps lie between two changes.
 //!
-//! Where wires push on each other they have to bend: there tension does not count, `l_min = l_user`. Segments that
-//! are too short for their tension are held stable by geometric stiffness.
+//! Where wires push on each other they have to bend: there tension does not count, `l_min =
+//! l_user`. Segments that are too short for their tension are held stable by geometric stiffness.
 
-use super::model::strand::MEMORY;
-use super::model::{Node, NodeKind, Segment, Wire, WireId, World};
-use super::step::system::shortest;
+use super::model::wire::TENSION_HISTORY;
+use super::model::{Node, NodeKind, Segment, Wire, WireId};
+use super::world::World;
 use crate::query::Point;
 
 /// A change of resolution, as the motion that it is.
@@ -22,8 +22,8 @@ pub struct Remesh {
     pub wire: WireId,
     /// Whether the node in the middle is taken out or put in.
     pub kind: RemeshKind,
-    /// The nodes before, in and after the middle. The wire sweeps this triangle. For a node put in it
-    /// is as flat as rounding allows.
+    /// The nodes before, in and after the middle. The wire sweeps this triangle. For a node put in
+    /// it is as flat as rounding allows.
     pub triangle: [Point; 3],
     /// Their arc lengths in m.
     pub arcs: [f64; 3],
@@ -39,14 +39,14 @@ pub enum RemeshKind {
     Split,
 }
 
-/// Who may refuse a change of resolution, for example because its motion meets something.
+/// May refuse a change of resolution, for example because its motion meets something.
 pub trait RemeshGuard {
     /// Whether the change may be made now. One that is refused is tried again in the next step.
     fn permits(&mut self, world: &World, change: &Remesh) -> bool;
 
-    /// Whether a wire has to bend between two of its arc lengths in m, so that tension must not make its segments long
-    /// there. Usually not.
-    fn bends(&self, _wire: WireId, _from: f64, _to: f64) -> bool {
+    /// Whether a wire has to bend between two of its arc lengths in m, so that tension must not
+    /// make its segments long there. Usually not.
+    fn needs_fine_resolution(&self, _wire: WireId, _from: f64, _to: f64) -> bool {
         false
     }
 }
@@ -66,7 +66,8 @@ impl RemeshGuard for Permit {
     }
 }
 
-/// Changes the resolution of every adaptive wire where its tension asks for it and `guard` permits it.
+/// Changes the resolution of every adaptive wire where its tension asks for it and `guard` permits
+/// it.
 pub(super) fn adapt(world: &mut World, guard: &mut dyn RemeshGuard) -> Vec<Remesh> {
     let mut changes = Vec::new();
     for wire in 0..world.wires.len() {
@@ -78,15 +79,17 @@ pub(super) fn adapt(world: &mut World, guard: &mut dyn RemeshGuard) -> Vec<Remes
     changes
 }
 
-/// The shortest segment wanted on a stretch of segments, in m: under the largest tension that the first and the last
-/// remember, unless the wire has to bend there.
+/// The shortest segment wanted on a stretch of segments, in m: under the largest tension that the
+/// first and the last remember, unless the wire has to bend there.
 fn wanted(world: &World, at: usize, [first, last]: [usize; 2], guard: &dyn RemeshGuard) -> f64 {
     let wire = &world.wires[at];
     let tension = [first, last].map(|segment| wire.segments[segment].largest_tension());
-    let stable = shortest(wire, tension[0].max(tension[1]), world);
+    let stable = world
+        .settings
+        .shortest_stable(tension[0].max(tension[1]), wire.material.mass_per_length());
     let (from, to) = (wire.nodes[first].arc, wire.nodes[last + 1].arc);
     // Contacts are looked through only where tension asks for more.
-    if stable > wire.resolution.length && !guard.bends(WireId(at), from, to) {
+    if stable > wire.resolution.length && !guard.needs_fine_resolution(WireId(at), from, to) {
         stable
     } else {
         wire.resolution.length
@@ -103,13 +106,13 @@ fn merge(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
         let length = wire.rest_length(node - 1).min(wire.rest_length(node));
         let wanted = wanted(world, at, [node - 1, node], guard);
         let short = length < wanted * (1.0 - ROUNDING);
-        let settled = this.settled <= world.steps || is_slid_over(wire, node);
-        if this.kind == NodeKind::Free && settled && short {
+        let may_change = this.remesh_from <= world.steps || is_slid_over(wire, node);
+        if this.kind == NodeKind::Free && may_change && short {
             let nodes = [node - 1, node, node + 1].map(|i| wire.nodes[i]);
             let change = remesh(at, RemeshKind::Merge, &nodes);
             if guard.permits(world, &change) {
-                let settled = world.steps + MEMORY as u64;
-                take_out(&mut world.wires[at], node, settled);
+                let remesh_from = world.steps + TENSION_HISTORY as u64;
+                take_out(&mut world.wires[at], node, remesh_from);
                 changes.push(change);
             }
         }
@@ -128,9 +131,9 @@ fn split(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
         let wire = &world.wires[at];
         let long = wanted(world, at, [segment; 2], guard) * world.settings.split_ratio;
         let ends = [wire.nodes[segment], wire.nodes[segment + 1]];
-        let settled = ends.iter().all(|node| node.settled <= world.steps);
-        if settled && wire.rest_length(segment) > long {
-            let until = world.steps + MEMORY as u64;
+        let may_change = ends.iter().all(|node| node.remesh_from <= world.steps);
+        if may_change && wire.rest_length(segment) > long {
+            let until = world.steps + TENSION_HISTORY as u64;
             let middle = between(&ends, until);
             let change = remesh(at, RemeshKind::Split, &[ends[0], middle, ends[1]]);
             if guard.permits(world, &change) {
@@ -152,9 +155,9 @@ pub(super) fn remesh(wire: usize, kind: RemeshKind, nodes: &[Node; 3]) -> Remesh
     }
 }
 
-/// Takes a node out. Each neighbour takes over the mass of the segment beyond the node, half of it, and the
-/// momentum that comes with it, so linear momentum stays.
-fn take_out(wire: &mut Wire, node: usize, settled: u64) {
+/// Takes a node out. Each neighbour takes over the mass of the segment beyond the node, half of it,
+/// and the momentum that comes with it, so linear momentum stays.
+fn take_out(wire: &mut Wire, node: usize, remesh_from: u64) {
     let masses = [node - 1, node + 1].map(|neighbour| wire.node_mass(neighbour));
     let lengths = [wire.rest_length(node), wire.rest_length(node - 1)];
     let half = wire.material.mass_per_length() / 2.0;
@@ -167,28 +170,28 @@ fn take_out(wire: &mut Wire, node: usize, settled: u64) {
         let added = half * length;
         let momentum = neighbour.velocity * mass + taken.velocity * added;
         neighbour.velocity = momentum / (mass + added);
-        neighbour.settled = settled;
+        neighbour.remesh_from = remesh_from;
     }
     let after = wire.segments.remove(node);
     wire.segments[node - 1] = Segment::larger(&wire.segments[node - 1], &after);
 }
 
-/// The node halfway between two others. Its velocity is the mean, so linear momentum stays: it takes a
-/// quarter of the segment's mass from each.
-fn between(ends: &[Node; 2], settled: u64) -> Node {
+/// The node halfway between two others. Its velocity is the mean, so linear momentum stays: it
+/// takes a quarter of the segment's mass from each.
+fn between(ends: &[Node; 2], remesh_from: u64) -> Node {
     Node {
         position: nalgebra::center(&ends[0].position, &ends[1].position),
         velocity: (ends[0].velocity + ends[1].velocity) / 2.0,
         arc: (ends[0].arc + ends[1].arc) / 2.0,
         kind: NodeKind::Free,
         slide: 0.0,
-        settled,
+        remesh_from,
     }
 }
 
 pub(super) fn put_in(wire: &mut Wire, segment: usize, middle: Node) {
     for end in [segment, segment + 1] {
-        wire.nodes[end].settled = middle.settled;
+        wire.nodes[end].remesh_from = middle.remesh_from;
     }
     wire.nodes.insert(segment + 1, middle);
     wire.segments.insert(segment + 1, wire.segments[segment]);

@@ -30,7 +30,8 @@ pub struct Settings {
     pub impact_speed: f64,
     /// Most sweeps over contacts that are swept in one solve; usual value 200.
     pub sweeps: usize,
-    /// Velocity in m/s by which contacts may be off: by which none may change in the last sweep; usual value 1e-8.
+    /// Largest accepted error of contact velocities in m/s, the change in the last sweep; usual
+    /// value 1e-8.
     pub contact_tolerance: f64,
     /// Stability margin of a segment's length: `l_min >= h sqrt(T / mu) / margin`, below 1; usual
     /// value 0.8.
@@ -68,6 +69,12 @@ impl Settings {
     /// The same with another acceleration of free fall in m/s^2.
     pub fn with_gravity(self, gravity: Vector) -> Self {
         Settings { gravity, ..self }
+    }
+
+    /// The shortest segment that is stable under a tension, in m: `h sqrt(T / mu)` over the margin.
+    pub(super) fn shortest_stable(&self, tension: f64, mass_per_length: f64) -> f64 {
+        let speed = (tension.max(0.0) / mass_per_length).sqrt();
+        self.step * speed / self.stability_margin
     }
 
     pub(super) fn check(&self) -> Result<(), ModelError> {

@@ -7,8 +7,8 @@ use nalgebra::UnitQuaternion;
 use super::{Case, Comparison, at, settle};
 use tunnelproof::query::Point;
 use tunnelproof::wire::{
-    BodyId, BodyPlan, Contact, Material, Place, Settings, Shape, Stop, Vector, WireId, WirePlan,
-    World,
+    BodyId, BodyPlan, ContactConstraint, ContactSite, Material, Settings, Shape, Stop, Vector,
+    WireId, WirePlan, World,
 };
 
 type Outcome = Result<Vec<Comparison>, Box<dyn Error>>;
@@ -56,14 +56,14 @@ fn resting(
     half: &Vector,
     normal: &Vector,
     friction: f64,
-) -> Vec<Contact> {
+) -> Vec<ContactConstraint> {
     let corners = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
     let contact = |(key, [x, y]): (u64, [f64; 2])| {
         let local = half.component_mul(&Vector::new(x, y, -1.0));
-        Contact {
+        ContactConstraint {
             key,
-            a: Place::Body { body, local },
-            b: Place::World,
+            a: ContactSite::Body { body, local },
+            b: ContactSite::World,
             normal: *normal,
             gap: world.bodies()[body.0].point(&local).coords.dot(normal),
             friction,
@@ -118,16 +118,22 @@ fn crossing() -> Outcome {
 }
 
 /// The contact of two wires at two nodes, by the vector between them.
-fn crossing_contact(world: &World, above: WireId, arc: f64, below: WireId, reach: f64) -> Contact {
+fn crossing_contact(
+    world: &World,
+    above: WireId,
+    arc: f64,
+    below: WireId,
+    reach: f64,
+) -> ContactConstraint {
     let node = |wire: WireId, arc: f64| {
         let wire = &world.wires()[wire.0];
         wire.nodes()[wire.at(arc).0].position
     };
     let between = node(above, arc) - node(below, 1.0);
-    Contact {
+    ContactConstraint {
         key: below.0 as u64,
-        a: Place::Wire { wire: above, arc },
-        b: Place::Wire {
+        a: ContactSite::Wire { wire: above, arc },
+        b: ContactSite::Wire {
             wire: below,
             arc: 1.0,
         },

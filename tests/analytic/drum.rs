@@ -76,8 +76,8 @@ pub(super) const CAPSTAN: Case = Case {
     run: capstan,
 };
 
-/// A chain half around a drum, over 12 nodes that turn it by 15 degrees each, pulled until it slides, and
-/// held then.
+/// A chain half around a drum, over 12 nodes that turn it by 15 degrees each, pulled until it
+/// slides, and held then.
 fn capstan() -> Outcome {
     const NODES: i32 = 12;
     let turn = PI / f64::from(NODES);
@@ -122,7 +122,8 @@ const CORNERS: i32 = 6;
 const DEPTH: f64 = 6.0;
 const LOAD: f64 = 100.0;
 
-/// An adaptive steel chain of radius 0.01 m from a load up, over six nodes, and straight down again to what `other` puts there.
+/// An adaptive steel chain of radius 0.01 m from a load up, over six nodes, and straight down again
+/// to what `other` puts there.
 fn hoist(
     friction: f64,
     other: impl Fn(&mut World, Point) -> Result<Stop, Box<dyn Error>>,
@@ -178,7 +179,8 @@ fn hoisting() -> Outcome {
             continue;
         }
         let wire = &world.wires()[0];
-        // The tension of a node's segments is that of the middle of the first one: half of its mass is the node's.
+        // The tension of a node's segments is that of the middle of the first one: half of its mass
+        // is the node's.
         let [first, last] = beside_drum(wire).ok_or("the wire has left the drum")?;
         let hanging = (wire.nodes()[first].arc + wire.nodes()[first + 1].arc) / 2.0;
         let mass = LOAD + wire.material().mass_per_length() * hanging;
@@ -196,7 +198,8 @@ fn hoisting() -> Outcome {
 
 pub(super) const ATWOOD: Case = Case {
     name: "Atwood's machine",
-    formula: "v = k d / (2 mu) sinh(k t), k^2 = 2 mu g / M with the difference d and the sum M of the masses",
+    formula: "v = k d / (2 mu) sinh(k t), k^2 = 2 mu g / M with the difference d and the sum M of \
+    the masses",
     run: atwood,
 };
 

@@ -11,7 +11,7 @@ mod statics;
 use std::error::Error;
 
 use tunnelproof::query::Point;
-use tunnelproof::wire::{Contact, Settings, World};
+use tunnelproof::wire::{ContactConstraint, Settings, World};
 
 /// A case with a known answer.
 #[derive(Clone, Copy, Debug)]
@@ -78,7 +78,7 @@ pub(crate) const CASES: [Case; 15] = [
 ];
 
 /// What contacts a world has at present.
-type Contacts<'a> = &'a dyn Fn(&World) -> Vec<Contact>;
+type Contacts<'a> = &'a dyn Fn(&World) -> Vec<ContactConstraint>;
 
 /// A world without gravity and with the given step in s.
 fn weightless(step: f64) -> Settings {
@@ -87,8 +87,8 @@ fn weightless(step: f64) -> Settings {
         .with_gravity(tunnelproof::wire::Vector::zeros())
 }
 
-/// Steps a world to rest by kinetic damping: all velocity is taken whenever kinetic energy starts to fall.
-/// Returns once its peaks are below `least` in J, or after a number of steps.
+/// Steps a world to rest by kinetic damping: all velocity is taken whenever kinetic energy starts
+/// to fall. Returns once its peaks are below `least` in J, or after a number of steps.
 fn settle(
     world: &mut World,
     contacts: Contacts<'_>,
@@ -112,8 +112,8 @@ fn settle(
     Err(format!("not at rest after {steps} steps").into())
 }
 
-/// The period in s of a quantity sampled every `step` seconds: mean distance of its rises through 0, each
-/// interpolated.
+/// The period in s of a quantity sampled every `step` seconds: mean distance of its rises through
+/// 0, each interpolated.
 fn period(samples: &[f64], step: f64) -> f64 {
     let rises: Vec<f64> = samples
         .windows(2)

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 
 use super::{Case, Comparison, at, period, weightless};
 use tunnelproof::wire::{
-    BodyPlan, Contact, Drive, Material, Place, Settings, Shape, Stop, Vector, WireId, WirePlan,
-    World,
+    BodyPlan, ContactConstraint, ContactSite, Drive, Material, Settings, Shape, Stop, Vector,
+    WireId, WirePlan, World,
 };
 
 type Outcome = Result<Vec<Comparison>, Box<dyn Error>>;
@@ -121,7 +121,8 @@ pub(super) const TWIST: Case = Case {
     run: twist,
 };
 
-/// An 8 t cube that hangs on four light wires of 12 m and starts to turn; its inertia about the vertical.
+/// An 8 t cube that hangs on four light wires of 12 m and starts to turn; its inertia about the
+/// vertical.
 fn hanging_cube(spin: f64) -> Result<(World, f64), Box<dyn Error>> {
     let (length, half) = (12.0, Vector::repeat(1.0));
     let mut world = World::new(Settings::default())?;
@@ -222,8 +223,9 @@ pub(super) const ANGULAR_MOMENTUM: Case = Case {
     run: angular_momentum,
 };
 
-/// A chain with a corner that flies and whirls. Its rows act along the line between two nodes, so they
-/// have no torque, and nodes move along their velocities: nothing but rounding changes the sum.
+/// A chain with a corner that flies and whirls. Its rows act along the line between two nodes, so
+/// they have no torque, and nodes move along their velocities: nothing but rounding changes the
+/// sum.
 fn angular_momentum() -> Outcome {
     let mut world = World::new(weightless(1.0 / 60.0))?;
     let route = [[0.0, 0.0, 0.0], [3.0, 1.0, 0.0], [5.0, 0.0, 1.0]];
@@ -233,13 +235,13 @@ fn angular_momentum() -> Outcome {
     plan.velocity = Vector::new(-10.0, 0.0, 20.0);
     world.add_wire(&plan)?;
     // A blow on the first node makes it whirl.
-    let blow = Contact {
+    let blow = ContactConstraint {
         key: 0,
-        a: Place::Wire {
+        a: ContactSite::Wire {
             wire: WireId(0),
             arc: 0.0,
         },
-        b: Place::World,
+        b: ContactSite::World,
         normal: Vector::z(),
         gap: -0.1,
         friction: 0.0,
@@ -274,9 +276,9 @@ struct Rise {
     term: f64,
 }
 
-/// A free fall loses `m g^2 h^2 / 2` in a step, because the step moves with the velocity at its end; the
-/// momentum `P` changes by `m g h`. So it keeps `E + (h/2) g . P` exactly, and what moves on wires has
-/// the same term: rising, it shows more energy than it has.
+/// A free fall loses `m g^2 h^2 / 2` in a step, because the step moves with the velocity at its
+/// end; the momentum `P` changes by `m g h`. So it keeps `E + (h/2) g . P` exactly, and what moves
+/// on wires has the same term: rising, it shows more energy than it has.
 fn rise(mut world: World, seconds: f64) -> Result<Rise, Box<dyn Error>> {
     let settings = world.settings().clone();
     let term = |world: &World| -settings.step / 2.0 * settings.gravity.dot(&world.momentum());
@@ -312,7 +314,8 @@ fn swing(step: f64) -> Result<Rise, Box<dyn Error>> {
     rise(world, 5.0)
 }
 
-/// A steel wire between two pins that starts with a sharp bend in its middle; and the energy of that.
+/// A steel wire between two pins that starts with a sharp bend in its middle; and the energy of
+/// that.
 fn spring(step: f64) -> Result<(Rise, f64), Box<dyn Error>> {
     let mut world = stepped(step)?;
     let route = vec![

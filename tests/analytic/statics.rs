@@ -110,7 +110,8 @@ fn cantilever() -> Outcome {
     ])
 }
 
-/// How far the end of a clamped beam of 1 m in 16 segments sinks, with a mass in kg at its end or without.
+/// How far the end of a clamped beam of 1 m in 16 segments sinks, with a mass in kg at its end or
+/// without.
 fn deflection(material: Material, mass: Option<f64>) -> Result<f64, Box<dyn Error>> {
     let mut world = World::new(Settings::default())?;
     let end = match mass {
@@ -123,8 +124,8 @@ fn deflection(material: Material, mass: Option<f64>) -> Result<f64, Box<dyn Erro
         }
         None => Stop::Free(at(1.0, 0.0, 0.0)),
     };
-    // Two pinned points clamp the beam; the stub between them is short, so that at the wall only half
-    // a segment bends.
+    // Two pinned points clamp the beam; the stub between them is short, so that at the wall only
+    // half a segment bends.
     let wall = [at(-1e-4, 0.0, 0.0), at(0.0, 0.0, 0.0)].map(Stop::Pinned);
     let route = vec![wall[0], wall[1], end];
     world.add_wire(&WirePlan::new(material, 1.0 / 16.0, route))?;

@@ -26,7 +26,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use tunnelproof::contact::ContactKind;
 use tunnelproof::query::{EdgeEdge, Point, Query};
-use tunnelproof::wire::{Outcome, PairAnswer, SegmentId, StepRecord};
+use tunnelproof::wire::{CrossingOutcome, PairAnswer, SegmentId, StepRecord};
 
 use ledger::Ledger;
 use remesh::Wires;
@@ -214,7 +214,8 @@ impl Audit {
     /// Contacts in motions that were tried and not made.
     fn prevented(&mut self, record: &StepRecord) {
         let crossings = record.collisions.crossings.iter();
-        for crossing in crossings.filter(|crossing| crossing.outcome == Outcome::Prevented) {
+        for crossing in crossings.filter(|crossing| crossing.outcome == CrossingOutcome::Prevented)
+        {
             self.report.prevented += 1;
             let query = EdgeEdge::new(crossing.start, crossing.end, 0.0).ok();
             let hit = query.and_then(first_contact);

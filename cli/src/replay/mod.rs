@@ -9,7 +9,8 @@ use serde::Serialize;
 use tunnelproof::query::Point;
 use tunnelproof::wire::recording::Header;
 use tunnelproof::wire::{
-    BodyRecord, ContactRecord, NodeKind, Outcome, Place, Pose, StepRecord, Vector, WireRecord,
+    BodyRecord, ContactRecord, ContactSite, CrossingOutcome, NodeKind, Pose, StepRecord, Vector,
+    WireRecord,
 };
 
 use crate::audit::{Finding, Report};
@@ -58,7 +59,7 @@ struct Frame {
     bodies: Vec<[f64; 7]>,
     /// Angular speed of each body in rad/s.
     spin: Vec<f64>,
-    /// Place, normal and force on A of each contact.
+    /// ContactSite, normal and force on A of each contact.
     contacts: Vec<[f64; 9]>,
     /// Kinetic, potential, elastic, in J.
     energy: [f64; 3],
@@ -104,10 +105,10 @@ impl Replay {
         }
         for crossing in &record.collisions.crossings {
             let name = match crossing.outcome {
-                Outcome::Prevented => "prevented",
-                Outcome::Tunnelled => "tunnelled",
-                Outcome::Returned => "returned",
-                Outcome::Grazed => continue,
+                CrossingOutcome::Prevented => "prevented",
+                CrossingOutcome::Tunnelled => "tunnelled",
+                CrossingOutcome::Returned => "returned",
+                CrossingOutcome::Grazed => continue,
             };
             *self.events.entry(name).or_default() += 1;
         }
@@ -282,14 +283,14 @@ fn drawn(record: &StepRecord, ContactRecord { contact, force }: &ContactRecord) 
 }
 
 /// Where a place is after the motion of a step.
-pub(crate) fn place(record: &StepRecord, place: &Place) -> Option<Point> {
+pub(crate) fn place(record: &StepRecord, place: &ContactSite) -> Option<Point> {
     match place {
-        Place::World => None,
-        Place::Body { body, local } => {
+        ContactSite::World => None,
+        ContactSite::Body { body, local } => {
             let pose = &record.bodies.get(body.0)?.after;
             Some(pose.position + pose.orientation * local)
         }
-        Place::Wire { wire, arc } => {
+        ContactSite::Wire { wire, arc } => {
             let wire = record.wires.get(wire.0)?;
             let next = wire.arcs.partition_point(|node| node <= arc);
             let next = next.clamp(1, wire.arcs.len().checked_sub(1)?);

@@ -57,7 +57,7 @@ fn replay_places_contacts_by_arc_length() {
     let (_, records) = records(&basic_collision(), 1);
     let arc = 1.125;
     let wire = WireId(0);
-    let at = place(&records[0], &Place::Wire { wire, arc }).unwrap();
+    let at = place(&records[0], &ContactSite::Wire { wire, arc }).unwrap();
     let after = &records[0].wires[0].after;
     assert!((at - nalgebra::center(&after[4], &after[5])).norm() < 1e-12);
 }

@@ -1,7 +1,7 @@
 //! Scene 2: a pulled wire catches another one on which a cylinder hangs.
 
 use super::{First, Row, Rows, SceneRows, between_wires, pushing, run_guarded};
-use tunnelproof::wire::{BodyId, Place, WireId};
+use tunnelproof::wire::{BodyId, ContactSite, WireId};
 
 pub(super) const ROWS: SceneRows = SceneRows {
     scene: NAME,
@@ -19,8 +19,8 @@ fn rows() -> Rows {
             collided.note(record);
             places.push((record.time, arcs[0]));
         }
-        let pulled_on_cylinder = |a: &Place, b: &Place| match (*a, *b) {
-            (Place::Wire { wire, .. }, Place::Body { body, .. }) => {
+        let pulled_on_cylinder = |a: &ContactSite, b: &ContactSite| match (*a, *b) {
+            (ContactSite::Wire { wire, .. }, ContactSite::Body { body, .. }) => {
                 Some((wire, body)).filter(|pair| *pair == (WireId(1), BodyId(0)))
             }
             _ => None,
@@ -44,7 +44,8 @@ fn rows() -> Rows {
     ])
 }
 
-/// How often a place that had stayed within 5 cm for half a second goes more than half a metre in the next half.
+/// How often a place that had stayed within 5 cm for half a second goes more than half a metre in
+/// the next half.
 fn slips(places: &[(f64, f64)]) -> usize {
     let mut count = 0;
     let mut after = 0.0;

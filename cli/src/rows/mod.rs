@@ -11,7 +11,9 @@ use std::error::Error;
 
 use crate::scenes::Scene;
 use tunnelproof::certified::Certified;
-use tunnelproof::wire::{ContactRecord, Mode, Outcome, Place, StepRecord, World};
+use tunnelproof::wire::{
+    ContactRecord, ContactSite, CrossingOutcome, Mode, StepRecord, World,
+};
 
 /// What is looked at in one scene.
 #[derive(Clone, Copy, Debug)]
@@ -93,7 +95,7 @@ fn run_guarded(
 ) -> Result<Row, Box<dyn Error>> {
     let mut crossed = 0;
     run(name, Mode::Guard, |world, record| {
-        let made = |outcome: &Outcome| *outcome != Outcome::Prevented;
+        let made = |outcome: &CrossingOutcome| *outcome != CrossingOutcome::Prevented;
         crossed += outcomes(record).filter(made).count();
         look(world, record);
     })?;
@@ -101,13 +103,16 @@ fn run_guarded(
     Ok(Row::near(what, 0.0, crossed as f64, 0.0))
 }
 
-fn outcomes(record: &StepRecord) -> impl Iterator<Item = Outcome> {
+fn outcomes(record: &StepRecord) -> impl Iterator<Item = CrossingOutcome> {
     let crossings = record.collisions.crossings.iter();
     crossings.map(|crossing| crossing.outcome)
 }
 
 /// Contacts that push, by what they are between.
-fn pushing<T>(record: &StepRecord, between: impl Fn(&Place, &Place) -> Option<T>) -> Vec<T> {
+fn pushing<T>(
+    record: &StepRecord,
+    between: impl Fn(&ContactSite, &ContactSite) -> Option<T>,
+) -> Vec<T> {
     let pushing = |contact: &&ContactRecord| contact.normal_force() > 0.0;
     let contacts = record.contacts.iter().filter(pushing);
     contacts
@@ -116,9 +121,9 @@ fn pushing<T>(record: &StepRecord, between: impl Fn(&Place, &Place) -> Option<T>
 }
 
 /// The arc lengths at which two wires push on each other.
-fn between_wires(a: &Place, b: &Place) -> Option<[f64; 2]> {
+fn between_wires(a: &ContactSite, b: &ContactSite) -> Option<[f64; 2]> {
     match (*a, *b) {
-        (Place::Wire { arc, .. }, Place::Wire { arc: other, .. }) => Some([arc, other]),
+        (ContactSite::Wire { arc, .. }, ContactSite::Wire { arc: other, .. }) => Some([arc, other]),
         _ => None,
     }
 }

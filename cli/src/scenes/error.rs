@@ -56,8 +56,8 @@ impl SceneError {
     }
 }
 
-/// Where the value at a path starts, or the innermost one that is there. A last name that is not there is looked for
-/// further in.
+/// Where the value at a path starts, or the innermost one that is there. A last name that is not
+/// there is looked for further in.
 fn place(root: &Spanned<DeTable<'_>>, path: &[String]) -> usize {
     let mut at = root.span().start;
     let mut inside: Option<&DeValue<'_>> = None;
@@ -129,7 +129,8 @@ impl fmt::Display for Reason {
             Reason::Twice(name) => write!(f, "the name {name:?} is there twice"),
             Reason::Hang(length) => write!(
                 f,
-                "hang is {length}; it must be longer than the way between the stops before and after it, which must \
+                "hang is {length}; it must be longer than the way between the stops before and \
+                after it, which must \
                  not be one above the other, and there must be gravity"
             ),
         }

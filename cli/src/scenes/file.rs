@@ -95,8 +95,8 @@ pub enum Shape {
     },
     /// The half-space below the body's x-y plane.
     Plane,
-    /// A closed mesh of triangles, counterclockwise seen from outside. It is moved so that its centre of mass is
-    /// the body's position.
+    /// A closed mesh of triangles, counterclockwise seen from outside. It is moved so that its
+    /// centre of mass is the body's position.
     Mesh {
         /// The corners.
         vertices: Vec<Triple>,
@@ -161,8 +161,8 @@ pub struct Wire {
     pub adaptive: bool,
     /// Its way, straight from stop to stop.
     pub route: Vec<Stop>,
-    /// Its unstretched length in m, that of the route if left out. It is spread along the route in proportion:
-    /// shorter than the route is pretensioned.
+    /// Its unstretched length in m, that of the route if left out. It is spread along the route in
+    /// proportion: shorter than the route is pretensioned.
     #[serde(default)]
     pub length: Option<f64>,
     /// The velocity that its free nodes start with, in m/s.

@@ -3,9 +3,9 @@
 use tunnelproof::query::Point;
 use tunnelproof::wire::Vector;
 
-/// The corners of a polygon of `count` equal arcs of the catenary from one point to another, ends left out, so that
-/// the polygon has a length in m. None unless gravity pulls, the points are apart across it and nearer to each other
-/// than the length.
+/// The corners of a polygon of `count` equal arcs of the catenary from one point to another, ends
+/// left out, so that the polygon has a length in m. None unless gravity pulls, the points are apart
+/// across it and nearer to each other than the length.
 pub(super) fn hang(
     [from, to]: [Point; 2],
     length: f64,
@@ -38,7 +38,8 @@ pub(super) fn hang(
     Some(polygon[1..count].to_vec())
 }
 
-/// Corners at equal arcs, from (0, 0) to (`distance`, `rise`), of the catenary `z = a cosh((x - x0) / a) + c`.
+/// Corners at equal arcs, from (0, 0) to (`distance`, `rise`), of the catenary `z = a cosh((x - x0)
+/// / a) + c`.
 fn arcs(a: f64, distance: f64, rise: f64, count: usize) -> impl Iterator<Item = (f64, f64)> {
     let half = distance / (2.0 * a);
     let lowest = distance / 2.0 - a * libm::asinh(rise / (2.0 * a * libm::sinh(half)));
@@ -71,8 +72,8 @@ mod tests {
             let parts: Vec<Vector> = points.windows(2).map(|two| two[1] - two[0]).collect();
             let sum: f64 = parts.iter().map(|part| part.norm()).sum();
             assert!((sum - length).abs() < 1e-9 * length, "{sum}");
-            // The horizontal tension is the same everywhere, so slopes rise by equal weights: equal parts
-            // to second order of the angle between them.
+            // The horizontal tension is the same everywhere, so slopes rise by equal weights: equal
+            // parts to second order of the angle between them.
             let slope = |part: &Vector| part.z / part.y;
             let rises: Vec<f64> = (parts.windows(2))
                 .map(|two| slope(&two[1]) - slope(&two[0]))

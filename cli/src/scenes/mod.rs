@@ -1,8 +1,8 @@
-//! Scenes as files: bodies, wires, settings and duration in [TOML](https://toml.io), and the four scenes of the
-//! thesis (4.2) in this form.
+//! Scenes as files: bodies, wires, settings and duration in [TOML](https://toml.io), and the four
+//! scenes of the thesis (4.2) in this form.
 //!
-//! The fields are those of [`Scene`] and of what it holds; [`Scene::schema`] has them as JSON schema for editors. Every
-//! error names the line.
+//! The fields are those of [`Scene`] and of what it holds; [`Scene::schema`] has them as JSON
+//! schema for editors. Every error names the line.
 //!
 //! ```
 //! use tunnelproof_cli::scenes::Scene;
@@ -80,8 +80,8 @@ impl Scene {
     ///
     /// # Errors
     ///
-    /// What is wrong, with its line: TOML that cannot be read, a field that is missing or unknown, or a value that the
-    /// model refuses.
+    /// What is wrong, with its line: TOML that cannot be read, a field that is missing or unknown,
+    /// or a value that the model refuses.
     pub fn from_toml(text: &str) -> Result<Self, SceneError> {
         let scene: Scene = toml::from_str(text)?;
         match scene.world() {

@@ -145,7 +145,8 @@ fn scene_file_errors_name_line_and_field() {
         (
             "from = 2",
             "from = 1",
-            "line 19: bodies[1].kinematic: phase 1 of the kinematic body must start after the phase before it",
+            "line 19: bodies[1].kinematic: phase 1 of the kinematic body must start after the \
+            phase before it",
         ),
         (
             "radius = 0.01",
@@ -155,7 +156,8 @@ fn scene_file_errors_name_line_and_field() {
         (
             "resolution = 0.5",
             "resolution = 1e-9",
-            "line 30: wires[0].resolution: resolution is 0.000000001, it must be at least a millionth of the wire's length",
+            "line 30: wires[0].resolution: resolution is 0.000000001, it must be at least a \
+            millionth of the wire's length",
         ),
         (
             "\"load\", local",
@@ -170,12 +172,15 @@ fn scene_file_errors_name_line_and_field() {
         (
             "hang = 5 ",
             "hang = 1 ",
-            "line 36: wires[0].route[1]: hang is 1; it must be longer than the way between the stops before and after it, which must not be one above the other, and there must be gravity",
+            "line 36: wires[0].route[1]: hang is 1; it must be longer than the way between the \
+            stops before and after it, which must not be one above the other, and there must be \
+            gravity",
         ),
         (
             "{ pinned = [0, 0, 0] },",
             "{ pinned = [0, 0, 0] }, { free = [0, 0, 0] },",
-            "line 35: wires[0].route[0]: stops 0 and 1 of the route are at the same place, their distance must be above 0",
+            "line 35: wires[0].route[0]: stops 0 and 1 of the route are at the same place, their \
+            distance must be above 0",
         ),
     ];
     for (from, to, message) in cases {
@@ -194,7 +199,8 @@ fn scene_file_that_is_not_understood_is_shown() {
     assert!(text.contains("missing field `shape`"), "{text}");
     assert_eq!(
         Scene::embedded("moon").unwrap_err().to_string(),
-        "there is no scene \"moon\"; there are basic-collision, pulling-anchor, twisting-under-load, chains-on-deck"
+        "there is no scene \"moon\"; there are basic-collision, pulling-anchor, \
+        twisting-under-load, chains-on-deck"
     );
 }
 
@@ -218,7 +224,8 @@ fn scenes_of_the_thesis_have_its_numbers() {
     near(length(&anchor, 0), 25.0);
     near(length(&anchor, 1), 50.0);
     near(-anchor.bodies()[1].position().x / 2.0, 8.85);
-    // At the end the pulled wire still reaches the end of the hanging one where that is straight towards it.
+    // At the end the pulled wire still reaches the end of the hanging one where that is straight
+    // towards it.
     let boxes = anchor.bodies()[1].position() + Vector::x() * 2.0 * 32.0;
     assert!((boxes.coords - Vector::x() * 25.0).norm() < 25.0);
 

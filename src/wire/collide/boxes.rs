@@ -1,7 +1,7 @@
 //! The boxes of a numbered list of things in a broad phase.
 
 use crate::broad::{Aabb, BroadError, BroadPhase, ItemId, Method, Pair};
-use crate::wire::step::advance::Clock;
+use crate::wire::clock::Clock;
 
 /// Thing `k` of the list is item `k`.
 pub(super) struct Boxes {

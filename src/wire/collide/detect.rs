@@ -1,19 +1,22 @@
 //! From the motion of all wires to the pairs that meet: broad phase, exclusion, narrow phase.
 
 use super::boxes::Boxes;
-use super::record::{CollisionRecord, Crossing, Outcome, PairAnswer, PairRecord};
-use super::segment::{Closest, SegmentId, Site, between, direction, joined, reach};
-use super::{CollisionError, PairFilter};
+use super::segment::PairFilter;
+use super::segment::{Closest, between, direction, joined, reach};
 use crate::broad::{Aabb, Method, SlowPairs};
 use crate::contact::{self, EdgePoint, Verdict};
 use crate::narrow::{NarrowPhase, Report};
 use crate::query::{EdgeEdge, Point};
 use crate::wire::Vector;
-use crate::wire::model::{WireId, World};
-use crate::wire::step::motion::Motion;
+use crate::wire::error::CollisionError;
+use crate::wire::model::WireId;
+use crate::wire::record::{CollisionRecord, Crossing, CrossingOutcome, PairAnswer, PairRecord};
+use crate::wire::site::{SegmentId, WireSite};
+use crate::wire::step::motion::ProposedMotion;
+use crate::wire::world::World;
 
-/// The boxes of all segments, and what is known of slow ones. Item `k` is segment `k`, counted through all
-/// wires.
+/// The boxes of all segments, and what is known of slow ones. Item `k` is segment `k`, counted
+/// through all wires.
 pub(super) struct Pipeline {
     boxes: Boxes,
     slow: SlowPairs,
@@ -28,18 +31,19 @@ struct Moving {
 
 /// What was found in a motion.
 #[derive(Default)]
-pub(super) struct Found {
+pub(super) struct Detections {
     /// Pairs whose midlines meet.
-    pub(super) hits: Vec<Hit>,
-    /// Places of pairs that do not, and end closer than their radii, with the direction between them.
-    pub(super) near: Vec<([Site; 2], Vector)>,
+    pub(super) hits: Vec<MidlineHit>,
+    /// Places of pairs that do not, and end closer than their radii, with the direction between
+    /// them.
+    pub(super) near: Vec<([WireSite; 2], Vector)>,
     /// All pairs that the broad phase named.
     pub(super) pairs: Vec<PairRecord>,
 }
 
 /// A pair whose midlines meet.
-pub(super) struct Hit {
-    pub(super) sites: [Site; 2],
+pub(super) struct MidlineHit {
+    pub(super) sites: [WireSite; 2],
     query: EdgeEdge,
     pub(super) contact: contact::Contact,
     report: Report,
@@ -62,11 +66,11 @@ impl Pipeline {
     pub(super) fn detect(
         &mut self,
         world: &World,
-        motion: &Motion,
+        motion: &ProposedMotion,
         narrow: &dyn NarrowPhase,
         filter: Option<PairFilter<'_>>,
         record: &mut CollisionRecord,
-    ) -> Result<Found, CollisionError> {
+    ) -> Result<Detections, CollisionError> {
         let segments = moving(world, motion);
         self.place(world, &segments)?;
         let keep = |pair: [usize; 2]| {
@@ -75,14 +79,14 @@ impl Pipeline {
         };
         let pairs = self.boxes.pairs(keep);
         let remaining = self.slow.remaining(pairs);
-        record.named += pairs.len();
+        record.broad_pairs += pairs.len();
         record.excluded += pairs.len() - remaining.len();
-        let mut found = Found::default();
+        let mut found = Detections::default();
         let mut remaining = remaining.iter().peekable();
         for &pair in pairs {
             let two = [pair.first(), pair.second()].map(|item| &segments[item.index()]);
             let answer = match remaining.next_if(|other| **other == pair) {
-                Some(_) => found.look(world, two, narrow, record)?,
+                Some(_) => found.test_pair(world, two, narrow, record)?,
                 None => PairAnswer::Excluded,
             };
             let pair = two.map(|segment| segment.id);
@@ -106,7 +110,7 @@ impl Pipeline {
     }
 }
 
-fn moving(world: &World, motion: &Motion) -> Vec<Moving> {
+fn moving(world: &World, motion: &ProposedMotion) -> Vec<Moving> {
     let mut all = Vec::new();
     for (w, (wire, to)) in world.wires.iter().zip(&motion.wires).enumerate() {
         for segment in 0..wire.segments.len() {
@@ -122,9 +126,9 @@ fn moving(world: &World, motion: &Motion) -> Vec<Moving> {
     all
 }
 
-impl Found {
+impl Detections {
     /// Tests one pair.
-    fn look(
+    fn test_pair(
         &mut self,
         world: &World,
         [a, b]: [&Moving; 2],
@@ -141,7 +145,7 @@ impl Found {
             Verdict::Hit(contact) => {
                 let EdgePoint { u, v } = contact.first.on_edges();
                 let sites = sites([u, v]);
-                self.hits.push(Hit {
+                self.hits.push(MidlineHit {
                     sites,
                     query,
                     contact,
@@ -153,8 +157,8 @@ impl Found {
             Verdict::Miss => {
                 let closest = Closest::new(&end);
                 let near = closest.distance() < reach(world, [a.id, b.id]);
-                let sites = sites(closest.shares);
-                let normal = direction(&closest.apart);
+                let sites = sites(closest.parameters);
+                let normal = direction(&closest.separation);
                 if let (true, Some(normal)) =
                     (near && !is_bend(world, &sites, [a.id, b.id]), normal)
                 {
@@ -166,32 +170,33 @@ impl Found {
     }
 }
 
-/// Whether two places of one wire are so close along it that its thickness alone brings them together.
-fn is_bend(world: &World, [a, b]: &[Site; 2], pair: [SegmentId; 2]) -> bool {
+/// Whether two places of one wire are so close along it that its thickness alone brings them
+/// together.
+fn is_bend(world: &World, [a, b]: &[WireSite; 2], pair: [SegmentId; 2]) -> bool {
     a.wire == b.wire && (a.arc - b.arc).abs() <= 2.0 * reach(world, pair)
 }
 
-impl Hit {
-    /// Unit normal from B to A by which the two are kept apart, and how far apart their places are along
-    /// it where the step starts. None if they touch there and do not move.
+impl MidlineHit {
+    /// Unit normal from B to A by which the two are kept apart, and how far apart their places are
+    /// along it where the step starts. None if they touch there and do not move.
     ///
-    /// Where they meet inside both, it is across both at that time, on the side from which they come.
-    /// Else, or if they come along it by less than a tenth of their way, from the closest points where the
-    /// step starts; if they touch there, against their motion.
+    /// Where they meet inside both, it is across both at that time, on the side from which they
+    /// come. Else, or if they come along it by less than a tenth of their displacement, from the
+    /// closest points where the step starts; if they touch there, against their motion.
     pub(super) fn normal(&self) -> Option<(Vector, f64)> {
         const TENTH: f64 = 0.1;
         let EdgePoint { u, v } = self.contact.first.on_edges();
-        let shares = [u, v];
-        let apart = between(self.query.start(), shares);
+        let parameters = [u, v];
+        let apart = between(self.query.start(), parameters);
         if let Some(across) = self.across() {
             let along = across.dot(&apart);
             if along.abs() >= TENTH * apart.norm() {
                 return Some((across * along.signum(), along.abs()));
             }
         }
-        let before = Closest::new(self.query.start()).apart;
+        let before = Closest::new(self.query.start()).separation;
         let normal = direction(&before).or_else(|| {
-            let after = between(self.query.end(), shares);
+            let after = between(self.query.end(), parameters);
             direction(&(apart - after))
         })?;
         Some((normal, normal.dot(&apart)))
@@ -201,7 +206,7 @@ impl Hit {
     fn across(&self) -> Option<Vector> {
         const ANGLE: f64 = 1e-6;
         let contact = &self.contact;
-        let inside = |share: f64| share > 0.0 && share < 1.0;
+        let inside = |parameter: f64| parameter > 0.0 && parameter < 1.0;
         let EdgePoint { u, v } = contact.first.on_edges();
         if !(inside(u) && inside(v)) {
             return None;
@@ -215,13 +220,14 @@ impl Hit {
         (across.norm() > ANGLE).then(|| across.normalize())
     }
 
-    /// Whether the vector between the closest points has turned about from start to end: they came through.
-    pub(super) fn came_through(&self) -> bool {
+    /// Whether the vector between the closest points has turned about from start to end: they came
+    /// through.
+    pub(super) fn passed_through(&self) -> bool {
         let [before, after] = [self.query.start(), self.query.end()].map(Closest::new);
-        before.apart.dot(&after.apart) < 0.0
+        before.separation.dot(&after.separation) < 0.0
     }
 
-    pub(super) fn crossing(&self, outcome: Outcome) -> Crossing {
+    pub(super) fn crossing(&self, outcome: CrossingOutcome) -> Crossing {
         Crossing {
             sites: self.sites,
             toi: self.contact.toi,

@@ -2,21 +2,25 @@
 
 use std::collections::BTreeSet;
 
-use super::detect::{Found, Hit};
-use super::hold::Hold;
-use super::obstacle::Obstacles;
-use super::record::{CollisionRecord, Outcome};
+use super::body_contacts::BodyContacts;
+use super::collisions::{Collisions, Mode};
+use super::detect::{Detections, MidlineHit};
+use super::islands::Islands;
 use super::segment::{pair_at, reach};
-use super::touch::{Touch, Touches};
-use super::{CollisionError, Collisions, Mode, bend, remesh};
+use super::wire_contacts::{WireContact, WireContacts};
+use super::{contact_node_insertion, remesh};
 use crate::wire::Vector;
-use crate::wire::model::{WireId, World};
+use crate::wire::contact::ContactConstraint;
+use crate::wire::error::CollisionError;
+use crate::wire::error::Reason;
+use crate::wire::model::WireId;
 use crate::wire::record::ContactRecord;
+use crate::wire::record::{CollisionRecord, CrossingOutcome};
 use crate::wire::resolution::{Remesh, RemeshGuard, RemeshKind};
-use crate::wire::step::motion::Motion;
-use crate::wire::step::ride::Bend;
-use crate::wire::step::watch::{Judgement, Watch};
-use crate::wire::step::{Contact, Reason};
+use crate::wire::step::callbacks::{MotionReview, StepCallbacks};
+use crate::wire::step::contact_nodes::ContactNodeInsertion;
+use crate::wire::step::motion::ProposedMotion;
+use crate::wire::world::World;
 
 /// How often a step is solved again.
 const ROUNDS: usize = 8;
@@ -24,12 +28,12 @@ const ROUNDS: usize = 8;
 /// Looks on while a step is made.
 pub(super) struct Guard<'a, 'n> {
     collisions: &'a mut Collisions<'n>,
-    contacts: Vec<Contact>,
+    contacts: Vec<ContactConstraint>,
     /// Contacts that were added during this step.
-    added: Vec<Touch>,
+    added: Vec<WireContact>,
     /// What was found in the motion that is made.
-    found: Found,
-    hold: Option<Hold>,
+    found: Detections,
+    islands: Option<Islands>,
     record: CollisionRecord,
 }
 
@@ -37,7 +41,7 @@ impl<'a, 'n> Guard<'a, 'n> {
     pub(super) fn new(
         collisions: &'a mut Collisions<'n>,
         world: &World,
-        given: &[Contact],
+        given: &[ContactConstraint],
     ) -> Result<Self, CollisionError> {
         let mut record = CollisionRecord::default();
         collisions.touches.refresh(world);
@@ -52,14 +56,14 @@ impl<'a, 'n> Guard<'a, 'n> {
             collisions,
             contacts,
             added: Vec::new(),
-            found: Found::default(),
-            hold: None,
+            found: Detections::default(),
+            islands: None,
             record,
         })
     }
 
     /// A contact for each hit that has a normal; whether there is any.
-    fn add_contacts(&mut self, world: &World, hits: &[Hit]) -> bool {
+    fn add_contacts(&mut self, world: &World, hits: &[MidlineHit]) -> bool {
         let before = self.added.len();
         for hit in hits {
             if let (Some((normal, apart)), Some(pair)) = (hit.normal(), pair_at(world, &hit.sites))
@@ -94,22 +98,22 @@ impl<'a, 'n> Guard<'a, 'n> {
         // So that what is near is known by a contact that slid there.
         touches.refresh(world);
         let near = self.found.near.into_iter();
-        let near: Vec<Touch> = near
+        let near: Vec<WireContact> = near
             .map(|(sites, normal)| touches.make(sites, normal))
             .collect();
         touches.add(world, near);
-        if let Some(hold) = self.hold {
-            self.record.held = hold.held(world);
+        if let Some(islands) = self.islands {
+            self.record.scaled_islands = islands.scaled(world);
         }
         self.record
     }
 }
 
-/// What a hit that was not prevented came to. Wires that came through change sides, in the ledger of their
-/// contact.
-fn passage(touches: &mut Touches, world: &World, hit: &Hit) -> Outcome {
-    if !hit.came_through() {
-        return Outcome::Grazed;
+/// What a hit that was not prevented came to. Wires that came through change sides, in the ledger
+/// of their contact.
+fn passage(touches: &mut WireContacts, world: &World, hit: &MidlineHit) -> CrossingOutcome {
+    if !hit.passed_through() {
+        return CrossingOutcome::Grazed;
     }
     if let (None, Some((normal, _))) = (touches.nearest(world, &hit.sites), hit.normal()) {
         let new = touches.make(hit.sites, normal);
@@ -119,26 +123,26 @@ fn passage(touches: &mut Touches, world: &World, hit: &Hit) -> Outcome {
         Some(touch) => {
             touch.wrong = !touch.wrong;
             if touch.wrong {
-                Outcome::Tunnelled
+                CrossingOutcome::Tunnelled
             } else {
-                Outcome::Returned
+                CrossingOutcome::Returned
             }
         }
-        None => Outcome::Grazed,
+        None => CrossingOutcome::Grazed,
     }
 }
 
-impl Watch for Guard<'_, '_> {
-    fn contacts(&self) -> &[Contact] {
+impl StepCallbacks for Guard<'_, '_> {
+    fn contacts(&self) -> &[ContactConstraint] {
         &self.contacts
     }
 
-    fn judge(
+    fn review(
         &mut self,
         world: &World,
-        motion: &Motion,
+        motion: &ProposedMotion,
         impulses: &[Vector],
-    ) -> Result<Judgement, Reason> {
+    ) -> Result<MotionReview, Reason> {
         let Collisions {
             pipeline,
             narrow,
@@ -148,32 +152,36 @@ impl Watch for Guard<'_, '_> {
         let found = pipeline.detect(world, motion, *narrow, *filter, &mut self.record)?;
         if found.hits.is_empty() || self.collisions.mode == Mode::Thesis {
             self.found = found;
-            return Ok(Judgement::Accept);
+            return Ok(MotionReview::Accept);
         }
         let prevented = found
             .hits
             .iter()
-            .map(|hit| hit.crossing(Outcome::Prevented));
+            .map(|hit| hit.crossing(CrossingOutcome::Prevented));
         self.record.crossings.extend(prevented);
-        if self.hold.is_none() && self.record.rounds < ROUNDS {
+        if self.islands.is_none() && self.record.rounds < ROUNDS {
             self.record.rounds += 1;
             if self.add_contacts(world, &found.hits) {
-                return Ok(Judgement::Solve);
+                return Ok(MotionReview::SolveAgain);
             }
         }
-        let start = || Hold::new(world, &self.contacts, impulses);
-        let hold = self.hold.get_or_insert_with(start);
-        if hold.is_still() {
+        let start = || Islands::new(world, &self.contacts, impulses);
+        let islands = self.islands.get_or_insert_with(start);
+        if islands.is_still() {
             let sites = found.hits[0].sites;
             return Err(CollisionError::Touching { sites }.into());
         }
-        hold.shorten(&found.hits);
-        Ok(Judgement::Hold(hold.shares()))
+        islands.shorten(&found.hits);
+        Ok(MotionReview::Scale(islands.motion_scales()))
     }
 
-    fn contact_nodes(&self, world: &World, contacts: &[ContactRecord]) -> Vec<Bend> {
+    fn contact_nodes(
+        &self,
+        world: &World,
+        contacts: &[ContactRecord],
+    ) -> Vec<ContactNodeInsertion> {
         if self.collisions.contact_nodes {
-            bend::bends(world, contacts)
+            contact_node_insertion::insertions(world, contacts)
         } else {
             Vec::new()
         }
@@ -181,8 +189,8 @@ impl Watch for Guard<'_, '_> {
 }
 
 impl RemeshGuard for Guard<'_, '_> {
-    /// In guard mode: not if it would meet a segment or go through a body, nor if it moves a stretch on which a contact
-    /// pushes, other than by a hair beside a contact node.
+    /// In guard mode: not if it would meet a segment or go through a body, nor if it moves a
+    /// stretch on which a contact pushes, other than by a hair beside a contact node.
     fn permits(&mut self, world: &World, change: &Remesh) -> bool {
         let Collisions {
             filter,
@@ -192,7 +200,7 @@ impl RemeshGuard for Guard<'_, '_> {
             ..
         } = &*self.collisions;
         let [from, _, to] = change.arcs;
-        let by_body = |o: &Obstacles| {
+        let by_body = |o: &BodyContacts| {
             let straightens = remesh::straightens_beside_contact_node(world, change);
             o.pushes_between(change.wire, from, to) && !straightens
         };
@@ -208,12 +216,12 @@ impl RemeshGuard for Guard<'_, '_> {
             && (change.kind == RemeshKind::Merge && (loaded() || through())
                 // A triangle that cannot be tested is not swept.
                 || remesh::meets(world, change, *filter).unwrap_or(true));
-        self.record.refused += usize::from(refused);
+        self.record.refused_remeshes += usize::from(refused);
         !refused
     }
 
     /// Where wires push on wires.
-    fn bends(&self, wire: WireId, from: f64, to: f64) -> bool {
+    fn needs_fine_resolution(&self, wire: WireId, from: f64, to: f64) -> bool {
         self.collisions.touches.pushes_between(wire.0, from, to)
     }
 }

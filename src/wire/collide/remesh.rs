@@ -1,20 +1,22 @@
 //! Changes of resolution as motions.
 
-use super::PairFilter;
-use super::error::CollisionError;
-use super::segment::{SegmentId, joined};
+use super::segment::PairFilter;
+use super::segment::joined;
 use crate::broad::Aabb;
 use crate::certified::decide;
 use crate::query::EdgeEdge;
-use crate::wire::model::{NodeKind, WireId, World};
+use crate::wire::error::CollisionError;
+use crate::wire::model::{NodeKind, WireId};
 use crate::wire::resolution::Remesh;
+use crate::wire::site::SegmentId;
+use crate::wire::world::World;
 
-/// Whether the triangle that a change sweeps meets another segment, by the certified path: no time passes in a change, so it is
-/// nothing that a narrow phase for motions would be asked.
+/// Whether the triangle that a change sweeps meets another segment, by the certified path: no time
+/// passes in a change, so it is nothing that a narrow phase for motions would be asked.
 ///
-/// The segment from `b` to `c` whose end `b` goes straight to `a` passes every point of the triangle `abc` and no
-/// other, so one query without rounding asks for all of it. Segments at the corners are left out, as
-/// neighbours are in a step.
+/// The segment from `b` to `c` whose end `b` goes straight to `a` passes every point of the
+/// triangle `abc` and no other, so one query without rounding asks for all of it. Segments at the
+/// corners are left out, as neighbours are in a step.
 pub(super) fn meets(
     world: &World,
     change: &Remesh,
@@ -45,8 +47,9 @@ pub(super) fn meets(
     Ok(false)
 }
 
-/// Whether a node that lies beside a contact node, and hardly off the line between its neighbours, would be taken out: wire that slides
-/// over a body brings its nodes, and whatever else the body pushes on them does not hold them there.
+/// Whether a node that lies beside a contact node, and hardly off the line between its neighbours,
+/// would be taken out: wire that slides over a body brings its nodes, and whatever else the body
+/// pushes on them does not hold them there.
 pub(super) fn straightens_beside_contact_node(world: &World, change: &Remesh) -> bool {
     let wire = &world.wires[change.wire.0];
     let is_contact = |arc: f64| {

@@ -1,44 +1,14 @@
 //! Segments of wires, places on them, and how close two are.
 
-use std::fmt;
-
 use crate::closest::closest;
 use crate::query::Point;
 use crate::wire::Vector;
-use crate::wire::model::{Node, NodeKind, Wire, WireId, World};
-use crate::wire::step::Place;
+use crate::wire::model::{Node, NodeKind, Wire};
+use crate::wire::site::{SegmentId, WireSite};
+use crate::wire::world::World;
 
-/// A segment of a wire at present; changes of resolution renumber them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct SegmentId {
-    /// The wire.
-    pub wire: WireId,
-    /// The segment between its nodes `segment` and `segment + 1`.
-    pub segment: usize,
-}
-
-/// A place of a wire's material.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Site {
-    /// The wire.
-    pub wire: WireId,
-    /// Arc length in m.
-    pub arc: f64,
-}
-
-impl fmt::Display for Site {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "wire {} at {} m", self.wire.0, self.arc)
-    }
-}
-
-impl From<Site> for Place {
-    fn from(Site { wire, arc }: Site) -> Self {
-        Place::Wire { wire, arc }
-    }
-}
+/// Which pairs of segments are tested at all, over and above those that are joined.
+pub type PairFilter<'n> = &'n dyn Fn(SegmentId, SegmentId) -> bool;
 
 impl SegmentId {
     pub(super) fn of(self, world: &World) -> &Wire {
@@ -54,24 +24,25 @@ impl SegmentId {
         self.nodes(world).map(|node| node.position)
     }
 
-    /// The place at a share of it, from 0 to 1. Next to a node it is the node's, so that all segments there
-    /// name one place.
-    pub(super) fn site(self, world: &World, share: f64) -> Site {
+    /// The place at a parameter of it, from 0 to 1. Next to a node it is the node's, so that all
+    /// segments there name one place.
+    pub(super) fn site(self, world: &World, parameter: f64) -> WireSite {
         const NEXT: f64 = 1e-9;
         let [start, end] = self.nodes(world).map(|node| node.arc);
-        let arc = if share <= NEXT {
+        let arc = if parameter <= NEXT {
             start
-        } else if share >= 1.0 - NEXT {
+        } else if parameter >= 1.0 - NEXT {
             end
         } else {
-            start + (end - start) * share
+            start + (end - start) * parameter
         };
         let wire = self.wire;
-        Site { wire, arc }
+        WireSite { wire, arc }
     }
 
-    /// The segment at a place, if its wire is there; at a node the one after it, at the last node the last.
-    pub(super) fn at(world: &World, site: &Site) -> Option<Self> {
+    /// The segment at a place, if its wire is there; at a node the one after it, at the last node
+    /// the last.
+    pub(super) fn at(world: &World, site: &WireSite) -> Option<Self> {
         let wire = world.wires.get(site.wire.0)?;
         let (segment, _) = wire.at(site.arc);
         let wire = site.wire;
@@ -80,7 +51,7 @@ impl SegmentId {
 }
 
 /// The segments at two places, if their wires are there.
-pub(super) fn pair_at(world: &World, [a, b]: &[Site; 2]) -> Option<[SegmentId; 2]> {
+pub(super) fn pair_at(world: &World, [a, b]: &[WireSite; 2]) -> Option<[SegmentId; 2]> {
     Some([SegmentId::at(world, a)?, SegmentId::at(world, b)?])
 }
 
@@ -112,9 +83,9 @@ fn fixed_together(x: &Node, y: &Node) -> bool {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Closest {
     /// Where on each, from 0 to 1.
-    pub(super) shares: [f64; 2],
+    pub(super) parameters: [f64; 2],
     /// From B to A.
-    pub(super) apart: Vector,
+    pub(super) separation: Vector,
 }
 
 impl Closest {
@@ -122,9 +93,12 @@ impl Closest {
     pub(super) fn new(points: &[Point; 4]) -> Self {
         let x = points.map(|point| point.coords);
         let (u, v) = closest(&x);
-        let apart = between(points, [u, v]);
-        let shares = [u, v];
-        Closest { shares, apart }
+        let separation = between(points, [u, v]);
+        let parameters = [u, v];
+        Closest {
+            parameters,
+            separation,
+        }
     }
 
     pub(super) fn of(world: &World, [a, b]: [SegmentId; 2]) -> Self {
@@ -133,7 +107,7 @@ impl Closest {
     }
 
     pub(super) fn distance(&self) -> f64 {
-        self.apart.norm()
+        self.separation.norm()
     }
 }
 
@@ -142,7 +116,8 @@ pub(super) fn between([a, b, c, d]: &[Point; 4], [u, v]: [f64; 2]) -> Vector {
     (a - c) + (b - a) * u - (d - c) * v
 }
 
-/// A direction of length 1 to rounding, also where the square of the length is beyond `f64`; none of 0.
+/// A direction of length 1 to rounding, also where the square of the length is beyond `f64`; none
+/// of 0.
 pub(super) fn direction(vector: &Vector) -> Option<Vector> {
     let largest = vector.amax();
     (largest > 0.0 && largest.is_finite()).then(|| (vector / largest).normalize())

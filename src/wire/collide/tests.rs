@@ -1,8 +1,14 @@
 //! Scenes with known outcomes.
 
 use super::segment::Closest;
+use super::wire_contacts::WireContacts;
 use super::*;
+use crate::broad::Method;
+use crate::certified::Certified;
 use crate::query::Point;
+use crate::wire::error::CollisionError;
+use crate::wire::record::CrossingOutcome;
+use crate::wire::site::SegmentId;
 use crate::wire::{
     BodyId, BodyPlan, Drive, Material, Phase, Reason, Remesh, RemeshKind, Settings, Shape, Stop,
     Vector, WireId, WirePlan,
@@ -46,7 +52,7 @@ fn basic_collision_in_thesis_mode_tunnels_twice_and_is_pushed_back_twice() {
         let crossings = record.collisions.crossings.iter();
         all.extend(crossings.map(|crossing| crossing.outcome));
     }
-    use Outcome::{Returned, Tunnelled};
+    use CrossingOutcome::{Returned, Tunnelled};
     assert_eq!(all, [Tunnelled, Tunnelled, Returned, Returned]);
 }
 
@@ -134,7 +140,7 @@ fn scripted_bodies_that_force_a_crossing_are_held_and_named() {
     let mut held = Vec::new();
     for _ in 0..5 {
         let record = world.step_colliding(&mut collisions, &[]).unwrap();
-        held.extend(record.collisions.held);
+        held.extend(record.collisions.scaled_islands);
         assert!(
             world.wires()[1]
                 .nodes()
@@ -144,7 +150,11 @@ fn scripted_bodies_that_force_a_crossing_are_held_and_named() {
     }
     let first = held.first().expect("the script is not followed");
     assert_eq!(first.behind, [BodyId(0), BodyId(1)]);
-    assert!(first.share > 0.0 && first.share < 0.1, "{}", first.share);
+    assert!(
+        first.motion_scale > 0.0 && first.motion_scale < 0.1,
+        "{}",
+        first.motion_scale
+    );
 }
 
 #[test]
@@ -167,7 +177,8 @@ fn midlines_that_touch_at_first_are_an_error_that_names_them() {
     assert_eq!(before.wires(), world.wires());
     assert_eq!(
         error.to_string(),
-        "step 0: wires cannot be kept apart: the midlines of wire 0 at 1.1 m and wire 1 at 1 m touch before the step"
+        "step 0: wires cannot be kept apart: the midlines of wire 0 at 1.1 m and wire 1 at 1 m \
+        touch before the step"
     );
 }
 
@@ -248,7 +259,7 @@ fn fixed_arcs(record: &StepRecord) -> impl Iterator<Item = f64> {
         .contacts
         .iter()
         .filter_map(|record| match record.contact.a {
-            crate::wire::Place::Wire {
+            crate::wire::ContactSite::Wire {
                 wire: WireId(0),
                 arc,
             } => Some(arc),
@@ -274,11 +285,11 @@ fn side_is_counted_and_not_read_from_positions() {
         segment: 3,
     };
     let sites = [first.site(&world, 0.4), second.site(&world, 1.0)];
-    let mut touches = Touches::default();
+    let mut touches = WireContacts::default();
     for (wrong, z, gap) in [(false, -1.0, -0.03), (true, 1.0, -0.05)] {
         let mut touch = touches.make(sites, Vector::z());
         touch.wrong = wrong;
-        let mut one = Touches::default();
+        let mut one = WireContacts::default();
         one.add(&world, [touch]);
         one.refresh(&world);
         let contact = one.contacts(0.5).next().unwrap();

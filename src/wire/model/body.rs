@@ -78,7 +78,7 @@ impl BodyPlan {
         }
     }
 
-    pub(super) fn build(self) -> Result<Body, ModelError> {
+    pub(in crate::wire) fn build(self) -> Result<Body, ModelError> {
         finite_point("position", &self.position)?;
         for &component in self.orientation.coords.iter() {
             finite("orientation", component)?;

@@ -101,7 +101,8 @@ impl fmt::Display for ModelError {
             }
             ModelError::ZeroLength { stop } => write!(
                 f,
-                "stops {stop} and {} of the route are at the same place, their distance must be above 0",
+                "stops {stop} and {} of the route are at the same place, their distance must be \
+                above 0",
                 stop + 1
             ),
             ModelError::ShortRoute { stops } => {
@@ -109,7 +110,8 @@ impl fmt::Display for ModelError {
             }
             ModelError::ContactAtEnd { stop } => write!(
                 f,
-                "stop {stop} is a contact node at an end of the route, where only fixed points, eyes and free nodes may be"
+                "stop {stop} is a contact node at an end of the route, where only fixed points, \
+                eyes and free nodes may be"
             ),
             ModelError::Massless { shape } => write!(
                 f,
@@ -125,7 +127,8 @@ impl fmt::Display for ModelError {
             ),
             ModelError::OpenMesh { edge: [a, b] } => write!(
                 f,
-                "the mesh is not closed: edge {a} to {b} must be in exactly two triangles, once in each direction"
+                "the mesh is not closed: edge {a} to {b} must be in exactly two triangles, once \
+                in each direction"
             ),
             ModelError::PhaseOrder { phase } => write!(
                 f,

@@ -15,8 +15,8 @@ pub struct Material {
     pub radius: f64,
     /// Young's modulus in stretch, in Pa.
     pub stretch_modulus: f64,
-    /// Young's modulus in bending, in Pa. With 0 the wire is a chain: it does not resist bending and
-    /// pulls only.
+    /// Young's modulus in bending, in Pa. With 0 the wire is a chain: it does not resist bending
+    /// and pulls only.
     pub bend_modulus: f64,
     /// Damping time of stretch in s; usual value two steps.
     pub stretch_damping: f64,

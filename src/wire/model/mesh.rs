@@ -21,13 +21,13 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// A mesh whose triangles are counterclockwise seen from outside. The vertices are moved so that
-    /// the centre of mass is their origin; [`centre`](Self::centre) tells where it was.
+    /// A mesh whose triangles are counterclockwise seen from outside. The vertices are moved so
+    /// that the centre of mass is their origin; [`centre`](Self::centre) tells where it was.
     ///
     /// # Errors
     ///
-    /// A coordinate that is not finite, a corner that is not there, an edge without its neighbour, or
-    /// a volume that is not above 0 (turned inside out).
+    /// A coordinate that is not finite, a corner that is not there, an edge without its neighbour,
+    /// or a volume that is not above 0 (turned inside out).
     pub fn new(vertices: Vec<Point>, triangles: Vec<[usize; 3]>) -> Result<Self, ModelError> {
         let mut mesh = Mesh {
             vertices,

@@ -1,4 +1,4 @@
-//! What is simulated: bodies, wires, and the world that holds them.
+//! What is simulated: bodies and wires.
 
 mod body;
 pub(super) mod check;
@@ -7,8 +7,7 @@ mod material;
 mod mesh;
 mod plan;
 mod shape;
-pub(in crate::wire) mod strand;
-mod world;
+pub(in crate::wire) mod wire;
 
 pub use body::{Body, BodyId, BodyPlan, Drive, Phase};
 pub use error::ModelError;
@@ -18,5 +17,4 @@ pub use mesh::Mesh;
 pub(in crate::wire) use mesh::tests::box_mesh;
 pub use plan::{Stop, WirePlan};
 pub use shape::{MassProperties, Shape};
-pub use strand::{Node, NodeKind, Resolution, Segment, Wire, WireId};
-pub use world::World;
+pub use wire::{Node, NodeKind, Resolution, Segment, Wire, WireId};

@@ -1,14 +1,15 @@
 //! Wires to be added to a world.
 
 use super::check::{direction, finite_point, finite_vector, not_negative, positive};
-use super::strand::Segment;
+use super::wire::Segment;
 use super::{BodyId, Material, ModelError, Node, NodeKind, Resolution, Wire};
 use crate::query::Point;
 use crate::wire::Vector;
 
 use super::body::Body;
 
-/// The most segments that a wire starts with, so that a slip in its resolution does not take all memory.
+/// The most segments that a wire starts with, so that a slip in its resolution does not take all
+/// memory.
 const MOST_SEGMENTS: f64 = 1e6;
 
 /// A point a wire's route passes.
@@ -76,7 +77,7 @@ impl WirePlan {
         self
     }
 
-    pub(super) fn build(&self, bodies: &[Body]) -> Result<Wire, ModelError> {
+    pub(in crate::wire) fn build(&self, bodies: &[Body]) -> Result<Wire, ModelError> {
         self.material.check()?;
         positive("resolution", self.resolution.length)?;
         finite_vector("velocity", &self.velocity)?;
@@ -134,12 +135,12 @@ impl WirePlan {
             let rest = leg.norm() * stretch;
             let count = (rest / self.resolution.length).max(1.0) as usize;
             for i in 1..=count {
-                let share = i as f64 / count as f64;
-                let mut node = free(two[0].position + leg * share, self.velocity);
+                let fraction = i as f64 / count as f64;
+                let mut node = free(two[0].position + leg * fraction, self.velocity);
                 if i == count {
                     node = two[1];
                 }
-                node.arc = arc + rest * share;
+                node.arc = arc + rest * fraction;
                 nodes.push(node);
             }
             arc += rest;
@@ -155,7 +156,7 @@ fn free(position: Point, velocity: Vector) -> Node {
         arc: 0.0,
         kind: NodeKind::Free,
         slide: 0.0,
-        settled: 0,
+        remesh_from: 0,
     }
 }
 

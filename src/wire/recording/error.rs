@@ -2,8 +2,8 @@
 
 use std::{fmt, io};
 
-use super::VERSION;
-use super::frame::MOST_BYTES;
+use super::layout::MOST_BYTES;
+use super::layout::VERSION;
 
 /// A recording that cannot be read on.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,7 +84,8 @@ impl std::error::Error for ReadError {}
 /// A step that was not written.
 #[derive(Debug)]
 pub enum WriteError {
-    /// The sink failed. What it took of the step, if anything, will be the unsound end of the recording.
+    /// The sink failed. What it took of the step, if anything, will be the unsound end of the
+    /// recording.
     Io(io::Error),
     /// The step has more than [`MOST_BYTES`](super::MOST_BYTES) bytes; nothing was written.
     TooLong(usize),

@@ -8,9 +8,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::error::{Fault, WriteError};
-
-/// The most bytes that a header or step may unpack to: half a million nodes.
-pub const MOST_BYTES: u32 = 1 << 25;
+use super::layout::MOST_BYTES;
 
 /// The largest window of a zstd frame that is read; those that are written have 128 KiB.
 const LARGEST_WINDOW: u64 = 1 << 20;

@@ -9,14 +9,14 @@
 //! | zstd frame of the packed length | the [`Header`] as [postcard](https://postcard.jamesmunns.com/wire-format) |
 //! | label and zstd frame, for every step | its `StepRecord` as postcard |
 //!
-//! Numbers of the labels and the version are 32 bits, little-endian. The checksum is the CRC-32 (IEEE) of
-//! the unpacked bytes, so it also finds faults of packing and unpacking.
+//! Numbers of the labels and the version are 32 bits, little-endian. The checksum is the CRC-32
+//! (IEEE) of the unpacked bytes, so it also finds faults of packing and unpacking.
 //!
 //! Each step is written by one call and stands by itself. After a crash, in the middle of a write
-//! too, everything up to the last whole step reads back; then comes a [`ReadError`], which tells where the
-//! rest starts and what is wrong with it. Reading never panics, whatever the bytes are. It takes memory in
-//! proportion to the bytes that are there, and for packed bytes that were made up, at most in
-//! proportion to [`MOST_BYTES`].
+//! too, everything up to the last whole step reads back; then comes a [`ReadError`], which tells
+//! where the rest starts and what is wrong with it. Reading never panics, whatever the bytes are.
+//! It takes memory in proportion to the bytes that are there, and for packed bytes that were made
+//! up, at most in proportion to [`MOST_BYTES`].
 //!
 //! ```
 //! use tunnelproof::wire::recording::{Recorder, Recording};
@@ -38,17 +38,15 @@
 mod error;
 mod frame;
 mod header;
+mod layout;
 mod reader;
 mod writer;
 
 pub use error::{Fault, ReadError, WriteError};
-pub use frame::MOST_BYTES;
 pub use header::{BodySummary, Header, WireSummary};
+pub use layout::{MOST_BYTES, VERSION};
 pub use reader::Recording;
 pub use writer::Recorder;
-
-/// The version of the layout that is written, and the only one that is read.
-pub const VERSION: u32 = 3;
 
 #[cfg(test)]
 mod tests;

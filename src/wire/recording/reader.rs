@@ -4,10 +4,10 @@ use std::io::Read;
 
 use serde::de::DeserializeOwned;
 
-use super::VERSION;
 use super::error::{Fault, ReadError};
 use super::frame::{LABEL, Label, unpack};
 use super::header::Header;
+use super::layout::VERSION;
 use super::writer::OPENING;
 use crate::wire::StepRecord;
 

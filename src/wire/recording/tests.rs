@@ -7,12 +7,12 @@ use super::frame::pack;
 use super::*;
 use crate::query::Point;
 use crate::wire::{
-    BodyId, BodyPlan, Contact, Material, Mesh, Place, Settings, Shape, StepRecord, Stop, Vector,
-    WirePlan, World,
+    BodyId, BodyPlan, ContactConstraint, ContactSite, Material, Mesh, Settings, Shape, StepRecord,
+    Stop, Vector, WirePlan, World,
 };
 
-/// A steel wire with a contact node over a fixed mesh, from a tight end to a falling, tumbling box that
-/// touches the ground: everything that a record can hold.
+/// A steel wire with a contact node over a fixed mesh, from a tight end to a falling, tumbling box
+/// that touches the ground: everything that a record can hold.
 fn world() -> World {
     let mut world = World::new(Settings::default()).unwrap();
     let half = Vector::new(0.3, 0.4, 0.5);
@@ -43,14 +43,14 @@ fn world() -> World {
     world
 }
 
-fn ground(world: &World) -> Vec<Contact> {
+fn ground(world: &World) -> Vec<ContactConstraint> {
     let body = BodyId(0);
     let local = Vector::new(0.3, 0.4, -0.5);
     let gap = world.bodies()[0].point(&local).z;
-    let contact = Contact {
+    let contact = ContactConstraint {
         key: u64::MAX,
-        a: Place::Body { body, local },
-        b: Place::World,
+        a: ContactSite::Body { body, local },
+        b: ContactSite::World,
         normal: Vector::z(),
         gap,
         friction: 0.5,
@@ -202,7 +202,8 @@ fn recording_never_reads_back_anything_else_when_a_byte_is_wrong() {
                     assert_eq!(recording.header(), &header, "byte {at}");
                     let (steps, end) = read_all(&bad);
                     assert_eq!(steps, records[..steps.len()], "byte {at}");
-                    // What comes before the byte is there, and the error tells of the part with the byte.
+                    // What comes before the byte is there, and the error tells of the part with the
+                    // byte.
                     if let Some(error) = end {
                         assert_eq!(
                             error.offset as usize,
@@ -350,8 +351,8 @@ proptest! {
         }
     }
 
-    /// Edits under a checksum that is right again: whatever is read, nothing panics, and memory stays in
-    /// proportion.
+    /// Edits under a checksum that is right again: whatever is read, nothing panics, and memory
+    /// stays in proportion.
     #[test]
     fn recording_of_forged_bytes_ends_in_proportion(edits in edits(), packed in any::<bool>()) {
         let (file, _, records) = recorded(1);

@@ -2,17 +2,18 @@
 
 use std::io::Write;
 
-use super::VERSION;
 use super::error::WriteError;
 use super::frame::{LABEL, pack};
 use super::header::Header;
+use super::layout::VERSION;
 use crate::wire::{StepRecord, World};
 
-/// How a recording starts: the magic number of a skippable zstd frame, the length of the rest, a name.
+/// How a recording starts: the magic number of a skippable zstd frame, the length of the rest, a
+/// name.
 pub(super) const OPENING: [u8; 16] = *b"\x5e\x2a\x4d\x18\x0c\0\0\0tpsteps\0";
 
-/// Writes steps to a file, each by one call of `write_all`. A sink that keeps bytes back (a `BufWriter`)
-/// loses them in a crash; a plain file does not.
+/// Writes steps to a file, each by one call of `write_all`. A sink that keeps bytes back (a
+/// `BufWriter`) loses them in a crash; a plain file does not.
 #[derive(Debug)]
 pub struct Recorder<W> {
     sink: W,
@@ -23,7 +24,8 @@ impl<W: Write> Recorder<W> {
     ///
     /// # Errors
     ///
-    /// The sink fails, or the shapes of the bodies need more than [`MOST_BYTES`](super::MOST_BYTES).
+    /// The sink fails, or the shapes of the bodies need more than
+    /// [`MOST_BYTES`](super::MOST_BYTES).
     pub fn new(sink: W, world: &World) -> Result<Self, WriteError> {
         let mut recorder = Recorder { sink };
         let mut bytes = Vec::with_capacity(LABEL);

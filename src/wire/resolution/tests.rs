@@ -20,7 +20,7 @@ fn chain() -> World {
 
 fn tense(world: &mut World, tension: f64) {
     for segment in &mut world.wires[0].segments {
-        segment.memory[0] = tension;
+        segment.tension_history[0] = tension;
     }
 }
 
@@ -66,7 +66,7 @@ fn slackening_splits_long_segments_and_keeps_momentum() {
     world.wires[0].resolution.length = 0.5;
     let before = world.momentum();
     // Not within ten steps of the change before.
-    world.steps += MEMORY as u64 - 1;
+    world.steps += TENSION_HISTORY as u64 - 1;
     assert!(adapt(&mut world, &mut Permit).is_empty());
     world.steps += 1;
     let changes = adapt(&mut world, &mut Permit);
@@ -121,7 +121,7 @@ impl RemeshGuard for BendsBefore {
         true
     }
 
-    fn bends(&self, _: WireId, from: f64, _: f64) -> bool {
+    fn needs_fine_resolution(&self, _: WireId, from: f64, _: f64) -> bool {
         from < self.0
     }
 }
@@ -136,10 +136,11 @@ fn tension_leaves_short_segments_where_a_wire_has_to_bend() {
     let (short, long) = lengths.split_at(4);
     assert!(short.iter().all(|l| *l < 1.02), "{lengths:?}");
     assert!(long.iter().all(|l| *l > 2.0), "{lengths:?}");
-    // Where it has to bend later, both long segments are divided under the same tension, one after the other.
+    // Where it has to bend later, both long segments are divided under the same tension, one after
+    // the other.
     world.wires[0].resolution.length = 0.75;
     for divided in [7, 8] {
-        world.steps += MEMORY as u64;
+        world.steps += TENSION_HISTORY as u64;
         adapt(&mut world, &mut BendsBefore(9.0));
         assert_eq!(rest_lengths(&world).len(), divided);
     }

@@ -1,20 +1,20 @@
 //! The step of a world: solve, commit, change the resolution.
 
-use std::time::Instant;
-
-use super::Contact;
+use super::callbacks::{Given, MotionReview, StepCallbacks};
 use super::capstan;
-use super::contact::{Warm, check};
-use super::error::{Reason, StepError};
-use super::motion::{Motion, Shares, Sliding};
-use super::ride;
-use super::settle::Candidate;
-use super::system::{Structure, System};
-use super::watch::{Given, Judgement, Watch};
-use crate::wire::model::World;
-use crate::wire::model::strand::MEMORY;
+use super::contact_nodes;
+use super::motion::{MotionScales, ProposedMotion, SlideRate};
+use super::solve_step::Candidate;
+use super::system::System;
+use crate::wire::clock::Clock;
+use crate::wire::contact::{ContactConstraint, check};
+use crate::wire::error::{Reason, StepError};
+use crate::wire::model::wire::TENSION_HISTORY;
 use crate::wire::record::{Phases, StepRecord};
 use crate::wire::resolution::{self, Permit, RemeshGuard};
+use crate::wire::solver_cache::WarmStart;
+use crate::wire::sparse::Structure;
+use crate::wire::world::World;
 
 impl World {
     /// Does one step with the contacts given. Every change of resolution is permitted.
@@ -22,7 +22,7 @@ impl World {
     /// # Errors
     ///
     /// [`StepError`] says which step was not done and why; the world is as before.
-    pub fn step(&mut self, contacts: &[Contact]) -> Result<StepRecord, StepError> {
+    pub fn step(&mut self, contacts: &[ContactConstraint]) -> Result<StepRecord, StepError> {
         self.step_guarded(contacts, &mut Permit)
     }
 
@@ -33,7 +33,7 @@ impl World {
     /// As [`step`](Self::step).
     pub fn step_guarded(
         &mut self,
-        contacts: &[Contact],
+        contacts: &[ContactConstraint],
         guard: &mut dyn RemeshGuard,
     ) -> Result<StepRecord, StepError> {
         self.advance(&mut Given { contacts, guard })
@@ -42,28 +42,30 @@ impl World {
     /// Does one step with the contacts that `watch` gives, as far as it lets everything move.
     pub(in crate::wire) fn advance(
         &mut self,
-        watch: &mut dyn Watch,
+        watch: &mut dyn StepCallbacks,
     ) -> Result<StepRecord, StepError> {
         let step = self.steps;
         let failed = |reason| StepError { step, reason };
         let mut phases = Phases::default();
         check(self, watch.contacts()).map_err(failed)?;
-        let mut structure = self.structure.take();
-        let agreed = self.agree(&mut structure, watch, &mut phases);
-        let (system, candidate, motion) = agreed.map_err(failed)?;
+        let mut structure = self.cache.structure.take();
+        let solved = self.solve_accepted(&mut structure, watch, &mut phases);
+        let (system, candidate, motion) = solved.map_err(failed)?;
         let mut clock = Clock::start();
         let mut record = StepRecord::before(self);
         record.contacts = self.contact_records(watch.contacts(), &candidate.swept.impulses);
         record.solver = candidate.solver.clone();
-        self.warm = Warm::new(watch.contacts(), &candidate.swept.impulses);
+        let keys = watch.contacts().iter().map(|contact| contact.key);
+        let impulses = candidate.swept.impulses.iter().copied();
+        self.cache.warm_start = WarmStart::new(keys.zip(impulses));
         let slid = self.commit(&system, &candidate, motion);
-        self.structure = system.into_structure();
+        self.cache.structure = system.into_structure();
         record.after(self);
         phases.commit = clock.lap();
         record.slides = capstan::slides(self, &slid);
-        record.slides.extend(ride::leave(self));
-        let bends = watch.contact_nodes(self, &record.contacts);
-        record.remeshes = ride::arrive(self, &bends, watch);
+        record.slides.extend(contact_nodes::release(self));
+        let insertions = watch.contact_nodes(self, &record.contacts);
+        record.remeshes = contact_nodes::insert(self, &insertions, watch);
         record.remeshes.extend(resolution::adapt(self, watch));
         phases.resolution = clock.lap();
         record.phases = phases;
@@ -71,62 +73,50 @@ impl World {
     }
 
     /// Solves, and again with more contacts, until `watch` accepts the motion.
-    fn agree(
+    fn solve_accepted(
         &self,
         structure: &mut Option<Structure>,
-        watch: &mut dyn Watch,
+        watch: &mut dyn StepCallbacks,
         phases: &mut Phases,
-    ) -> Result<(System, Candidate, Motion), Reason> {
-        let (mut system, mut candidate) = self.settle(structure, watch.contacts(), phases)?;
-        let mut shares = Shares::all(self);
+    ) -> Result<(System, Candidate, ProposedMotion), Reason> {
+        let (mut system, mut candidate) = self.solve_step(structure, watch.contacts(), phases)?;
+        let mut scales = MotionScales::all(self);
         loop {
-            let mut motion = self.motion(&system.layout, &candidate.x, &shares);
+            let mut motion = self.motion(&system.layout, &candidate.x, &scales);
             if !motion.is_finite() {
                 return Err(Reason::NotFinite);
             }
             capstan::shorten(self, &mut motion);
             let mut clock = Clock::start();
-            let judgement = watch.judge(self, &motion, &candidate.swept.impulses)?;
+            let judgement = watch.review(self, &motion, &candidate.swept.impulses)?;
             phases.narrow += clock.lap();
             match judgement {
-                Judgement::Accept => return Ok((system, candidate, motion)),
-                Judgement::Solve => {
+                MotionReview::Accept => return Ok((system, candidate, motion)),
+                MotionReview::SolveAgain => {
                     *structure = system.into_structure();
-                    (system, candidate) = self.settle(structure, watch.contacts(), phases)?;
+                    (system, candidate) = self.solve_step(structure, watch.contacts(), phases)?;
                 }
-                Judgement::Hold(smaller) => shares = smaller,
+                MotionReview::Scale(scales_now) => scales = scales_now,
             }
         }
     }
 
-    fn commit(&mut self, system: &System, candidate: &Candidate, motion: Motion) -> Vec<Sliding> {
+    fn commit(
+        &mut self,
+        system: &System,
+        candidate: &Candidate,
+        motion: ProposedMotion,
+    ) -> Vec<SlideRate> {
         let slid = motion.apply(self);
-        let slot = self.steps as usize % MEMORY;
+        let slot = self.steps as usize % TENSION_HISTORY;
         let segments = self.wires.iter_mut().flat_map(|wire| &mut wire.segments);
         for (segment, row) in segments.zip(&system.rows) {
             // T = -lambda / h, and the unknown is -lambda.
             segment.tension = candidate.x[row.multiplier] / self.settings.step;
-            segment.memory[slot] = segment.tension;
+            segment.tension_history[slot] = segment.tension;
         }
         self.steps += 1;
         slid
-    }
-}
-
-/// Measures phases.
-pub(in crate::wire) struct Clock(Instant);
-
-impl Clock {
-    pub(in crate::wire) fn start() -> Self {
-        Clock(Instant::now())
-    }
-
-    /// Seconds since the start or the last lap.
-    pub(in crate::wire) fn lap(&mut self) -> f64 {
-        let now = Instant::now();
-        let seconds = now.duration_since(self.0).as_secs_f64();
-        self.0 = now;
-        seconds
     }
 }
 

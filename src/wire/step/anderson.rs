@@ -1,22 +1,22 @@
-//! Sweeps that learn from each other (Anderson, J. ACM 12, 1965).
+//! Anderson acceleration of sweeps (Anderson, J. ACM 12, 1965).
 //!
-//! A sweep takes impulses to others; they have settled where it changes nothing. As long as no contact opens, closes,
-//! sticks or slips, its change is nearly linear in the impulses. So the differences of the last sweeps tell which combination
-//! of their results would change least, and the next sweep starts there. After a sweep that changes much more than the
-//! one before, they are forgotten.
+//! A sweep maps impulses to impulses; its fixed point is the solution. As long as no contact opens,
+//! closes, sticks or slips, its change is nearly linear in the impulses. So the differences of the
+//! last sweeps tell which combination of their results would change least, and the next sweep
+//! starts there. After a sweep that changes much more than the one before, they are forgotten.
 
 use std::collections::VecDeque;
 
+use super::contact_blocks::{Block, Swept};
 use super::coulomb::to_cone;
 use super::delassus::Delassus;
-use super::friction::{Block, Swept};
 use crate::wire::Vector;
 use crate::wire::settings::Settings;
 
 /// Differences that are remembered.
 const DEPTH: usize = 8;
 
-/// Every so many sweeps the next one starts where they are foretold to lead.
+/// Every so many sweeps the next one starts from the extrapolation.
 const PERIOD: usize = 4;
 
 /// A sweep whose change is this many times that of the one before, squared, ends what was learnt.
@@ -28,7 +28,7 @@ const PLAIN: usize = 10;
 /// Weight of small combinations, which keeps the equations for them regular.
 const SMALL: f64 = 1e-8;
 
-/// Sweeps until the contacts have settled, or there are no more sweeps.
+/// Sweeps until the contacts have converged, or there are no more sweeps.
 pub(super) fn sweep(
     mut delassus: Delassus,
     blocks: &mut [Block],
@@ -50,7 +50,7 @@ pub(super) fn sweep(
         let mut sample = sample(&before, blocks, &delassus, &units);
         history.learn(&sample);
         if swept.sweeps.is_multiple_of(PERIOD) {
-            history.foretell(&mut sample);
+            history.extrapolate(&mut sample);
             start_from(&sample, blocks, &mut delassus);
         }
     }
@@ -62,8 +62,8 @@ fn impulses(blocks: &[Block]) -> Vec<f64> {
         .collect()
 }
 
-/// What a sweep changed, in units in which a change moves its own contact alike, and the impulses and velocities that it
-/// came to.
+/// What a sweep changed, in units in which a change moves its own contact alike, and the impulses
+/// and velocities that it came to.
 fn sample(before: &[f64], blocks: &[Block], delassus: &Delassus, units: &[f64]) -> Vec<f64> {
     let after = impulses(blocks);
     let changes = after.iter().zip(before).zip(units);
@@ -124,9 +124,9 @@ impl History {
         }
     }
 
-    /// Takes from a sample the combination of differences that leaves the least change: least squares by the normal
-    /// equations.
-    fn foretell(&self, sample: &mut [f64]) {
+    /// Takes from a sample the combination of differences that leaves the least change: least
+    /// squares by the normal equations.
+    fn extrapolate(&self, sample: &mut [f64]) {
         let trace: f64 = self.products.iter().filter_map(VecDeque::back).sum();
         let mut matrix = Vec::with_capacity(self.products.len());
         for (k, row) in self.products.iter().enumerate() {
@@ -136,19 +136,23 @@ impl History {
         }
         let right = self.differences.iter();
         let right = right.map(|difference| product(difference, sample));
-        let shares: Vec<f64> = solve(matrix, right.collect());
-        if shares.iter().any(|share| !share.is_finite()) {
+        let coefficients: Vec<f64> = solve(matrix, right.collect());
+        if coefficients
+            .iter()
+            .any(|coefficient| !coefficient.is_finite())
+        {
             return;
         }
-        for (difference, share) in self.differences.iter().zip(shares) {
+        for (difference, coefficient) in self.differences.iter().zip(coefficients) {
             for (value, difference) in sample.iter_mut().zip(difference) {
-                *value -= share * difference;
+                *value -= coefficient * difference;
             }
         }
     }
 }
 
-/// The product of the changes of two samples, which are their first thirds. Four sums, which a processor does at once.
+/// The product of the changes of two samples, which are their first thirds. Four sums, which a
+/// processor does at once.
 fn product(a: &[f64], b: &[f64]) -> f64 {
     let changes = a.len() / 3;
     let (a, b) = (a[..changes].chunks_exact(4), b[..changes].chunks_exact(4));
@@ -163,7 +167,8 @@ fn product(a: &[f64], b: &[f64]) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
-/// Solves a small positive definite system, given by its lower triangle, by `L L^T`; 0 where nothing is left of a pivot.
+/// Solves a small positive definite system, given by its lower triangle, by `L L^T`; 0 where
+/// nothing is left of a pivot.
 fn solve(mut matrix: Vec<Vec<f64>>, mut x: Vec<f64>) -> Vec<f64> {
     let n = x.len();
     for k in 0..n {

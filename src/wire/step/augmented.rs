@@ -1,46 +1,51 @@
-//! Coulomb's law as a function, near an impulse that is foretold (Alart, Curnier, CMAME 92, 1991).
+//! Coulomb's law as a function of velocity, near a predicted impulse (Alart, Curnier, CMAME 92,
+//! 1991).
 //!
-//! The law is no function: a contact that does not move may have any impulse of its cone. The method of multipliers has it one, near
-//! an impulse that is foretold, and for a bound of friction that is. Where what was foretold comes out, it is Coulomb's law;
-//! else what comes out is foretold next. Whatever is foretold, its negative is the gradient of a convex function of the velocity.
+//! The law itself is no function of velocity: a contact that does not move may have any impulse of
+//! its cone. The method of multipliers (augmented Lagrangian) makes it one, near a predicted
+//! impulse and for a predicted bound of friction. Where the solution has the predicted impulse, it
+//! satisfies Coulomb's law; else its impulse is the next prediction. For any prediction, the
+//! negative of the impulse is the gradient of a convex function of the velocity.
 
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
 use super::coulomb::{to_cone, to_disk};
 use crate::wire::Vector;
 
-/// By how much a contact gives way at first to an impulse that was not foretold, as a share of its mobility. What gives way much is found
-/// in few steps; what gives way little lacks little.
+/// The first compliance of a contact to an impulse that was not predicted, as a fraction of its
+/// mobility. A large compliance takes few Newton steps; a small one leaves a small residual.
 const SOFT: f64 = 1e-2;
 
-/// Which share of that is left each time that an impulse is foretold anew.
+/// The factor on that compliance at each new prediction.
 const HARDER: f64 = 0.1;
 
-/// What is always left.
+/// The smallest compliance.
 const HARD: f64 = 1e-7;
 
-/// The impulse of one contact by its velocity `u`, both in the contact's frame: along the normal, then across.
+/// The impulse of one contact by its velocity `u`, both in the contact's frame: along the normal,
+/// then across.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Augmented {
-    /// What an impulse of this contact changes of its own velocity, in 1/kg. Only the order of magnitude counts.
+    /// What an impulse of this contact changes of its own velocity, in 1/kg. Only the order of
+    /// magnitude counts.
     mobility: f64,
     /// Regularisation of the normal row, in 1/kg.
     sigma: f64,
     /// What is asked for of the normal velocity, in m/s.
     target: f64,
     friction: f64,
-    /// The impulse that is foretold, in N s.
-    foretold: Vector,
+    /// The impulse that is predicted, in N s.
+    predicted: Vector,
     /// The largest friction, in N s.
     bound: f64,
-    /// Whether it is foretold to slide.
+    /// Whether it is predicted to slide.
     slides: bool,
-    /// By how much it gives way to what is not foretold, in 1/kg.
+    /// Compliance to what is not predicted, in 1/kg.
     soft: f64,
 }
 
 impl Augmented {
-    /// The law of a contact that is foretold to have an impulse.
+    /// The law of a contact that is predicted to have an impulse.
     pub(super) fn new(
         mobility: f64,
         [target, sigma]: [f64; 2],
@@ -56,7 +61,7 @@ impl Augmented {
             sigma,
             target,
             friction,
-            foretold: impulse,
+            predicted: impulse,
             bound: friction * impulse.x,
             slides,
             soft: SOFT * mobility,
@@ -68,8 +73,8 @@ impl Augmented {
         Augmented::new(1.0, [f64::NEG_INFINITY, 0.0], 0.0, &Vector::zeros())
     }
 
-    /// The impulse at a velocity: `((target - u_n + soft foretold_n) / (soft + sigma))+` and what of
-    /// `foretold_t - u_t / soft` is within the bound.
+    /// The impulse at a velocity: `((target - u_n + soft predicted_n) / (soft + sigma))+` and what
+    /// of `predicted_t - u_t / soft` is within the bound.
     pub(super) fn impulse(&self, velocity: &Vector) -> Vector {
         let normal = (self.push(velocity) / (self.sigma + self.soft)).max(0.0);
         let tangential = to_disk(self.stuck(velocity), self.bound);
@@ -95,10 +100,10 @@ impl Augmented {
         slope
     }
 
-    /// A velocity at which what is foretold comes out, as near to another as it may be.
+    /// A velocity at which what is predicted comes out, as near to another as it may be.
     pub(super) fn expected(&self, near: &Vector) -> Vector {
-        let pushed = self.target - self.sigma * self.foretold.x;
-        let normal = if self.foretold.x > 0.0 {
+        let pushed = self.target - self.sigma * self.predicted.x;
+        let normal = if self.predicted.x > 0.0 {
             pushed
         } else {
             near.x.max(pushed)
@@ -110,14 +115,14 @@ impl Augmented {
         }
     }
 
-    /// By how much velocities are off if an impulse is taken for the law's, in m/s.
-    pub(super) fn bend(&self, velocity: &Vector, impulse: &Vector) -> f64 {
+    /// How far velocities are off if an impulse is taken for that of the law, in m/s.
+    pub(super) fn linearisation_error(&self, velocity: &Vector, impulse: &Vector) -> f64 {
         (self.impulse(velocity) - impulse).amax() * self.mobility
     }
 
-    /// By how much velocities are off because an impulse that comes out was not foretold, in m/s.
-    pub(super) fn lack(&self, velocity: &Vector, impulse: &Vector) -> f64 {
-        let given_way = (impulse - self.foretold).amax() * self.soft;
+    /// By how much velocities are off because an impulse that comes out was not predicted, in m/s.
+    pub(super) fn residual(&self, velocity: &Vector, impulse: &Vector) -> f64 {
+        let given_way = (impulse - self.predicted).amax() * self.soft;
         let bound = self.friction * impulse.x;
         let unbound = if self.is_sliding(velocity) {
             (bound - self.bound).abs()
@@ -127,22 +132,22 @@ impl Augmented {
         given_way.max(unbound * self.mobility)
     }
 
-    /// Foretells the impulse that came out at a velocity.
-    pub(super) fn follow(&mut self, velocity: &Vector, impulse: &Vector) {
+    /// Predicts the impulse that came out at a velocity.
+    pub(super) fn update_prediction(&mut self, velocity: &Vector, impulse: &Vector) {
         self.slides = self.is_sliding(velocity);
-        self.foretold = Vector::new(impulse.x.max(0.0), impulse.y, impulse.z);
-        self.bound = self.friction * self.foretold.x;
+        self.predicted = Vector::new(impulse.x.max(0.0), impulse.y, impulse.z);
+        self.bound = self.friction * self.predicted.x;
         self.soft = (self.soft * HARDER).max(self.mobility * HARD);
     }
 
     /// Above 0 where it pushes, in m/s.
     fn push(&self, velocity: &Vector) -> f64 {
-        self.target - velocity.x + self.soft * self.foretold.x
+        self.target - velocity.x + self.soft * self.predicted.x
     }
 
     /// The friction if there were no bound.
     fn stuck(&self, velocity: &Vector) -> Vector2<f64> {
-        self.foretold.yz() - velocity.yz() / self.soft
+        self.predicted.yz() - velocity.yz() / self.soft
     }
 
     fn is_sliding(&self, velocity: &Vector) -> bool {
@@ -157,7 +162,7 @@ mod tests {
 
     use super::*;
 
-    /// Laws that push or not, with more or less friction than is foretold.
+    /// Laws that push or not, with more or less friction than is predicted.
     fn laws(rng: &mut ChaCha8Rng) -> Augmented {
         let impulse = Vector::from_fn(|_, _| rng.random_range(-1.0..1.0));
         let row = [rng.random_range(-0.1..0.1), rng.random_range(0.0..0.1)];
@@ -192,24 +197,24 @@ mod tests {
     }
 
     #[test]
-    fn foretold_impulse_comes_out_at_the_expected_velocity_and_then_lacks_nothing() {
+    fn predicted_impulse_comes_out_at_the_expected_velocity_without_residual() {
         let rng = &mut ChaCha8Rng::seed_from_u64(2);
         let mut sliding = 0;
         for _ in 0..1000 {
             let law = laws(rng);
             let near = Vector::from_fn(|_, _| rng.random_range(-1.0..1.0));
             // What slides goes against its friction.
-            let against = -law.foretold.yz() * rng.random_range(0.0..1.0);
+            let against = -law.predicted.yz() * rng.random_range(0.0..1.0);
             let near = if law.slides {
                 Vector::new(near.x, against.x, against.y)
             } else {
                 near
             };
-            sliding += usize::from(law.slides && law.foretold.x > 0.0);
+            sliding += usize::from(law.slides && law.predicted.x > 0.0);
             let expected = law.expected(&near);
             let impulse = law.impulse(&expected);
-            assert!((impulse - law.foretold).amax() < 1e-12, "{law:?} {near}");
-            assert!(law.lack(&expected, &impulse) < 1e-12);
+            assert!((impulse - law.predicted).amax() < 1e-12, "{law:?} {near}");
+            assert!(law.residual(&expected, &impulse) < 1e-12);
         }
         assert!(sliding > 100, "{sliding}");
     }

@@ -1,43 +1,35 @@
 //! Contact nodes: where a wire turns over a body, and sticks or slides.
 //!
-//! A contact node rides a point of a body, from when it comes to when it leaves ([`ride`](super::ride)). Wire slides over
-//! it at a speed that is an unknown of the step like any velocity: arc length moves from the segment on one side to that on the other, and what moves is the node's mass. Friction takes up any
-//! sliding, as far as the capstan bound of a node that turns the wire by an angle `D` goes:
-//! `T2/T1 <= (1 + f tan(D/2)) / (1 - f tan(D/2))`, which tends to `e^(f D)` for small `D`. That is Coulomb's law,
-//! `|T2 - T1| <= f tan(D/2) (T1 + T2)`.
+//! A contact node is attached to a point of a body until it is released
+//! ([`contact_nodes`](super::contact_nodes)). Wire slides over it at a speed that is an unknown of
+//! the step like any velocity: arc length moves from the segment on one side to that on the other,
+//! and what moves is the node's mass. Friction takes up any sliding, as far as the capstan bound of
+//! a node that turns the wire by an angle `D` goes: `T2/T1 <= (1 + f tan(D/2)) / (1 - f tan(D/2))`,
+//! which tends to `e^(f D)` for small `D`. That is Coulomb's law, `|T2 - T1| <= f tan(D/2) (T1 +
+//! T2)`.
 
 use smallvec::{SmallVec, smallvec};
 
 use super::carrier::Layout;
-use super::law::{Law, friction};
-use super::motion::{Motion, Sliding};
-use super::rows::{Row, unit};
-use crate::wire::Vector;
-use crate::wire::model::{NodeKind, Wire, WireId, World};
+use super::constitutive::{ConstitutiveLaw, friction_bound};
+use super::motion::{ProposedMotion, SlideRate};
+use super::rows::Row;
+use crate::wire::model::{NodeKind, Wire, WireId};
+use crate::wire::record::Slide;
+use crate::wire::vector::{Vector, unit};
+use crate::wire::world::World;
 
-/// A wire that slid over a contact node.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Slide {
-    /// The wire.
-    pub wire: WireId,
-    /// The node's number after the motion.
-    pub node: usize,
-    /// How far the node's arc length went, in m; 0 for a node that left its body.
-    pub distance: f64,
-    /// Whether the node left its body and is free now.
-    pub left: bool,
-}
-
-/// What is left of a segment that wire slides out of, as a share of the resolution, and of what it was before the step.
+/// What is left of a segment that wire slides out of, as a fraction of the resolution, and of what
+/// it was before the step.
 pub(super) const LEAST: f64 = 1.0 / 16.0;
 
-/// What a wire that sticks slips nonetheless, as a share of the speed that its friction could take from the node in one
-/// step. It is left out of the motion.
+/// Slip of a wire that sticks, which the regularisation allows, as a fraction of the speed that its
+/// friction could take from the node in one step. The motion leaves it out.
 const SLIP: f64 = 1e-9;
 
-/// The rows of friction of all contact nodes: `w = 0` for the speed of sliding `w`, as far as friction goes.
-pub(super) fn grips(world: &World, layout: &Layout) -> Vec<Row> {
+/// The rows of friction of all contact nodes: `w = 0` for the speed of sliding `w`, as far as
+/// friction goes.
+pub(super) fn friction_rows(world: &World, layout: &Layout) -> Vec<Row> {
     let mut rows = Vec::new();
     for (at, wire) in world.wires.iter().enumerate() {
         let first = layout.first_node[at];
@@ -46,12 +38,15 @@ pub(super) fn grips(world: &World, layout: &Layout) -> Vec<Row> {
                 continue;
             };
             let segment = first - at + node;
-            let share = friction_share(wire, node);
+            let factor = capstan_factor(wire, node);
             let tensions = [node - 1, node].map(|beside| wire.segments[beside].tension);
-            let law = Law::Grips {
-                share,
+            let law = ConstitutiveLaw::Friction {
+                factor,
                 tensions: [segment - 1, segment].map(|beside| layout.stretch[beside]),
-                bound: friction(share, tensions.map(|tension| tension * world.settings.step)),
+                bound: friction_bound(
+                    factor,
+                    tensions.map(|tension| tension * world.settings.step),
+                ),
                 reach: reach(wire, node, world),
             };
             let sigma = SLIP / wire.node_mass(node);
@@ -61,7 +56,7 @@ pub(super) fn grips(world: &World, layout: &Layout) -> Vec<Row> {
                 slides: smallvec![(column, 1.0)],
                 sigma,
                 target: 0.0,
-                piece: law.piece(wire.nodes[node].slide, sigma),
+                branch: law.branch(wire.nodes[node].slide, sigma),
                 law,
             });
         }
@@ -70,7 +65,7 @@ pub(super) fn grips(world: &World, layout: &Layout) -> Vec<Row> {
 }
 
 /// `f tan(D/2)`.
-fn friction_share(wire: &Wire, node: usize) -> f64 {
+fn capstan_factor(wire: &Wire, node: usize) -> f64 {
     let NodeKind::Contact { friction, .. } = wire.nodes[node].kind else {
         return 0.0;
     };
@@ -85,9 +80,9 @@ fn friction_share(wire: &Wire, node: usize) -> f64 {
     }
 }
 
-/// How fast a node's arc length may fall and grow: as far as is set for one step, and to half of the segment that
-/// gets shorter, of which something has to be left. Between two contact nodes of one body a segment cannot get much
-/// shorter than it is long.
+/// How fast a node's arc length may fall and grow: as far as is set for one step, and to half of
+/// the segment that gets shorter, of which something has to be left. Between two contact nodes of
+/// one body a segment cannot get much shorter than it is long.
 fn reach(wire: &Wire, node: usize, world: &World) -> [f64; 2] {
     let body = |node: usize| match wire.nodes[node].kind {
         NodeKind::Contact { body, .. } => Some(body),
@@ -111,24 +106,33 @@ fn reach(wire: &Wire, node: usize, world: &World) -> [f64; 2] {
 /// Sets the bounds of friction to what follows from a solution.
 pub(super) fn update_bounds(rows: &mut [Row], x: &[f64]) {
     for row in rows {
-        row.law.follow(x);
+        row.law.update_bound(x);
     }
 }
 
 /// Whether a bound of friction is not that which follows from a solution.
 pub(super) fn bounds_differ(rows: &[Row], x: &[f64]) -> bool {
     const TOLERANCE: f64 = 1e-9;
-    bounds_lack(rows, x) > TOLERANCE
+    bound_residual(rows, x) > TOLERANCE
 }
 
-/// By how much a bound of friction differs at most from what follows from a solution, as a share of the largest.
-pub(super) fn bounds_lack(rows: &[Row], x: &[f64]) -> f64 {
+/// The largest difference between a bound of friction and the one that follows from a solution, as
+/// a fraction of the largest bound.
+pub(super) fn bound_residual(rows: &[Row], x: &[f64]) -> f64 {
     let bounds = rows.iter().filter_map(|row| row.law.bounds(x));
     let finite = bounds.filter(|[_, due]| due.is_finite());
-    let (lack, largest) = finite.fold((0.0_f64, 0.0_f64), |(lack, largest), [bound, due]| {
-        (lack.max((bound - due).abs()), largest.max(due).max(bound))
-    });
-    if lack > 0.0 { lack / largest } else { 0.0 }
+    let (residual, largest) =
+        finite.fold((0.0_f64, 0.0_f64), |(residual, largest), [bound, due]| {
+            (
+                residual.max((bound - due).abs()),
+                largest.max(due).max(bound),
+            )
+        });
+    if residual > 0.0 {
+        residual / largest
+    } else {
+        0.0
+    }
 }
 
 /// A wire that sticks does not creep: where a solution slips, its speed is 0.
@@ -140,10 +144,11 @@ pub(super) fn stop_slip(rows: &[Row], x: &mut [f64]) {
     }
 }
 
-/// Lets every segment keep a sixteenth of its wire: wires that would slide farther in a motion slide a share of it, at all their contact
-/// nodes. What they did not slide is stretch, and drawn over the nodes in the next steps.
-pub(super) fn shorten(world: &World, motion: &mut Motion) {
-    let mut shares = vec![1.0_f64; world.wires.len()];
+/// Leaves every segment at least a sixteenth of its length: the slides of a wire that would go
+/// farther are scaled down, at all its contact nodes. What they did not slide is stretch, and drawn
+/// over the nodes in the next steps.
+pub(super) fn shorten(world: &World, motion: &mut ProposedMotion) {
+    let mut scales = vec![1.0_f64; world.wires.len()];
     for slid in &motion.slides {
         let wire = &world.wires[slid.wire];
         for segment in [slid.node - 1, slid.node] {
@@ -152,17 +157,17 @@ pub(super) fn shorten(world: &World, motion: &mut Motion) {
             let taken = (speeds[0] - speeds[1]) * world.settings.step;
             let most = rest * (1.0 - LEAST);
             if taken > most {
-                shares[slid.wire] = shares[slid.wire].min(most / taken);
+                scales[slid.wire] = scales[slid.wire].min(most / taken);
             }
         }
     }
     for slid in &mut motion.slides {
-        slid.speed *= shares[slid.wire];
+        slid.speed *= scales[slid.wire];
     }
 }
 
 /// The slides of a motion that was made.
-pub(super) fn slides(world: &World, slid: &[Sliding]) -> Vec<Slide> {
+pub(super) fn slides(world: &World, slid: &[SlideRate]) -> Vec<Slide> {
     let moved = slid.iter().filter(|sliding| sliding.speed != 0.0);
     let slides = moved.map(|sliding| Slide {
         wire: WireId(sliding.wire),

@@ -3,8 +3,9 @@
 use smallvec::SmallVec;
 
 use super::order::Block;
-use crate::wire::model::{BodyId, NodeKind, World};
-use crate::wire::{Contact, Place, Vector};
+use crate::wire::model::{BodyId, NodeKind};
+use crate::wire::world::World;
+use crate::wire::{ContactConstraint, ContactSite, Vector};
 
 /// What the velocity of a point is made of.
 #[derive(Clone, Copy, Debug)]
@@ -15,7 +16,7 @@ pub(super) enum Carrier {
     /// the centre of mass.
     Body(usize, Vector),
     /// Prescribed.
-    Given(Vector),
+    Prescribed(Vector),
 }
 
 /// Columns and values of one row of a Jacobian.
@@ -38,14 +39,14 @@ impl Carrier {
                 three(*first, direction);
                 three(first + 3, &arm.cross(direction));
             }
-            Carrier::Given(_) => {}
+            Carrier::Prescribed(_) => {}
         }
     }
 
     /// The velocity that is prescribed; 0 if it is unknown.
-    pub(super) fn given(&self) -> Vector {
+    pub(super) fn prescribed_velocity(&self) -> Vector {
         match self {
-            Carrier::Given(velocity) => *velocity,
+            Carrier::Prescribed(velocity) => *velocity,
             _ => Vector::zeros(),
         }
     }
@@ -56,15 +57,16 @@ impl Carrier {
         match self {
             Carrier::Free(first) => three(*first),
             Carrier::Body(first, arm) => three(*first) + three(first + 3).cross(arm),
-            Carrier::Given(velocity) => *velocity,
+            Carrier::Prescribed(velocity) => *velocity,
         }
     }
 }
 
 /// The numbering of the unknowns: velocities and multipliers in order of elimination.
 ///
-/// Free nodes, each followed by the rows that it can eliminate, and bodies come in a given order ([`order`](super::order)),
-/// then what slides over contact nodes, and last the rows without a free node.
+/// Free nodes, each followed by the rows that it can eliminate, and bodies come in a given order
+/// ([`order`](super::order)), then what slides over contact nodes, and last the rows without a free
+/// node.
 #[derive(Clone, Debug)]
 pub(super) struct Layout {
     /// How many unknowns there are.
@@ -79,7 +81,8 @@ pub(super) struct Layout {
     pub(super) stretch: Vec<usize>,
     /// The first multiplier of each node's bend rows.
     pub(super) bend: Vec<Option<usize>>,
-    /// The speed of sliding over each contact node. The multiplier of its friction is the next unknown.
+    /// The speed of sliding over each contact node. The multiplier of its friction is the next
+    /// unknown.
     pub(super) slides: Vec<Option<usize>>,
 }
 
@@ -112,7 +115,7 @@ impl Layout {
             for (i, node) in wire.nodes.iter().enumerate() {
                 nodes.push(match node.kind {
                     NodeKind::Free => Carrier::Free(UNSET),
-                    _ => Carrier::Given(Vector::zeros()),
+                    _ => Carrier::Prescribed(Vector::zeros()),
                 });
                 let ends = i == 0 || i + 1 == wire.nodes.len();
                 bend.push((!ends && !wire.material.is_chain()).then_some(UNSET));
@@ -151,7 +154,8 @@ impl Layout {
         }
     }
 
-    /// Numbers what slides and the rows that no free node took, and ties the nodes of bodies to them.
+    /// Numbers what slides and the rows that no free node took, and ties the nodes of bodies to
+    /// them.
     fn rest(&mut self, world: &World) {
         for at in 0..self.slides.len() {
             if self.slides[at].is_some() {
@@ -184,37 +188,55 @@ impl Layout {
             Some(first) => Carrier::Body(first, arm),
             None => {
                 let (velocity, spin) = body.prescribed(world.time(), world.settings.step);
-                Carrier::Given(velocity + spin.cross(&arm))
+                Carrier::Prescribed(velocity + spin.cross(&arm))
             }
         }
     }
 
-    /// What carries the velocity of a contact's place A seen from B, by carriers and their shares.
+    /// What carries the velocity of a contact's place A seen from B, by carriers and their weights.
     pub(super) fn contact(
         &self,
         world: &World,
-        contact: &Contact,
+        contact: &ContactConstraint,
     ) -> SmallVec<[(Carrier, f64); 4]> {
         let b = self.place(world, &contact.b).into_iter();
         let a = self.place(world, &contact.a).into_iter();
-        a.chain(b.map(|(carrier, share)| (carrier, -share)))
+        a.chain(b.map(|(carrier, weight)| (carrier, -weight)))
             .collect()
     }
 
-    /// What carries a place, by at most two carriers and their shares.
-    pub(super) fn place(&self, world: &World, place: &Place) -> SmallVec<[(Carrier, f64); 2]> {
+    /// What carries a place, by at most two carriers and their weights.
+    pub(super) fn place(
+        &self,
+        world: &World,
+        place: &ContactSite,
+    ) -> SmallVec<[(Carrier, f64); 2]> {
         match *place {
-            Place::World => SmallVec::new(),
-            Place::Body { body, local } => {
+            ContactSite::World => SmallVec::new(),
+            ContactSite::Body { body, local } => {
                 let carrier = self.body(world, body, &local);
                 SmallVec::from_slice(&[(carrier, 1.0)])
             }
-            Place::Wire { wire, arc } => {
-                let (segment, share) = world.wires[wire.0].at(arc);
+            ContactSite::Wire { wire, arc } => {
+                let (segment, parameter) = world.wires[wire.0].at(arc);
                 let first = self.first_node[wire.0] + segment;
                 let (start, end) = (self.nodes[first], self.nodes[first + 1]);
-                SmallVec::from_slice(&[(start, 1.0 - share), (end, share)])
+                SmallVec::from_slice(&[(start, 1.0 - parameter), (end, parameter)])
             }
+        }
+    }
+}
+
+/// The velocity of a place before the step.
+pub(super) fn velocity_of(world: &World, place: &ContactSite) -> Vector {
+    match *place {
+        ContactSite::World => Vector::zeros(),
+        ContactSite::Body { body, local } => world.bodies[body.0].velocity_at(&local),
+        ContactSite::Wire { wire, arc } => {
+            let wire = &world.wires[wire.0];
+            let (segment, parameter) = wire.at(arc);
+            let nodes = &wire.nodes[segment..segment + 2];
+            nodes[0].velocity * (1.0 - parameter) + nodes[1].velocity * parameter
         }
     }
 }

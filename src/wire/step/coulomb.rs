@@ -4,8 +4,9 @@ use nalgebra::{Matrix3, Vector2};
 
 use crate::wire::Vector;
 
-/// Impulse of one contact by Coulomb's law: `u = mobility impulse + others`; apart (`u_n >= 0`) without
-/// impulse, or `u_n = 0` and the tangential impulse within the cone, against the sliding on its border.
+/// Impulse of one contact by Coulomb's law: `u = mobility impulse + others`; apart (`u_n >= 0`)
+/// without impulse, or `u_n = 0` and the tangential impulse within the cone, against the sliding on
+/// its border.
 pub(super) fn solve_block(
     mobility: &Matrix3<f64>,
     others: &Vector,
@@ -26,8 +27,8 @@ pub(super) fn solve_block(
     slide(mobility, others, friction, start)
 }
 
-/// The sliding solution: normal impulse and projection of the tangential one in turn. Only a scalar step
-/// keeps the fixed point that in which the impulse is opposite to the sliding.
+/// The sliding solution: normal impulse and projection of the tangential one in turn. Only a scalar
+/// step keeps the fixed point that in which the impulse is opposite to the sliding.
 fn slide(mobility: &Matrix3<f64>, others: &Vector, friction: f64, start: &Vector) -> Vector {
     const ITERATIONS: usize = 20;
     let step = 1.0 / (mobility[(1, 1)] + mobility[(2, 2)]);

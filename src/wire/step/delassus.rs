@@ -1,9 +1,10 @@
 //! The Schur complement of contacts as a dense matrix.
 //!
-//! Contact velocities `u = S lambda + b` are kept up to date: a block that changes adds its three columns to them, and
-//! one that does not costs nothing. It bears the name of E. Delassus (1917).
+//! Contact velocities `u = S lambda + b` are kept up to date: a block that changes adds
+//! its three columns to them, and one that does not costs nothing. It bears the name of E. Delassus
+//! (1917).
 
-use super::friction::{Block, Blocks};
+use super::contact_blocks::{Block, Blocks};
 use crate::wire::Vector;
 
 /// `u = S lambda + b` of all contacts.

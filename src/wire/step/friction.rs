@@ -1,73 +1,42 @@
 //! Contacts and friction: projected Gauss-Seidel on 3x3 blocks, in the space of the factor.
 //!
-//! Contact impulses `lambda` change the contact velocities by `S lambda` with the Schur complement
-//! `S = C K^-1 C^T = Y^T D^-1 Y`, `L Y = C^T`. Sweeps do not need `S`: the sum `z = D^-1 Y lambda` is kept, and
-//! a block reads and writes the few entries of `z` on the path of its points to the root of the
-//! elimination tree. So a sweep costs in proportion to the number of contacts. Some dozens of contacts that
-//! a few sweeps do not settle go on with `S` itself ([`Delassus`]): there a sweep is faster, and what
-//! sweeps come to can be foretold ([`anderson`]).
+//! Contact impulses `lambda` change the contact velocities by `S lambda` with the Schur
+//! complement `S = C K^-1 C^T = Y^T D^-1 Y`, `L Y = C^T`. Sweeps do not need `S`: the sum `z = D^-1
+//! Y lambda` is kept, and a block reads and writes the few entries of `z` on the path of its points
+//! to the root of the elimination tree. So a sweep costs in proportion to the number of contacts.
+//! Some dozens of contacts that do not converge in a few sweeps go on with `S` itself
+//! ([`Delassus`]): there a sweep is faster, and what sweeps come to can be extrapolated
+//! ([`anderson`]).
 
-use std::ops::{Range, RangeInclusive};
-
-use nalgebra::Matrix3;
-use smallvec::SmallVec;
+use std::ops::RangeInclusive;
 
 use super::anderson;
-use super::carrier::{Carrier, Columns};
-use super::contact::{Contact, Place};
-use super::coulomb::solve_block;
+use super::carrier::Columns;
+use super::contact_blocks::{Blocks, Swept};
 use super::delassus::Delassus;
-use super::rows::Spook;
-use super::system::{System, frame};
+use super::system::System;
 use crate::wire::Vector;
-use crate::wire::model::World;
+use crate::wire::contact::ContactConstraint;
 use crate::wire::settings::Settings;
-use crate::wire::solve::SparseColumns;
+use crate::wire::world::World;
 
-/// How many contacts have their Schur complement formed if they do not settle in [`FIRST_SWEEPS`]. Fewer cost little
-/// either way; with more, a sweep with it costs more than one without.
+/// How many contacts have their Schur complement formed if they do not converge in
+/// [`FIRST_SWEEPS`]. Fewer cost little either way; with more, a sweep with it costs more than one
+/// without.
 const FORMED: RangeInclusive<usize> = 8..=256;
 
 /// Sweeps that are tried before the Schur complement is formed.
 const FIRST_SWEEPS: usize = 10;
 
-/// One contact as a block of three rows: normal and two tangents.
-pub(super) struct Block {
-    /// Normal and tangents.
-    frame: Matrix3<f64>,
-    terms: SmallVec<[(Carrier, f64); 4]>,
-    /// Where its path is.
-    path: Range<usize>,
-    /// `Y^T D^-1 Y`, with the regularisation of the normal row.
-    pub(super) mobility: Matrix3<f64>,
-    sigma: f64,
-    /// Velocity without contact impulses, less what is asked for.
-    pub(super) bias: Vector,
-    pub(super) friction: f64,
-    pub(super) impulse: Vector,
-}
-
-/// What the sweeps came to.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Swept {
-    /// Impulse of each contact on its place A, along x, y, z, in N s.
-    pub(super) impulses: Vec<Vector>,
-    /// The same as columns and values, both places.
-    pub(super) columns: Vec<(usize, f64)>,
-    /// Sweeps done.
-    pub(super) sweeps: usize,
-    /// The largest change of a contact's velocity in the last sweep, in m/s.
-    pub(super) residual: f64,
-}
-
-/// Contact impulses for the system as factored, from a start on. `free` is the solution without contacts.
+/// Contact impulses for the system as factored, from a start on. `free` is the solution
+/// without contacts.
 ///
-/// Sweeps with a formed Schur complement come three to ten times as close to the solution; three fifths of the sweeps are
-/// enough for them.
+/// Sweeps with a formed Schur complement come three to ten times as close to the solution; three
+/// fifths of the sweeps are enough for them.
 pub(super) fn sweep(
     world: &World,
     system: &System,
-    contacts: &[Contact],
+    contacts: &[ContactConstraint],
     free: &[f64],
     start: &[Vector],
 ) -> Swept {
@@ -90,9 +59,9 @@ pub(super) fn sweep(
     }
     for block in &blocks.list {
         let impulse = block.frame.tr_mul(&block.impulse);
-        for (carrier, share) in &block.terms {
+        for (carrier, weight) in &block.terms {
             let mut columns = Columns::new();
-            carrier.columns(&(impulse * *share), &mut columns);
+            carrier.columns(&(impulse * *weight), &mut columns);
             swept.columns.extend(columns);
         }
         swept.impulses.push(impulse);
@@ -100,238 +69,16 @@ pub(super) fn sweep(
     swept
 }
 
-/// By how much one more sweep would change the velocity of a contact at most, in m/s, if these impulses are held for
-/// the system as factored.
-pub(super) fn lack(
+/// The largest change of a contact's velocity, in m/s, that one more sweep from these impulses
+/// would make.
+pub(super) fn contact_residual(
     world: &World,
     system: &System,
-    contacts: &[Contact],
+    contacts: &[ContactConstraint],
     free: &[f64],
     impulses: &[Vector],
 ) -> f64 {
     Blocks::new(world, system, contacts, free, impulses).relax()
-}
-
-impl Swept {
-    /// Whether the contacts have settled, or there are no more sweeps.
-    pub(super) fn is_done(&self, settings: &Settings) -> bool {
-        self.is_settled(settings) || self.sweeps >= settings.sweeps
-    }
-
-    /// Whether the last sweep changed no more than is tolerated.
-    pub(super) fn is_settled(&self, settings: &Settings) -> bool {
-        self.sweeps > 0 && self.residual <= settings.contact_tolerance
-    }
-
-    /// Sweeps until it is done, at most `most` times.
-    pub(super) fn repeat(
-        &mut self,
-        settings: &Settings,
-        most: usize,
-        mut sweep: impl FnMut() -> f64,
-    ) {
-        let end = self.sweeps.saturating_add(most);
-        while self.sweeps < end && !self.is_done(settings) {
-            self.residual = sweep();
-            self.sweeps += 1;
-        }
-    }
-}
-
-/// All contacts, and what their impulses sum up to.
-pub(super) struct Blocks {
-    pub(super) list: Vec<Block>,
-    paths: Paths,
-}
-
-/// The ways of contacts to the root of the elimination tree, one after the other, as sweeps go through them: rows, and what
-/// `Y` has there.
-struct Paths {
-    rows: Vec<u32>,
-    values: Vec<[f64; 3]>,
-    /// Of every row of the factor.
-    factor: Vec<Entry>,
-}
-
-/// What sweeps need of a row of the factor, side by side.
-#[derive(Clone, Copy)]
-struct Entry {
-    /// `D^-1 Y lambda`.
-    z: f64,
-    /// `D`.
-    pivot: f64,
-}
-
-impl Blocks {
-    pub(super) fn new(
-        world: &World,
-        system: &System,
-        contacts: &[Contact],
-        free: &[f64],
-        impulses: &[Vector],
-    ) -> Self {
-        let pivots = system.pivots().iter();
-        let mut paths = Paths {
-            rows: Vec::new(),
-            values: Vec::new(),
-            factor: pivots.map(|&pivot| Entry { z: 0.0, pivot }).collect(),
-        };
-        let list = contacts.iter().zip(impulses).map(|(contact, impulse)| {
-            let block = Block::new(world, system, contact, free, impulse, &mut paths);
-            paths.push(&block.path, &block.impulse);
-            block
-        });
-        let list = list.collect();
-        Blocks { list, paths }
-    }
-
-    /// Rows, values and pivots on the path of a block.
-    pub(super) fn path(&self, block: &Block) -> impl Iterator<Item = (u32, [f64; 3], f64)> {
-        let entries = self.paths.entries(&block.path);
-        entries.map(|(row, &three)| (row, three, self.paths.factor[row as usize].pivot))
-    }
-
-    /// One sweep; by how much the velocity of a contact changes at most, in m/s.
-    fn relax(&mut self) -> f64 {
-        let mut largest = 0.0_f64;
-        for block in &mut self.list {
-            let change = block.solve(&block.excess(&self.paths));
-            self.paths.push(&block.path, &change);
-            largest = largest.max((block.mobility * change).amax());
-        }
-        largest
-    }
-}
-
-impl Paths {
-    /// Takes the next path; where it is.
-    fn add(&mut self, path: SparseColumns) -> Range<usize> {
-        let start = self.rows.len();
-        self.rows.extend(path.rows);
-        self.values.extend(path.values);
-        start..self.rows.len()
-    }
-
-    fn entries(&self, path: &Range<usize>) -> impl Iterator<Item = (u32, &[f64; 3])> {
-        let rows = self.rows[path.clone()].iter().copied();
-        rows.zip(&self.values[path.clone()])
-    }
-
-    /// Adds `D^-1 Y impulse` to `z`.
-    fn push(&mut self, path: &Range<usize>, impulse: &Vector) {
-        let rows = &self.rows[path.clone()];
-        for (&row, three) in rows.iter().zip(&self.values[path.clone()]) {
-            let sum = three[0] * impulse.x + three[1] * impulse.y + three[2] * impulse.z;
-            let entry = &mut self.factor[row as usize];
-            entry.z += sum / entry.pivot;
-        }
-    }
-}
-
-impl Block {
-    fn new(
-        world: &World,
-        system: &System,
-        contact: &Contact,
-        free: &[f64],
-        impulse: &Vector,
-        paths: &mut Paths,
-    ) -> Self {
-        let frame = frame(&contact.normal);
-        let terms = system.layout.contact(world, contact);
-        let path = paths.add(system.forward(&columns(&frame, &terms)));
-        let mut mobility = Matrix3::zeros();
-        for (at, three) in paths.entries(&path) {
-            let row = Vector::from_row_slice(three);
-            mobility += row * row.transpose() / paths.factor[at as usize].pivot;
-        }
-        let speed = velocity_of(world, &contact.a) - velocity_of(world, &contact.b);
-        let [target, sigma] = normal_row(&world.settings, contact, speed.dot(&contact.normal));
-        mobility[(0, 0)] += sigma;
-        let velocity: Vector = terms
-            .iter()
-            .map(|(carrier, share)| carrier.velocity(free) * *share)
-            .sum();
-        Block {
-            bias: frame * velocity - Vector::new(target, 0.0, 0.0),
-            impulse: frame * impulse,
-            friction: contact.friction,
-            frame,
-            terms,
-            path,
-            mobility,
-            sigma,
-        }
-    }
-
-    /// Velocity less what is asked for, at the impulses so far.
-    fn excess(&self, paths: &Paths) -> Vector {
-        let mut sum = self.bias;
-        sum.x += self.sigma * self.impulse.x;
-        for (row, three) in paths.entries(&self.path) {
-            sum += Vector::from_row_slice(three) * paths.factor[row as usize].z;
-        }
-        sum
-    }
-
-    /// Solves the block with all others held, from its velocity less what is asked for; by how much its impulse
-    /// changes.
-    pub(super) fn solve(&mut self, excess: &Vector) -> Vector {
-        let others = excess - self.mobility * self.impulse;
-        let impulse = solve_block(&self.mobility, &others, self.friction, &self.impulse);
-        let change = impulse - self.impulse;
-        self.impulse = impulse;
-        change
-    }
-}
-
-/// The three rows of a contact by columns.
-fn columns(
-    frame: &Matrix3<f64>,
-    terms: &SmallVec<[(Carrier, f64); 4]>,
-) -> SmallVec<[(usize, [f64; 3]); 24]> {
-    let mut all: SmallVec<[(usize, [f64; 3]); 24]> = SmallVec::new();
-    for (carrier, share) in terms {
-        let rows = [0, 1, 2].map(|row| {
-            let mut columns = Columns::new();
-            let direction = frame.row(row).transpose() * *share;
-            carrier.columns(&direction, &mut columns);
-            columns
-        });
-        let entries = (0..rows[0].len()).map(|i| (rows[0][i].0, [0, 1, 2].map(|r| rows[r][i].1)));
-        all.extend(entries);
-    }
-    all
-}
-
-/// What the normal row asks for and its regularisation. Apart, `J v+ >= -g/h`; where the two penetrate,
-/// a SPOOK row, which forgets the velocity of an impact.
-pub(super) fn normal_row(settings: &Settings, contact: &Contact, speed: f64) -> [f64; 2] {
-    if contact.gap >= 0.0 {
-        return [-contact.gap / settings.step, 0.0];
-    }
-    let damping = settings.contact_damping * settings.step;
-    let spook = Spook::new(settings.contact_compliance, damping, settings.step);
-    let kept = if speed < -settings.impact_speed {
-        0.0
-    } else {
-        speed
-    };
-    [spook.target(contact.gap, kept), spook.sigma]
-}
-
-/// The velocity of a place before the step.
-pub(super) fn velocity_of(world: &World, place: &Place) -> Vector {
-    match *place {
-        Place::World => Vector::zeros(),
-        Place::Body { body, local } => world.bodies[body.0].velocity_at(&local),
-        Place::Wire { wire, arc } => {
-            let wire = &world.wires[wire.0];
-            let (segment, share) = wire.at(arc);
-            let nodes = &wire.nodes[segment..segment + 2];
-            nodes[0].velocity * (1.0 - share) + nodes[1].velocity * share
-        }
-    }
 }
 
 #[cfg(test)]

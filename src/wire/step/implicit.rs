@@ -1,21 +1,20 @@
-//! Contacts in the system itself: each with its law taken as linear, a stiffness and an impulse.
+//! Contacts inside the system, each with its law linearised: a stiffness and an impulse.
 //!
-//! Newton's method, which finds what pulls and slides, then finds what pushes, sticks and slips at once
-//! ([`touching`](super::touching)).
+//! Newton's method, which finds what pulls and slides, then finds what pushes, sticks and slips at
+//! once ([`touching`](super::multipliers)).
 
 use nalgebra::Matrix3;
 use smallvec::SmallVec;
 
 use super::augmented::Augmented;
-use super::carrier::Layout;
-use super::contact::Contact;
-use super::friction::{normal_row, velocity_of};
-use super::system::frame;
-use crate::wire::Vector;
-use crate::wire::model::World;
+use super::carrier::{Layout, velocity_of};
+use super::rows::normal_row;
+use crate::wire::contact::ContactConstraint;
+use crate::wire::vector::{Vector, frame};
+use crate::wire::world::World;
 
-/// One contact, its law taken as linear at one velocity. Velocities and impulses are those of place A against B, in the frame of
-/// the contact.
+/// One contact, its law taken as linear at one velocity. Velocities and impulses are those of place
+/// A against B, in the frame of the contact.
 #[derive(Clone, Debug)]
 pub(super) struct Implicit {
     /// Normal and tangents.
@@ -34,20 +33,21 @@ pub(super) struct Implicit {
 }
 
 impl Implicit {
-    /// A contact that is foretold to have an impulse along x, y, z. `masses` is the diagonal of the mass matrix.
+    /// A contact that is predicted to have an impulse along x, y, z. `masses` is the diagonal of
+    /// the mass matrix.
     pub(super) fn new(
         world: &World,
         layout: &Layout,
         masses: &[f64],
-        contact: &Contact,
+        contact: &ContactConstraint,
         impulse: &Vector,
     ) -> Self {
         let mut columns: SmallVec<[(usize, Vector); 12]> = SmallVec::new();
         let mut given = Vector::zeros();
-        for (carrier, share) in layout.contact(world, contact) {
-            given += carrier.given() * share;
+        for (carrier, weight) in layout.contact(world, contact) {
+            given += carrier.prescribed_velocity() * weight;
             for axis in 0..3 {
-                let direction = Vector::ith(axis, share);
+                let direction = Vector::ith(axis, weight);
                 carrier.each_column(&direction, |column, value| {
                     match columns.iter_mut().find(|(other, _)| *other == column) {
                         Some((_, along)) => along[axis] += value,
@@ -79,10 +79,10 @@ impl Implicit {
         }
     }
 
-    /// Takes the law as linear where a solution leads, or where the foretold impulse comes out.
-    pub(super) fn linearise(&mut self, x: &[f64], foretold: bool) {
+    /// Takes the law as linear where a solution leads, or where the predicted impulse comes out.
+    pub(super) fn linearise(&mut self, x: &[f64], predicted: bool) {
         self.velocity = self.at(x);
-        if foretold {
+        if predicted {
             self.velocity = self.law.expected(&self.velocity);
         }
         self.impulse = self.law.impulse(&self.velocity);
@@ -116,27 +116,29 @@ impl Implicit {
         self.frame.tr_mul(&impulse)
     }
 
-    /// By how much velocities are off because the law is not linear, and because another impulse was foretold, in m/s.
+    /// How far velocities are off because the law is not linear, and because another impulse was
+    /// predicted, in m/s.
     pub(super) fn residuals(&self, x: &[f64]) -> [f64; 2] {
         let velocity = self.at(x);
         let impulse = self.linear(&velocity);
-        let bend = self.law.bend(&velocity, &impulse);
-        [bend, self.law.lack(&velocity, &impulse)]
+        let linearisation_error = self.law.linearisation_error(&velocity, &impulse);
+        [linearisation_error, self.law.residual(&velocity, &impulse)]
     }
 
-    /// Foretells what a solution came to.
-    pub(super) fn follow(&mut self, x: &[f64]) {
+    /// Predicts what a solution came to.
+    pub(super) fn update_prediction(&mut self, x: &[f64]) {
         let velocity = self.at(x);
         let impulse = self.linear(&velocity);
-        self.law.follow(&velocity, &impulse);
+        self.law.update_prediction(&velocity, &impulse);
     }
 
-    /// On the way between two solutions: the power of the linear law's impulse less that of the law, by the share of the way.
+    /// On the way between two solutions: the power of the linear law's impulse less that of the
+    /// law, by the fraction of the way.
     pub(super) fn slope_between(&self, x: &[f64], newton: &[f64]) -> impl Fn(f64) -> f64 {
         let start = self.at(x);
         let rise = self.at(newton) - start;
-        move |share| {
-            let velocity = start + rise * share;
+        move |fraction| {
+            let velocity = start + rise * fraction;
             rise.dot(&(self.linear(&velocity) - self.law.impulse(&velocity)))
         }
     }

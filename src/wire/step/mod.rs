@@ -1,28 +1,23 @@
 //! One step: SPOOK with contacts.
 
+mod active_set;
 pub(super) mod advance;
 mod anderson;
 mod augmented;
+pub(super) mod callbacks;
 mod capstan;
 mod carrier;
-pub(super) mod contact;
+mod constitutive;
+mod contact_blocks;
+pub(super) mod contact_nodes;
 mod coulomb;
 mod delassus;
-mod error;
 mod friction;
 mod implicit;
-mod law;
 pub(super) mod motion;
+mod multipliers;
 mod order;
-pub(super) mod ride;
 mod rows;
-mod settle;
-mod slack;
+mod solve_step;
 mod spin;
-pub(super) mod system;
-mod touching;
-pub(super) mod watch;
-
-pub use capstan::Slide;
-pub use contact::{Contact, Place};
-pub use error::{Reason, StepError};
+mod system;

@@ -6,19 +6,19 @@ use super::carrier::{Carrier, Layout};
 use super::spin::turn;
 use crate::query::Point;
 use crate::wire::Vector;
-use crate::wire::model::World;
+use crate::wire::world::World;
 
 /// Positions and velocities at the end of a step.
-pub(in crate::wire) struct Motion {
+pub(in crate::wire) struct ProposedMotion {
     bodies: Vec<BodyMotion>,
     /// Position and velocity of each node, by wire.
     pub(in crate::wire) wires: Vec<Vec<(Point, Vector)>>,
     /// Every contact node, by wire and node.
-    pub(super) slides: Vec<Sliding>,
+    pub(super) slides: Vec<SlideRate>,
 }
 
 /// How fast a wire slides over a contact node.
-pub(super) struct Sliding {
+pub(super) struct SlideRate {
     pub(super) wire: usize,
     pub(super) node: usize,
     /// How fast the node's arc length grows, in m/s.
@@ -32,17 +32,17 @@ struct BodyMotion {
     angular_velocity: Vector,
 }
 
-/// Which share of its motion each thing makes, from 0 to 1.
+/// The factor on the motion of each wire and body, from 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::wire) struct Shares {
+pub(in crate::wire) struct MotionScales {
     pub(in crate::wire) wires: Vec<f64>,
     pub(in crate::wire) bodies: Vec<f64>,
 }
 
-impl Shares {
+impl MotionScales {
     /// Everything moves as solved.
     pub(in crate::wire) fn all(world: &World) -> Self {
-        Shares {
+        MotionScales {
             wires: vec![1.0; world.wires.len()],
             bodies: vec![1.0; world.bodies.len()],
         }
@@ -50,16 +50,26 @@ impl Shares {
 }
 
 impl World {
-    /// Where the velocities of a solution `x` lead, times their shares: `v = share v+`, `x+ = x + h v`. What
-    /// has a share of 0 stays where it is, to the bit.
-    pub(super) fn motion(&self, layout: &Layout, x: &[f64], shares: &Shares) -> Motion {
+    /// Where the velocities of a solution `x` lead, times their motion_scales: `v = scale v+`, `x+
+    /// = x + h v`. What has a scale of 0 stays where it is, to the bit.
+    pub(super) fn motion(
+        &self,
+        layout: &Layout,
+        x: &[f64],
+        motion_scales: &MotionScales,
+    ) -> ProposedMotion {
         let step = self.settings.step;
-        let mut moved = Motion {
+        let mut moved = ProposedMotion {
             bodies: Vec::with_capacity(self.bodies.len()),
             wires: Vec::with_capacity(self.wires.len()),
             slides: Vec::new(),
         };
-        for ((body, first), &share) in self.bodies.iter().zip(&layout.bodies).zip(&shares.bodies) {
+        for ((body, first), &scale) in self
+            .bodies
+            .iter()
+            .zip(&layout.bodies)
+            .zip(&motion_scales.bodies)
+        {
             let (velocity, spin) = match *first {
                 Some(first) => {
                     let unknowns = Carrier::Free(first).velocity(x);
@@ -67,12 +77,12 @@ impl World {
                 }
                 None => body.prescribed(self.time(), step),
             };
-            let (velocity, angular_velocity) = (velocity * share, spin * share);
+            let (velocity, angular_velocity) = (velocity * scale, spin * scale);
             let turned = turn(&body.orientation, &angular_velocity, step);
             moved.bodies.push(BodyMotion {
                 position: body.position + velocity * step,
                 // Turning by nothing normalises, which may change bits.
-                orientation: if share > 0.0 {
+                orientation: if scale > 0.0 {
                     turned
                 } else {
                     body.orientation
@@ -81,11 +91,15 @@ impl World {
                 angular_velocity,
             });
         }
-        for ((wire, &first), &share) in self.wires.iter().zip(&layout.first_node).zip(&shares.wires)
+        for ((wire, &first), &scale) in self
+            .wires
+            .iter()
+            .zip(&layout.first_node)
+            .zip(&motion_scales.wires)
         {
             let nodes = wire.nodes.iter().zip(&layout.nodes[first..]);
             let nodes = nodes.map(|(node, carrier)| {
-                let velocity = carrier.velocity(x) * share;
+                let velocity = carrier.velocity(x) * scale;
                 let position = match node.kind.carrier() {
                     Some((body, local)) => moved.bodies[body.0].point(&local),
                     None => node.position + velocity * step,
@@ -94,11 +108,16 @@ impl World {
             });
             moved.wires.push(nodes.collect());
         }
-        for (wire, (&first, &share)) in layout.first_node.iter().zip(&shares.wires).enumerate() {
+        for (wire, (&first, &scale)) in layout
+            .first_node
+            .iter()
+            .zip(&motion_scales.wires)
+            .enumerate()
+        {
             for node in 0..self.wires[wire].nodes.len() {
                 if let Some(column) = layout.slides[first + node] {
-                    let speed = x[column] * share;
-                    moved.slides.push(Sliding { wire, node, speed });
+                    let speed = x[column] * scale;
+                    moved.slides.push(SlideRate { wire, node, speed });
                 }
             }
         }
@@ -112,7 +131,7 @@ impl BodyMotion {
     }
 }
 
-impl Motion {
+impl ProposedMotion {
     /// Whether every number is finite.
     pub(super) fn is_finite(&self) -> bool {
         let is_finite = |v: &Vector| v.iter().all(|x| x.is_finite());
@@ -134,13 +153,13 @@ impl Motion {
 
     /// How fast the arc length of a node grows, in m/s.
     pub(super) fn speed(&self, wire: usize, node: usize) -> f64 {
-        let of = |slid: &Sliding| (slid.wire, slid.node);
+        let of = |slid: &SlideRate| (slid.wire, slid.node);
         let slid = self.slides.binary_search_by_key(&(wire, node), of);
         slid.map_or(0.0, |at| self.slides[at].speed)
     }
 
     /// Moves a world. Returns how wires slid.
-    pub(super) fn apply(self, world: &mut World) -> Vec<Sliding> {
+    pub(super) fn apply(self, world: &mut World) -> Vec<SlideRate> {
         for (body, to) in world.bodies.iter_mut().zip(self.bodies) {
             (body.position, body.orientation) = (to.position, to.orientation);
             (body.velocity, body.angular_velocity) = (to.velocity, to.angular_velocity);
@@ -150,7 +169,7 @@ impl Motion {
                 (node.position, node.velocity) = to;
             }
         }
-        for Sliding { wire, node, speed } in &self.slides {
+        for SlideRate { wire, node, speed } in &self.slides {
             let node = &mut world.wires[*wire].nodes[*node];
             node.slide = *speed;
             node.arc += speed * world.settings.step;

@@ -1,17 +1,21 @@
-//! The order in which nodes and bodies are eliminated, and with it whether contacts are solved within the system.
+//! The order in which nodes and bodies are eliminated, and with it whether contacts are solved
+//! within the system.
 //!
-//! Contacts tie what they press together. Where the factor hardly fills for that, as with chains on a deck or wires that lie across one,
-//! Newton's method finds what pushes, sticks and slips along with what pulls ([`touching`](super::touching)). Where it would, as
-//! with wires that are wound about each other, contacts are swept ([`friction`](super::friction)).
+//! Contacts tie what they press together. Where the factor hardly fills for that, as with chains on
+//! a deck or wires that lie across one, Newton's method finds what pushes, sticks and slips along
+//! with what pulls ([`touching`](super::multipliers)). Where it would, as with wires that are wound
+//! about each other, contacts are swept ([`friction`](super::friction)).
 
-use super::contact::{Contact, Place};
-use crate::wire::model::{NodeKind, World};
-use crate::wire::solve::{dissect, least_degree};
+use crate::wire::contact::{ContactConstraint, ContactSite};
+use crate::wire::model::NodeKind;
+use crate::wire::sparse::{dissect, least_degree};
+use crate::wire::world::World;
 
-/// Fewer contacts settle by few sweeps.
+/// Fewer contacts converge in few sweeps.
 const MANY: usize = 8;
 
-/// The most multiplications of a factorisation, for each contact, for which contacts are solved within the system.
+/// The most multiplications of a factorisation, for each contact, for which contacts are solved
+/// within the system.
 const MOST: usize = 4000;
 
 /// Unknowns that are eliminated together, with the rows that they can eliminate.
@@ -28,7 +32,8 @@ pub(super) enum Block {
     Body(usize),
 }
 
-/// Wires one after the other, each by nested dissection, then bodies: no contact is in the system, and ways from one to the root are short.
+/// Wires one after the other, each by nested dissection, then bodies: no contact is in the system,
+/// and ways from one to the root are short.
 pub(super) fn by_wires(world: &World) -> Vec<Block> {
     let mut order = Vec::new();
     let mut blocks = Vec::new();
@@ -50,7 +55,7 @@ pub(super) fn by_wires(world: &World) -> Vec<Block> {
 }
 
 /// By least degree, with contacts as ties. None if contacts are few, or take too much.
-pub(super) fn by_ties(world: &World, contacts: &[Contact]) -> Option<Vec<Block>> {
+pub(super) fn by_least_degree(world: &World, contacts: &[ContactConstraint]) -> Option<Vec<Block>> {
     if contacts.len() < MANY {
         return None;
     }
@@ -73,9 +78,9 @@ pub(super) fn by_ties(world: &World, contacts: &[Contact]) -> Option<Vec<Block>>
         let mut group = [None; 4];
         for (place, group) in [contact.a, contact.b].iter().zip(group.chunks_mut(2)) {
             match *place {
-                Place::World => {}
-                Place::Body { body, .. } => group[0] = bodies[body.0],
-                Place::Wire { wire, arc } => {
+                ContactSite::World => {}
+                ContactSite::Body { body, .. } => group[0] = bodies[body.0],
+                ContactSite::Wire { wire, arc } => {
                     let (segment, _) = world.wires[wire.0].at(arc);
                     group.copy_from_slice(&nodes[wire.0][segment..segment + 2]);
                 }
@@ -142,9 +147,9 @@ mod tests {
     use crate::query::Point;
     use crate::wire::{Material, Settings, Stop, Vector, WireId, WirePlan};
 
-    /// Straight wires: so many along x, and so many along y over them, with a contact where they cross, and a segment for each. Those
-    /// above rest on the floor with both ends.
-    fn net(along: usize, across: usize) -> (World, Vec<Contact>) {
+    /// Straight wires: so many along x, and so many along y over them, with a contact where they
+    /// cross, and a segment for each. Those above rest on the floor with both ends.
+    fn net(along: usize, across: usize) -> (World, Vec<ContactConstraint>) {
         let mut world = World::new(Settings::default()).unwrap();
         let mut add = |from: Point, way: Vector| {
             let route = vec![Stop::Free(from), Stop::Free(from + way)];
@@ -164,13 +169,13 @@ mod tests {
             let above = add(Point::new(place(j), 0.0, 0.02), y);
             let on = below.iter().enumerate().map(|(k, &wire)| {
                 let arc = place(j);
-                (place(k), Place::Wire { wire, arc })
+                (place(k), ContactSite::Wire { wire, arc })
             });
-            let ends = [0.0, 0.25 * along as f64].map(|arc| (arc, Place::World));
+            let ends = [0.0, 0.25 * along as f64].map(|arc| (arc, ContactSite::World));
             for (arc, b) in on.chain(ends) {
-                contacts.push(Contact {
+                contacts.push(ContactConstraint {
                     key: contacts.len() as u64,
-                    a: Place::Wire { wire: above, arc },
+                    a: ContactSite::Wire { wire: above, arc },
                     b,
                     normal: Vector::z(),
                     gap: 0.0,
@@ -185,7 +190,7 @@ mod tests {
     fn wires_across_one_are_solved_with_it_and_a_net_is_swept() {
         let suits = |along, across| {
             let (world, contacts) = net(along, across);
-            by_ties(&world, &contacts).is_some()
+            by_least_degree(&world, &contacts).is_some()
         };
         assert!(!suits(1, 2));
         assert!(suits(1, 40));
@@ -199,12 +204,15 @@ mod tests {
             Block::Node { wire, node } => (wire, node),
             Block::Body(at) => (usize::MAX, at),
         };
-        let [mut wires, mut ties] =
-            [by_wires(&world), by_ties(&world, &contacts).unwrap()].map(|order| {
-                let numbers: Vec<_> = order.iter().map(number).collect();
-                assert_eq!(numbers.len(), 41 + 40 * 2);
-                numbers
-            });
+        let [mut wires, mut ties] = [
+            by_wires(&world),
+            by_least_degree(&world, &contacts).unwrap(),
+        ]
+        .map(|order| {
+            let numbers: Vec<_> = order.iter().map(number).collect();
+            assert_eq!(numbers.len(), 41 + 40 * 2);
+            numbers
+        });
         assert_ne!(wires, ties);
         wires.sort_unstable();
         ties.sort_unstable();

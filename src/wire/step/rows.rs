@@ -3,12 +3,13 @@
 use nalgebra::Matrix3;
 use smallvec::{SmallVec, smallvec};
 
-use super::capstan;
 use super::carrier::{Carrier, Layout};
-use super::law::{Law, Piece};
-use crate::wire::Vector;
-use crate::wire::model::{Wire, World};
+use super::constitutive::{Branch, ConstitutiveLaw};
+use crate::wire::contact::ContactConstraint;
+use crate::wire::model::Wire;
 use crate::wire::settings::Settings;
+use crate::wire::vector::{Vector, unit};
+use crate::wire::world::World;
 
 /// One row of `G v+ + Sigma lambda = target`.
 #[derive(Clone, Debug)]
@@ -24,9 +25,9 @@ pub(super) struct Row {
     /// What the row asks for, in m/s or 1/s, prescribed velocities included on the left.
     pub(super) target: f64,
     /// How the multiplier follows from the excess.
-    pub(super) law: Law,
-    /// The piece of the law that is solved with.
-    pub(super) piece: Piece,
+    pub(super) law: ConstitutiveLaw,
+    /// The branch of the law that is solved with.
+    pub(super) branch: Branch,
 }
 
 impl Row {
@@ -44,7 +45,7 @@ impl Row {
     pub(super) fn given(&self) -> f64 {
         let terms = self.terms.iter();
         terms.fold(0.0, |sum, (carrier, direction)| {
-            sum + carrier.given().dot(direction)
+            sum + carrier.prescribed_velocity().dot(direction)
         })
     }
 
@@ -71,30 +72,30 @@ impl Row {
         terms.chain(slides).fold(self.target.abs(), f64::max)
     }
 
-    /// Whether its piece is found by the solution.
+    /// Whether its branch is found by the solution.
     pub(super) fn may_change(&self) -> bool {
         match self.law {
-            Law::Free => false,
+            ConstitutiveLaw::Linear => false,
             // A segment without length has no direction.
-            Law::Pulls => {
+            ConstitutiveLaw::TensionOnly => {
                 let mut terms = self.terms.iter();
                 terms.any(|(_, along)| along.norm_squared() > 0.0)
             }
-            Law::Grips { .. } => true,
+            ConstitutiveLaw::Friction { .. } => true,
         }
     }
 
     /// Whether it is friction that lets no wire slide.
     pub(super) fn sticks(&self) -> bool {
-        let grips = matches!(self.law, Law::Grips { .. });
-        grips && self.piece.active && self.piece.start == 0.0
+        let friction = matches!(self.law, ConstitutiveLaw::Friction { .. });
+        friction && self.branch.active && self.branch.start == 0.0
     }
 
-    /// The multiplier that is in no unknown but held.
-    pub(super) fn each_held(&self, mut take: impl FnMut(usize, f64)) {
-        let held = self.piece.held;
-        if held != 0.0 {
-            self.each_column(|column, value| take(column, value * held));
+    /// The constant part of the multiplier, which is in no unknown.
+    pub(super) fn each_offset(&self, mut take: impl FnMut(usize, f64)) {
+        let offset = self.branch.offset;
+        if offset != 0.0 {
+            self.each_column(|column, value| take(column, value * offset));
         }
     }
 }
@@ -126,17 +127,24 @@ impl Spook {
     }
 }
 
-/// A direction, and its length; a direction of 0 where there is no length.
-pub(super) fn unit(vector: &Vector) -> (Vector, f64) {
-    let length = vector.norm();
-    if length > 0.0 {
-        (vector / length, length)
-    } else {
-        (Vector::zeros(), 0.0)
+/// What the normal row asks for and its regularisation. Apart, `J v+ >= -g/h`; where the two
+/// penetrate, a SPOOK row, which forgets the velocity of an impact.
+pub(super) fn normal_row(settings: &Settings, contact: &ContactConstraint, speed: f64) -> [f64; 2] {
+    if contact.gap >= 0.0 {
+        return [-contact.gap / settings.step, 0.0];
     }
+    let damping = settings.contact_damping * settings.step;
+    let spook = Spook::new(settings.contact_compliance, damping, settings.step);
+    let kept = if speed < -settings.impact_speed {
+        0.0
+    } else {
+        speed
+    };
+    [spook.target(contact.gap, kept), spook.sigma]
 }
 
-/// All rows: first those of stretch, one for each segment in order, then those of bend, last those of sliding.
+/// The rows of all wires: first those of stretch, one for each segment in order, then those of
+/// bend.
 pub(super) fn rows(world: &World, layout: &Layout) -> Vec<Row> {
     let mut rows = Vec::with_capacity(layout.stretch.len() + 3 * layout.bend.len());
     for (wire, &first) in world.wires.iter().zip(&layout.first_node) {
@@ -162,12 +170,11 @@ pub(super) fn rows(world: &World, layout: &Layout) -> Vec<Row> {
             }
         }
     }
-    rows.extend(capstan::grips(world, layout));
     rows
 }
 
-/// `g = |d| - l0`, `G = [-t, t]`, `eps = l0 / (E A)`. A segment without length has no direction: its
-/// row does not count.
+/// `g = |d| - l0`, `G = [-t, t]`, `eps = l0 / (E A)`. A segment without length has no direction:
+/// its row does not count.
 fn stretch(
     wire: &Wire,
     segment: usize,
@@ -192,11 +199,15 @@ fn stretch(
         sigma: spook.sigma,
         target: spook.target(length - rest, speed),
         law: if material.is_chain() {
-            Law::Pulls
+            ConstitutiveLaw::TensionOnly
         } else {
-            Law::Free
+            ConstitutiveLaw::Linear
         },
-        piece: if counts { Piece::FULL } else { Piece::NONE },
+        branch: if counts {
+            Branch::ACTIVE
+        } else {
+            Branch::INACTIVE
+        },
     }
 }
 
@@ -233,8 +244,12 @@ fn bend(
             slides: SmallVec::new(),
             sigma: spook.sigma,
             target: spook.target((t2 - t1)[axis], turning[axis]),
-            law: Law::Free,
-            piece: if active { Piece::FULL } else { Piece::NONE },
+            law: ConstitutiveLaw::Linear,
+            branch: if active {
+                Branch::ACTIVE
+            } else {
+                Branch::INACTIVE
+            },
         }
     })
 }

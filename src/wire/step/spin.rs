@@ -6,10 +6,10 @@ use crate::wire::Vector;
 
 /// The angular velocity after a step without torque, in the body's frame, in rad/s.
 ///
-/// Euler's equations `I w' = -w x I w` by the implicit midpoint rule, which keeps the energy `w . I w` and
-/// the magnitude of the angular momentum `I w` (both are quadratic) whatever the step is. Newton's method
-/// solves it; the step is divided so that the body turns at most 1/2 rad in a part, where it
-/// converges.
+/// Euler's equations `I w' = -w x I w` by the implicit midpoint rule, which keeps the energy `w . I
+/// w` and the magnitude of the angular momentum `I w` (both are quadratic) whatever the step is.
+/// Newton's method solves it; the step is divided so that the body turns at most 1/2 rad in a part,
+/// where it converges.
 pub(super) fn spin_freely(inertia: &Matrix3<f64>, start: &Vector, step: f64) -> Vector {
     const MOST_PARTS: f64 = 1000.0;
     let parts = (2.0 * start.norm() * step).ceil().clamp(1.0, MOST_PARTS);
@@ -38,8 +38,9 @@ fn midpoint(inertia: &Matrix3<f64>, start: &Vector, step: f64) -> Vector {
     end
 }
 
-/// The orientation after turning with an angular velocity in the world's frame for a step: exactly by
-/// `|w| h`. Sine and cosine are those of the `libm` crate, so they do not depend on the platform.
+/// The orientation after turning with an angular velocity in the world's frame for a step: exactly
+/// by `|w| h`. Sine and cosine are those of the `libm` crate, so they do not depend on the
+/// platform.
 pub(super) fn turn(
     orientation: &UnitQuaternion<f64>,
     angular_velocity: &Vector,

@@ -1,32 +1,23 @@
 //! The system of one step: `[[M~, G^T], [G, -Sigma]] [v+; -lambda] = [M v + h f; target]`.
 
-use nalgebra::Matrix3;
-
+use super::capstan;
 use super::carrier::{Carrier, Columns, Layout};
-use super::contact::Contact;
-use super::error::Reason;
+use super::constitutive::Branch;
 use super::implicit::Implicit;
-use super::law::Piece;
 use super::order::Block;
-use super::rows::{Row, rows, unit};
+use super::rows::{Row, rows};
 use super::spin::spin_freely;
-use crate::wire::Vector;
-use crate::wire::model::{Wire, World};
-use crate::wire::solve::{Ldl, SparseColumns, Symmetric, Triplets};
+use crate::wire::contact::ContactConstraint;
+use crate::wire::error::Reason;
+use crate::wire::sparse::{Ldl, SparseColumns, Structure, Symmetric, Triplets};
+use crate::wire::vector::{Vector, frame, unit};
+use crate::wire::world::World;
 
 /// The largest backward error of a solution that is accepted.
 const RESIDUAL: f64 = 1e-10;
 
-/// What depends on the structure of a system alone: as long as it stands, the elimination tree and the
-/// storage are used again.
-#[derive(Clone, Debug)]
-pub(in crate::wire) struct Structure {
-    index: Vec<(u32, u32)>,
-    matrix: Symmetric,
-    ldl: Ldl,
-}
-
-/// The equations of motion, of nodes, bodies and what slides over contact nodes, and the rows of all wires, ready to be factored.
+/// The equations of motion, of nodes, bodies and what slides over contact nodes, and the rows of
+/// all wires, ready to be factored.
 pub(super) struct System {
     pub(super) layout: Layout,
     pub(super) rows: Vec<Row>,
@@ -45,7 +36,8 @@ impl System {
     /// Puts the system of the next step together. `structure` is that of the last one.
     pub(super) fn new(world: &World, order: &[Block], structure: Option<Structure>) -> Self {
         let layout = Layout::new(world, order);
-        let rows = rows(world, &layout);
+        let mut rows = rows(world, &layout);
+        rows.extend(capstan::friction_rows(world, &layout));
         let mut system = System {
             triplets: Triplets::default(),
             mass_entries: 0,
@@ -123,10 +115,12 @@ impl System {
     fn add_geometric_stiffness(&mut self, world: &World) {
         for (w, wire) in world.wires.iter().enumerate() {
             let first = self.layout.first_node[w];
+            let mass_per_length = wire.material.mass_per_length();
+            let shortest = |tension: f64| world.settings.shortest_stable(tension, mass_per_length);
             for segment in 0..wire.segments.len() {
                 let tension = wire.segments[segment].tension;
                 let (t, length) = unit(&wire.span(segment));
-                if length > 0.0 && wire.rest_length(segment) < shortest(wire, tension, world) {
+                if length > 0.0 && wire.rest_length(segment) < shortest(tension) {
                     let step = world.settings.step;
                     let weight = step * step * tension / length;
                     self.stiffen(first + segment, &t, weight);
@@ -143,14 +137,19 @@ impl System {
             let mut columns = Columns::new();
             start.columns(&-across, &mut columns);
             end.columns(&across, &mut columns);
-            let given = (end.given() - start.given()).dot(&across);
+            let given = (end.prescribed_velocity() - start.prescribed_velocity()).dot(&across);
             self.triplets.add_outer(&columns, weight);
             push(&mut self.right, &columns, -weight * given);
         }
     }
 
-    /// Takes contacts into the system, with the impulses that are foretold for them.
-    pub(super) fn take(&mut self, world: &World, contacts: &[Contact], impulses: &[Vector]) {
+    /// Takes contacts into the system, with the impulses that are predicted for them.
+    pub(super) fn take(
+        &mut self,
+        world: &World,
+        contacts: &[ContactConstraint],
+        impulses: &[Vector],
+    ) {
         let mut masses = vec![0.0; self.layout.size];
         let entries = self.triplets.index.iter().zip(&self.triplets.value);
         for (&(i, j), value) in entries.take(self.mass_entries) {
@@ -201,7 +200,7 @@ impl System {
         }
         for row in &self.rows {
             // A row that is not active keeps its place in the structure: -1 x multiplier = 0.
-            let Piece { active, start, .. } = row.piece;
+            let Branch { active, start, .. } = row.branch;
             let weight = if active { 1.0 } else { 0.0 };
             let triplets = &mut self.triplets;
             row.each_column(|column, value| triplets.add(column, row.multiplier, weight * value));
@@ -223,7 +222,8 @@ impl System {
         factored.map_err(|unknown| Reason::Pivot { unknown })
     }
 
-    /// The solution with impulses on velocities, given as columns and values, and its backward error.
+    /// The solution with impulses on velocities, given as columns and values, and its backward
+    /// error.
     pub(super) fn solve(&self, impulses: &[(usize, f64)]) -> Result<(Vec<f64>, f64), Reason> {
         let Some(structure) = &self.structure else {
             return Ok((Vec::new(), 0.0));
@@ -258,7 +258,7 @@ impl System {
     fn right_side(&self, impulses: &[(usize, f64)]) -> Vec<f64> {
         let mut right = self.right.clone();
         for row in &self.rows {
-            row.each_held(|column, impulse| right[column] -= impulse);
+            row.each_offset(|column, impulse| right[column] -= impulse);
         }
         for contact in &self.implicit {
             contact.each_impulse(|column, impulse| right[column] += impulse);
@@ -295,8 +295,8 @@ impl System {
             .map_or(&[], |structure| structure.ldl.pivots())
     }
 
-    /// The largest residual relative to the largest magnitude that was summed up: equations of motion among
-    /// each other (N s), rows among each other (m/s). NaN if there is one.
+    /// The largest residual relative to the largest magnitude that was summed up: equations of
+    /// motion among each other (N s), rows among each other (m/s). NaN if there is one.
     fn backward_error(&self, residual: &[f64], magnitude: &[f64]) -> f64 {
         let worst = |of_motion: bool| {
             let rows = residual.iter().zip(magnitude).zip(&self.is_velocity);
@@ -321,18 +321,4 @@ fn push(right: &mut [f64], columns: &Columns, impulse: f64) {
     for (column, value) in columns {
         right[*column] += value * impulse;
     }
-}
-
-/// The shortest segment that is stable under a tension, in m: `h sqrt(T / mu)` over the margin.
-pub(in crate::wire) fn shortest(wire: &Wire, tension: f64, world: &World) -> f64 {
-    let speed = (tension.max(0.0) / wire.material.mass_per_length()).sqrt();
-    world.settings.step * speed / world.settings.stability_margin
-}
-
-/// A right-handed frame with `normal` as its first row.
-pub(super) fn frame(normal: &Vector) -> Matrix3<f64> {
-    let axis = normal.iamin();
-    let first = normal.cross(&Vector::ith(axis, 1.0)).normalize();
-    let second = normal.cross(&first);
-    Matrix3::from_rows(&[normal.transpose(), first.transpose(), second.transpose()])
 }

@@ -1,8 +1,8 @@
 use super::*;
 use crate::query::Point;
 use crate::wire::{
-    BodyId, BodyPlan, Drive, Material, ModelError, Phase, Place, Settings, Shape, Stop, Vector,
-    WireId, WirePlan,
+    BodyId, BodyPlan, ContactSite, Drive, Material, ModelError, Phase, Settings, Shape, Stop,
+    Vector, WireId, WirePlan,
 };
 
 fn world() -> World {
@@ -150,13 +150,13 @@ fn coincident_nodes_and_fast_bodies_stay_finite() {
 fn failed_step_leaves_the_world_as_it_was() {
     let mut world = hung(100.0, 0.5);
     world.step(&[]).unwrap();
-    let contact = Contact {
+    let contact = ContactConstraint {
         key: 0,
-        a: Place::Body {
+        a: ContactSite::Body {
             body: BodyId(7),
             local: Vector::zeros(),
         },
-        b: Place::World,
+        b: ContactSite::World,
         normal: Vector::z(),
         gap: 0.0,
         friction: 0.5,
@@ -205,18 +205,18 @@ fn step_that_would_end_beyond_the_numbers_is_refused() {
 #[test]
 fn contacts_are_refused_by_what_is_wrong_with_them() {
     let mut world = hung(100.0, 0.5);
-    let good = Contact {
+    let good = ContactConstraint {
         key: 0,
-        a: Place::Wire {
+        a: ContactSite::Wire {
             wire: WireId(0),
             arc: 1.0,
         },
-        b: Place::World,
+        b: ContactSite::World,
         normal: Vector::z(),
         gap: 1.0,
         friction: 0.5,
     };
-    let mut refusal = |change: fn(&mut Contact)| {
+    let mut refusal = |change: fn(&mut ContactConstraint)| {
         let mut contact = good;
         change(&mut contact);
         match world.step(&[contact]).unwrap_err().reason {
@@ -229,13 +229,13 @@ fn contacts_are_refused_by_what_is_wrong_with_them() {
         refusal(|c| c.gap = f64::NAN),
         refusal(|c| c.friction = -0.5),
         refusal(|c| {
-            c.a = Place::Wire {
+            c.a = ContactSite::Wire {
                 wire: WireId(0),
                 arc: 9.0,
             }
         }),
         refusal(|c| {
-            c.a = Place::Wire {
+            c.a = ContactSite::Wire {
                 wire: WireId(2),
                 arc: 0.0,
             }
@@ -255,7 +255,7 @@ fn contacts_are_refused_by_what_is_wrong_with_them() {
 }
 
 /// Boxes of 1 m on a plane, one on the other: four corners of each against what is below it.
-fn stack(world: &World) -> Vec<Contact> {
+fn stack(world: &World) -> Vec<ContactConstraint> {
     let mut contacts = Vec::new();
     for (i, body) in world.bodies.iter().enumerate() {
         for (corner, [x, y]) in [[0.5, 0.5], [0.5, -0.5], [-0.5, 0.5], [-0.5, -0.5]]
@@ -265,17 +265,17 @@ fn stack(world: &World) -> Vec<Contact> {
             let local = Vector::new(x, y, -0.5);
             let point = body.point(&local);
             let (b, floor) = match i.checked_sub(1) {
-                None => (Place::World, 0.0),
+                None => (ContactSite::World, 0.0),
                 Some(below) => {
                     let local = Vector::new(x, y, 0.5);
                     let top = world.bodies[below].point(&local).z;
                     let body = BodyId(below);
-                    (Place::Body { body, local }, top)
+                    (ContactSite::Body { body, local }, top)
                 }
             };
-            contacts.push(Contact {
+            contacts.push(ContactConstraint {
                 key: (4 * i + corner) as u64,
-                a: Place::Body {
+                a: ContactSite::Body {
                     body: BodyId(i),
                     local,
                 },
@@ -355,12 +355,12 @@ fn structure_of_the_system_is_used_again_while_it_stands() {
     for _ in 0..20 {
         // The second way to the same step: nothing remembered.
         let mut fresh = world.clone();
-        fresh.structure = None;
+        fresh.cache.structure = None;
         let afresh = fresh.step(&[]).unwrap();
         last = world.step(&[]).unwrap();
         assert_eq!(last.wires, afresh.wires);
     }
-    assert!(last.solver.residual < 1e-12 && last.solver.tries == 1);
+    assert!(last.solver.residual < 1e-12 && last.solver.factorisations == 1);
 }
 
 #[test]
@@ -372,13 +372,13 @@ fn contact_between_things_that_nothing_moves_pushes_nothing() {
     let route = [0.0, 1.0].map(|x| Stop::Free(Point::new(x, 0.0, 0.0)));
     let plan = WirePlan::new(Material::steel(0.02), 0.25, route.to_vec());
     world.add_wire(&plan).unwrap();
-    let contact = Contact {
+    let contact = ContactConstraint {
         key: 1,
-        a: Place::Body {
+        a: ContactSite::Body {
             body,
             local: Vector::zeros(),
         },
-        b: Place::World,
+        b: ContactSite::World,
         normal: Vector::z(),
         gap: -0.01,
         friction: 0.5,

@@ -1,8 +1,8 @@
 use super::*;
 use crate::query::Point;
-use crate::wire::step::motion::Shares;
+use crate::wire::step::contact_nodes::detach;
+use crate::wire::step::motion::MotionScales;
 use crate::wire::step::order::by_wires;
-use crate::wire::step::ride::free;
 use crate::wire::{BodyId, BodyPlan, Drive, Material, Phase, Settings, Shape, Stop, WirePlan};
 
 const FRICTION: f64 = 0.3;
@@ -18,8 +18,8 @@ fn ball(world: &mut World, friction: f64) -> Stop {
     }
 }
 
-/// A chain without weight over a node, its ends `down` below it at both sides; one end is drawn at a speed, and after
-/// 5 s back.
+/// A chain without weight over a node, its ends `down` below it at both sides; one end is drawn at
+/// a speed, and after 5 s back.
 fn over_a_node(friction: f64, down: f64, speed: f64) -> World {
     let mut world = World::new(Settings {
         gravity: Vector::zeros(),
@@ -62,25 +62,26 @@ fn friction_share_is_the_node_formula_and_tends_to_the_exponential() {
         let (sin, cos) = (libm::sin(angle / 2.0), libm::cos(angle / 2.0));
         let world = over_a_node(FRICTION, 2.0 * sin / cos, 0.0);
         let wire = &world.wires[0];
-        let share = friction_share(wire, 1);
+        let share = capstan_factor(wire, 1);
         assert!((share - FRICTION * (angle / 2.0).tan()).abs() < 1e-14);
         let bound = (1.0 + share) / (1.0 - share);
         assert!((bound / (FRICTION * angle).exp() - 1.0).abs() < tolerance);
     }
 }
 
-/// What friction takes from the pull of the segment before a contact node, from the balance of its mass, and
-/// its bound, both in N. `before` is the wire before the step.
-fn friction(wire: &Wire, before: &Wire, node: usize, step: f64) -> [f64; 2] {
+/// What friction takes from the pull of the segment before a contact node, from the balance of its
+/// mass, and its bound, both in N. `before` is the wire before the step.
+fn friction_bound_of(wire: &Wire, before: &Wire, node: usize, step: f64) -> [f64; 2] {
     let [first, second] = [node - 1, node].map(|i| wire.segments[i].tension);
     let gained = before.node_mass(node) * (wire.nodes[node].slide - before.nodes[node].slide);
-    let bound = friction_share(before, node) * (first + second);
+    let bound = capstan_factor(before, node) * (first + second);
     [first - second - gained / step, bound]
 }
 
-/// Checks Coulomb's law at a node after a step: within the bound where it sticks, all of it against the sliding elsewhere.
+/// Checks Coulomb's law at a node after a step: within the bound where it sticks, all of it against
+/// the sliding elsewhere.
 fn check_law(wire: &Wire, before: &Wire, node: usize, step: f64) {
-    let [friction, bound] = friction(wire, before, node, step);
+    let [friction, bound] = friction_bound_of(wire, before, node, step);
     let rounding = 1e-8 * bound + 1e-9;
     let slide = wire.nodes[node].slide;
     if slide == 0.0 {
@@ -154,7 +155,7 @@ fn contact_node_leaves_where_the_wire_turns_away_from_the_body_and_goes_on_with_
     let wire = &mut world.wires[0];
     wire.nodes[1].slide = -2.0;
     let [before, after] = directions(wire, 1);
-    free(wire, 1);
+    detach(wire, 1);
     assert_eq!(
         (wire.nodes[1].slide, wire.nodes[1].velocity),
         (0.0, before + after)
@@ -173,7 +174,7 @@ fn segments_keep_a_sixteenth_of_their_wire_however_fast_it_slides() {
         (3.0 * farthest, farthest),
         (-1e9, -farthest),
     ] {
-        let mut motion = world.motion(&layout, &vec![0.0; layout.size], &Shares::all(&world));
+        let mut motion = world.motion(&layout, &vec![0.0; layout.size], &MotionScales::all(&world));
         motion.slides[0].speed = speed;
         shorten(&world, &mut motion);
         let slid = motion.slides[0].speed;

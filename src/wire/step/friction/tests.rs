@@ -1,11 +1,14 @@
 use super::super::{anderson, delassus::Delassus};
 use super::*;
 use crate::query::Point;
+use crate::wire::contact::ContactSite;
+use crate::wire::step::contact_blocks::Block;
 use crate::wire::step::order::by_wires;
 use crate::wire::{Material, Stop, WirePlan};
 
-/// A steel wire that lies over the upper half of a drum of radius 1, a contact at each of its nodes.
-fn over_a_drum() -> (World, Vec<Contact>) {
+/// A steel wire that lies over the upper half of a drum of radius 1, a contact at each of its
+/// nodes.
+fn over_a_drum() -> (World, Vec<ContactConstraint>) {
     let mut world = World::new(Settings::default()).unwrap();
     let around = (0..=18).map(|k| (f64::from(k) * 10.0).to_radians());
     let normals: Vec<Vector> = around
@@ -21,13 +24,13 @@ fn over_a_drum() -> (World, Vec<Contact>) {
     plan.velocity = Vector::new(0.5, 0.2, -1.0);
     let wire = world.add_wire(&plan).unwrap();
     let nodes = world.wires[wire.0].nodes.iter().zip(&normals).enumerate();
-    let contacts = nodes.map(|(k, (node, &normal))| Contact {
+    let contacts = nodes.map(|(k, (node, &normal))| ContactConstraint {
         key: k as u64,
-        a: Place::Wire {
+        a: ContactSite::Wire {
             wire,
             arc: node.arc,
         },
-        b: Place::World,
+        b: ContactSite::World,
         normal,
         gap: 0.0,
         friction: if k % 3 == 0 { 0.6 } else { 0.2 },
@@ -82,7 +85,7 @@ fn foretold_sweeps_reach_the_impulses_of_plain_ones_sooner() {
     let delassus = Delassus::new(&blocks);
     anderson::sweep(delassus, &mut blocks.list, &world.settings, &mut swept);
     for found in [&expected, &swept] {
-        assert!(found.is_settled(&world.settings), "{found:?}");
+        assert!(found.is_converged(&world.settings), "{found:?}");
     }
     let largest = plain
         .list

@@ -1,0 +1,111 @@
+//! How collisions in a world are found, and what is known of them from step to step.
+
+use super::body_contacts::BodyContacts;
+use super::detect::Pipeline;
+use super::segment::PairFilter;
+use super::wire_contacts::WireContacts;
+use crate::broad::Method;
+use crate::certified::Certified;
+use crate::narrow::NarrowPhase;
+use crate::wire::model::ModelError;
+use crate::wire::model::check::not_negative;
+
+/// What becomes of a crossing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mode {
+    /// It is prevented: the step is solved again with a contact there, and if that does not help,
+    /// what takes part moves only as far as it may. Changes of resolution that would cross are
+    /// refused, by the certified path whatever narrow phase tests motions.
+    #[default]
+    Guard,
+    /// It happens, as in the thesis: the contact comes with the next step and pushes the wires back
+    /// through each other. Changes of resolution are not tested.
+    Thesis,
+}
+
+/// The collisions in one world: how they are found, and the contacts there are.
+pub struct Collisions<'n> {
+    pub(super) narrow: &'n dyn NarrowPhase,
+    pub(super) filter: Option<PairFilter<'n>>,
+    pub(super) mode: Mode,
+    pub(super) friction: f64,
+    pub(super) pipeline: Pipeline,
+    pub(super) touches: WireContacts,
+    /// None if bodies are the caller's.
+    pub(super) obstacles: Option<BodyContacts>,
+    /// Whether wires get contact nodes where bodies bend them.
+    pub(super) contact_nodes: bool,
+}
+
+impl Default for Collisions<'_> {
+    /// The certified path after sweep-and-prune in guard mode, friction 0.5.
+    fn default() -> Self {
+        Collisions::new(Mode::default(), Method::default(), &Certified)
+    }
+}
+
+impl<'n> Collisions<'n> {
+    /// Collisions found by a broad and a narrow phase; friction 0.5, no filter. What guard mode
+    /// promises of motions it promises as far as the narrow phase misses nothing.
+    pub fn new(mode: Mode, method: Method, narrow: &'n dyn NarrowPhase) -> Self {
+        Collisions {
+            narrow,
+            filter: None,
+            mode,
+            friction: 0.5,
+            pipeline: Pipeline::new(method),
+            touches: WireContacts::default(),
+            obstacles: Some(BodyContacts::new(method)),
+            contact_nodes: false,
+        }
+    }
+
+    /// The same with another coefficient of friction, of all contacts that are found.
+    ///
+    /// # Errors
+    ///
+    /// A coefficient that is not a finite number of at least 0.
+    pub fn with_friction(mut self, friction: f64) -> Result<Self, ModelError> {
+        not_negative("friction", friction)?;
+        self.friction = friction;
+        Ok(self)
+    }
+
+    /// The same for those pairs only that `filter` keeps. The others pass through each other.
+    #[must_use]
+    pub fn with_filter(mut self, filter: PairFilter<'n>) -> Self {
+        self.filter = Some(filter);
+        self
+    }
+
+    /// The same without contacts with bodies: all of them are given to the step.
+    #[must_use]
+    pub fn without_bodies(mut self) -> Self {
+        self.obstacles = None;
+        self
+    }
+
+    /// The same with contact nodes for adaptive wires: where a body that was found to touch one
+    /// bends it between two nodes, it gets another one there, which is attached to the body, and
+    /// over which wire sticks or slides ([`NodeKind::Contact`](crate::wire::NodeKind)). It leaves
+    /// where the wire turns away from the body, and with the end of the wire.
+    #[must_use]
+    pub fn with_contact_nodes(mut self) -> Self {
+        self.contact_nodes = true;
+        self
+    }
+
+    /// What becomes of a crossing.
+    pub fn mode(&self) -> Mode {
+        self.mode
+    }
+
+    /// Wall-clock time in s of all broad phases so far.
+    pub(super) fn broad_seconds(&self) -> f64 {
+        let obstacles = self
+            .obstacles
+            .as_ref()
+            .map_or(0.0, BodyContacts::broad_seconds);
+        self.pipeline.broad_seconds() + obstacles
+    }
+}

@@ -1,0 +1,73 @@
+//! Finds where wires need contact nodes: where bodies bend them.
+//!
+//! A wire bends at its nodes only. Between two of them it crosses an edge as a straight bar. With a
+//! contact node there it turns, and sticks or slides as far as the capstan bound goes. The node
+//! leaves where the wire turns away from the body, or ends (`step/contact_nodes.rs`).
+
+use super::body_contacts::KEYS;
+use crate::wire::contact::{ContactConstraint, ContactSite};
+use crate::wire::model::{BodyId, Wire};
+use crate::wire::record::ContactRecord;
+use crate::wire::step::contact_nodes::{self, ContactNodeInsertion};
+use crate::wire::world::World;
+
+/// The least slope down beside a place at which a wire is bent, and the least turn there, as a
+/// difference of two directions.
+const TURN: f64 = 0.02;
+
+/// Where bodies bend adaptive wires that pull, in the order of the contacts.
+pub(super) fn insertions(world: &World, records: &[ContactRecord]) -> Vec<ContactNodeInsertion> {
+    let pushing = records.iter().filter(|record| record.normal_force() > 0.0);
+    pushing
+        .filter_map(|record| insertion(world, &record.contact))
+        .collect()
+}
+
+fn insertion(world: &World, contact: &ContactConstraint) -> Option<ContactNodeInsertion> {
+    let (ContactSite::Wire { wire: id, arc }, ContactSite::Body { body, .. }) =
+        (contact.a, contact.b)
+    else {
+        return None;
+    };
+    let wire = &world.wires[id.0];
+    let (segment, parameter) = wire.at(arc);
+    let found = contact.key > KEYS && wire.resolution.adaptive;
+    let on_surface = contact.gap > -wire.material.radius;
+    if !(found && on_surface) || wire.segments[segment].tension <= 0.0 {
+        return None;
+    }
+    // Where the node will be, and the nodes between which it turns the wire.
+    let (place, [before, after]) = match contact_nodes::node_near(wire, arc) {
+        Some(node) => (wire.nodes[node].position, [node.checked_sub(1)?, node + 1]),
+        None => {
+            let place = wire.nodes[segment].position + wire.span(segment) * parameter;
+            (place, beside(wire, segment, body))
+        }
+    };
+    let direction = |node: usize| Some((wire.nodes.get(node)?.position - place).normalize());
+    let [before, after] = [direction(before)?, direction(after)?];
+    // Down on one side, and not as far up on the other: over an edge, not beside one.
+    let slopes = [before, after].map(|direction| direction.dot(&contact.normal));
+    let out = -(before + after);
+    let bent = slopes[0].min(slopes[1]) <= -TURN && out.dot(&contact.normal) >= TURN;
+    bent.then(|| ContactNodeInsertion {
+        wire: id,
+        arc,
+        body,
+        normal: out.normalize(),
+        friction: contact.friction,
+    })
+}
+
+/// The nodes before and after a segment and its neighbours, as far as no other place of the body is
+/// between.
+fn beside(wire: &Wire, segment: usize, body: BodyId) -> [usize; 2] {
+    let is_on = |node: usize| wire.nodes[node].kind.is_on(body);
+    let last = wire.nodes.len() - 1;
+    let before = segment.saturating_sub(usize::from(!is_on(segment)));
+    let after = segment + 1 + usize::from(!is_on(segment + 1));
+    [before, after.min(last)]
+}
+
+#[cfg(test)]
+mod tests;

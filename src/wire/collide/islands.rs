@@ -1,0 +1,146 @@
+//! ProposedMotion that is shortened because a crossing is left.
+
+use super::detect::MidlineHit;
+use crate::wire::Vector;
+use crate::wire::contact::{ContactConstraint, ContactSite};
+use crate::wire::model::{BodyId, WireId};
+use crate::wire::record::ScaledIsland;
+use crate::wire::step::motion::MotionScales;
+use crate::wire::world::World;
+
+/// How often motion is shortened before nothing moves at all.
+const ATTEMPTS: usize = 20;
+
+/// Motion goes up to this fraction of the time to a crossing.
+const SAFETY: f64 = 0.9;
+
+/// Islands, the things that are tied to each other by eyes and contacts, and the scale of its
+/// motion that each makes.
+///
+/// All that meets motion_scales a fate: a hit joins its islands and shortens them. Within one
+/// island a shorter motion is a part of the longer one; that islands of different motion_scales do
+/// not meet is tested again. After some attempts nothing moves, and where nothing moves nothing new
+/// meets.
+pub(super) struct Islands {
+    /// Wires, then bodies: the parent of each in the union-find forest of islands.
+    parent: Vec<usize>,
+    /// Of roots.
+    scale: Vec<f64>,
+    wires: usize,
+    attempts: usize,
+}
+
+impl Islands {
+    pub(super) fn new(world: &World, contacts: &[ContactConstraint], impulses: &[Vector]) -> Self {
+        let wires = world.wires.len();
+        let count = wires + world.bodies.len();
+        let mut islands = Islands {
+            parent: (0..count).collect(),
+            scale: vec![1.0; count],
+            wires,
+            attempts: 0,
+        };
+        for (w, wire) in world.wires.iter().enumerate() {
+            for (body, _) in wire.nodes.iter().filter_map(|node| node.kind.carrier()) {
+                if moves(world, body) {
+                    islands.join(w, wires + body.0);
+                }
+            }
+        }
+        for (contact, impulse) in contacts.iter().zip(impulses) {
+            let [a, b] = [&contact.a, &contact.b].map(|place| islands.member(world, place));
+            if let (Some(a), Some(b), true) = (a, b, impulse.norm_squared() > 0.0) {
+                islands.join(a, b);
+            }
+        }
+        islands
+    }
+
+    fn member(&self, world: &World, place: &ContactSite) -> Option<usize> {
+        match *place {
+            ContactSite::World => None,
+            ContactSite::Body { body, .. } => moves(world, body).then_some(self.wires + body.0),
+            ContactSite::Wire { wire, .. } => Some(wire.0),
+        }
+    }
+
+    fn root(&self, mut member: usize) -> usize {
+        while self.parent[member] != member {
+            member = self.parent[member];
+        }
+        member
+    }
+
+    fn join(&mut self, a: usize, b: usize) -> usize {
+        let [a, b] = [self.root(a), self.root(b)];
+        let (root, other) = (a.min(b), a.max(b));
+        self.parent[other] = root;
+        self.scale[root] = self.scale[root].min(self.scale[other]);
+        root
+    }
+
+    /// Whether nothing moves any more.
+    pub(super) fn is_still(&self) -> bool {
+        self.scale.iter().all(|scale| *scale == 0.0)
+    }
+
+    /// Shortens the islands of what meets.
+    pub(super) fn shorten(&mut self, hits: &[MidlineHit]) {
+        self.attempts += 1;
+        if self.attempts > ATTEMPTS {
+            self.scale.fill(0.0);
+            return;
+        }
+        for hit in hits {
+            self.join(hit.sites[0].wire.0, hit.sites[1].wire.0);
+        }
+        let mut part = vec![1.0f64; self.scale.len()];
+        for hit in hits {
+            let root = self.root(hit.sites[0].wire.0);
+            part[root] = part[root].min(SAFETY * hit.contact.toi);
+        }
+        for (scale, part) in self.scale.iter_mut().zip(part) {
+            *scale *= part;
+        }
+    }
+
+    pub(super) fn motion_scales(&self) -> MotionScales {
+        let all: Vec<f64> = (0..self.parent.len())
+            .map(|member| self.scale[self.root(member)])
+            .collect();
+        let (wires, bodies) = all.split_at(self.wires);
+        MotionScales {
+            wires: wires.to_vec(),
+            bodies: bodies.to_vec(),
+        }
+    }
+
+    /// The islands that were shortened.
+    pub(super) fn scaled(&self, world: &World) -> Vec<ScaledIsland> {
+        let roots = (0..self.parent.len()).filter(|&member| self.parent[member] == member);
+        let short = roots.filter(|&root| self.scale[root] < 1.0);
+        let islands = short.map(|root| {
+            let of = |member: usize| self.root(member) == root;
+            let wires = (0..self.wires).filter(|&w| of(w)).map(WireId);
+            let bodies = (0..world.bodies.len()).filter(|&b| of(self.wires + b));
+            let bodies = bodies.map(BodyId).filter(|&body| moves(world, body));
+            let bodies: Vec<BodyId> = bodies.collect();
+            let prescribed = |body: &&BodyId| !world.bodies[body.0].dynamic;
+            ScaledIsland {
+                motion_scale: self.scale[root],
+                wires: wires.collect(),
+                behind: bodies.iter().filter(prescribed).copied().collect(),
+                bodies,
+            }
+        });
+        let islands =
+            islands.filter(|island| !island.wires.is_empty() || !island.bodies.is_empty());
+        islands.collect()
+    }
+}
+
+/// Whether a body can move. What cannot ties nothing together.
+fn moves(world: &World, body: BodyId) -> bool {
+    let body = &world.bodies[body.0];
+    body.dynamic || !body.phases.is_empty()
+}

@@ -1,0 +1,182 @@
+//! Reduces the contact manifolds of pairs to the contacts that the solver gets.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::collision_shape::ManifoldPoint;
+use crate::query::Point;
+use crate::wire::Vector;
+use crate::wire::contact::{ContactConstraint, ContactSite};
+use crate::wire::model::{BodyId, NodeKind, WireId};
+use crate::wire::site::SegmentId;
+use crate::wire::world::World;
+
+/// What has a box.
+#[derive(Clone, Copy)]
+pub(super) enum Collider {
+    Body(BodyId),
+    Segment(SegmentId),
+}
+
+/// A contact and the segment that it is on, if it is on one.
+pub(super) type Found = (Option<SegmentId>, ContactConstraint);
+
+/// Adds the contacts of one pair. On a segment, a place between two others counts only if it is
+/// deeper, and none in the half that a contact node on this body ends: the node holds that.
+pub(super) fn contacts_of(
+    world: &World,
+    [a, b]: [Collider; 2],
+    spots: Vec<ManifoldPoint>,
+    friction: f64,
+    found: &mut Vec<Found>,
+) {
+    const DEEPER: f64 = 1e-9;
+    let Collider::Body(other) = b else { return };
+    let contacts = spots.iter().map(|spot| ContactConstraint {
+        key: 0,
+        a: place(world, a, spot.points[0]),
+        b: on_body(world, other, spot.points[1]),
+        normal: spot.normal,
+        gap: spot.gap,
+        friction,
+    });
+    let mut contacts: Vec<ContactConstraint> = contacts.collect();
+    let Collider::Segment(id) = a else {
+        found.extend(contacts.into_iter().map(|contact| (None, contact)));
+        return;
+    };
+    contacts.retain(|contact| !is_beside_contact_node(world, id, other, arc(contact)));
+    contacts.sort_by(|a, b| arc(a).total_cmp(&arc(b)));
+    let outer = [contacts.first(), contacts.last()];
+    let outer = outer.map(|contact| contact.map_or(0.0, |contact| contact.gap));
+    let last = contacts.len().saturating_sub(1);
+    for (k, contact) in contacts.into_iter().enumerate() {
+        let deeper = contact.gap < outer[0].min(outer[1]) - DEEPER;
+        if k == 0 || k == last || deeper {
+            found.push((Some(id), contact));
+        }
+    }
+}
+
+/// Whether a place of a segment is in the half that a node on a body ends.
+fn is_beside_contact_node(world: &World, id: SegmentId, body: BodyId, arc: f64) -> bool {
+    let [start, end] = id.nodes(world);
+    let nearer = if arc - start.arc < end.arc - arc {
+        start
+    } else {
+        end
+    };
+    nearer.kind.is_on(body)
+}
+
+/// The place of a point that is on the surface of a thing.
+fn place(world: &World, thing: Collider, point: Point) -> ContactSite {
+    match thing {
+        Collider::Body(body) => on_body(world, body, point),
+        Collider::Segment(id) => {
+            let [start, end] = id.ends(world);
+            let span = end - start;
+            let parameter = (point - start).dot(&span) / span.norm_squared();
+            let parameter = if parameter.is_finite() {
+                parameter
+            } else {
+                0.0
+            };
+            id.site(world, parameter).into()
+        }
+    }
+}
+
+fn on_body(world: &World, id: BodyId, point: Point) -> ContactSite {
+    let body = &world.bodies[id.0];
+    let local = body
+        .orientation
+        .inverse_transform_vector(&(point - body.position));
+    ContactSite::Body { body: id, local }
+}
+
+fn arc(contact: &ContactConstraint) -> f64 {
+    match contact.a {
+        ContactSite::Wire { arc, .. } => arc,
+        _ => 0.0,
+    }
+}
+
+/// Leaves out the ends of wires: from a node that is fixed to a body, whatever of the wire
+/// penetrates this body without a gap is one with it. So a wire may come from a point inside of a
+/// body.
+pub(super) fn leave_out_ends(world: &World, found: &mut Vec<Found>) {
+    let mut deep: BTreeSet<(BodyId, SegmentId)> = BTreeSet::new();
+    for (segment, contact) in found.iter() {
+        if let (Some(segment), ContactSite::Body { body, .. }, true) =
+            (segment, contact.b, contact.gap < 0.0)
+        {
+            deep.insert((body, *segment));
+        }
+    }
+    let mut ends = BTreeSet::new();
+    for (w, wire) in world.wires.iter().enumerate() {
+        for (n, node) in wire.nodes.iter().enumerate() {
+            let NodeKind::Eye { body, .. } = node.kind else {
+                continue;
+            };
+            let at = |segment: usize| {
+                let wire = WireId(w);
+                (body, SegmentId { wire, segment })
+            };
+            let is_deep = |segment: &usize| deep.contains(&at(*segment));
+            ends.extend((n + 1..).take_while(is_deep).map(at));
+            ends.extend((0..n.saturating_sub(1)).rev().take_while(is_deep).map(at));
+        }
+    }
+    found.retain(|(segment, contact)| match (segment, contact.b) {
+        (Some(segment), ContactSite::Body { body, .. }) => !ends.contains(&(body, *segment)),
+        _ => true,
+    });
+}
+
+/// At a node both segments name one place: the deeper one stays.
+pub(super) fn join(found: Vec<Found>) -> Vec<ContactConstraint> {
+    const SAME_DIRECTION: f64 = 0.99;
+    let mut joined: Vec<ContactConstraint> = Vec::with_capacity(found.len());
+    let mut at: BTreeMap<([usize; 3], u64), usize> = BTreeMap::new();
+    for (_, contact) in found {
+        let ContactSite::Wire { arc, .. } = contact.a else {
+            joined.push(contact);
+            continue;
+        };
+        match at.get(&(things(&contact), arc.to_bits())) {
+            Some(&k) if joined[k].normal.dot(&contact.normal) > SAME_DIRECTION => {
+                if contact.gap < joined[k].gap {
+                    joined[k] = contact;
+                }
+            }
+            _ => {
+                at.insert((things(&contact), arc.to_bits()), joined.len());
+                joined.push(contact);
+            }
+        }
+    }
+    joined
+}
+
+/// What a contact is between: whether A is a wire, its number, the number of the body B.
+pub(super) fn things(contact: &ContactConstraint) -> [usize; 3] {
+    let number = |place: &ContactSite| match *place {
+        ContactSite::World => [0, 0],
+        ContactSite::Body { body, .. } => [0, body.0],
+        ContactSite::Wire { wire, .. } => [1, wire.0],
+    };
+    let ([kind, a], [_, b]) = (number(&contact.a), number(&contact.b));
+    [kind, a, b]
+}
+
+/// How far two places of one thing are apart, in m.
+pub(super) fn along(a: &ContactSite, b: &ContactSite) -> f64 {
+    match (a, b) {
+        (ContactSite::Wire { arc: a, .. }, ContactSite::Wire { arc: b, .. }) => (a - b).abs(),
+        (ContactSite::Body { local: a, .. }, ContactSite::Body { local: b, .. }) => {
+            Vector::metric_distance(a, b)
+        }
+        _ => f64::INFINITY,
+    }
+}

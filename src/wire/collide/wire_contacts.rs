@@ -1,0 +1,220 @@
+//! Contacts between wires, from step to step.
+//!
+//! A contact is known by its places on the material, never by segment numbers, which change. Each
+//! step it goes to the closest points of its two segments; at an end it hands over to the neighbour
+//! if that is closer and has no contact of its own. Two within a diameter of each other are one.
+//! Its normal is the direction between the closest points where the step starts, reversed while the
+//! wires are on each other's wrong side. That side is counted by crossings, never read from
+//! positions: it is how thesis mode brings wires back.
+
+use std::collections::BTreeSet;
+
+use super::segment::{Closest, direction, joined, pair_at, reach};
+use crate::wire::Vector;
+use crate::wire::contact::ContactConstraint;
+use crate::wire::record::ContactRecord;
+use crate::wire::site::{SegmentId, WireSite};
+use crate::wire::world::World;
+
+/// Where the keys of contacts between wires start.
+const KEYS: u64 = 1 << 63;
+
+/// One contact.
+#[derive(Clone, Debug)]
+pub(super) struct WireContact {
+    pub(super) key: u64,
+    pub(super) sites: [WireSite; 2],
+    /// The wires are on each other's wrong side.
+    pub(super) wrong: bool,
+    /// The last normal, from B to A.
+    pub(super) normal: Vector,
+    /// Distance of the surfaces along the normal where the step started, in m.
+    gap: f64,
+    /// It pushed in the last step.
+    pushing: bool,
+}
+
+/// All contacts, oldest first.
+#[derive(Clone, Debug, Default)]
+pub(super) struct WireContacts {
+    list: Vec<WireContact>,
+    made: u64,
+}
+
+type PairSet = BTreeSet<[SegmentId; 2]>;
+
+impl WireContacts {
+    /// A new contact, not yet among the others.
+    pub(super) fn make(&mut self, sites: [WireSite; 2], normal: Vector) -> WireContact {
+        self.made += 1;
+        WireContact {
+            key: KEYS + self.made,
+            sites,
+            wrong: false,
+            normal,
+            gap: 0.0,
+            pushing: false,
+        }
+    }
+
+    /// Moves every contact to where the wires are now closest; contacts that come to one place
+    /// become one.
+    pub(super) fn refresh(&mut self, world: &World) {
+        let mut taken: PairSet = self.list.iter().filter_map(|t| t.pair(world)).collect();
+        for mut touch in std::mem::take(&mut self.list) {
+            let pair = touch.pair(world).filter(|&pair| !joined(world, pair));
+            let Some(pair) = pair else { continue };
+            touch.slide(world, pair, &mut taken);
+            match self
+                .list
+                .iter_mut()
+                .find(|older| older.is_at(world, &touch.sites))
+            {
+                Some(older) => older.wrong |= touch.wrong,
+                None => self.list.push(touch),
+            }
+        }
+    }
+
+    /// What the solver is given.
+    pub(super) fn contacts(&self, friction: f64) -> impl Iterator<Item = ContactConstraint> {
+        self.list.iter().map(move |t| t.contact(friction))
+    }
+
+    /// Adds contacts, at most one for each pair of segments and each place.
+    pub(super) fn add(&mut self, world: &World, new: impl IntoIterator<Item = WireContact>) {
+        let mut taken: PairSet = self.list.iter().filter_map(|t| t.pair(world)).collect();
+        for touch in new {
+            let free = touch.pair(world).is_some_and(|pair| taken.insert(pair));
+            if free
+                && !self
+                    .list
+                    .iter()
+                    .any(|older| older.is_at(world, &touch.sites))
+            {
+                self.list.push(touch);
+            }
+        }
+    }
+
+    /// The contact nearest to two places along the wires, not farther than their segments are long.
+    pub(super) fn nearest(
+        &mut self,
+        world: &World,
+        sites: &[WireSite; 2],
+    ) -> Option<&mut WireContact> {
+        let length = |site: &WireSite| {
+            let segment = SegmentId::at(world, site)?;
+            Some(segment.of(world).rest_length(segment.segment))
+        };
+        let most = length(&sites[0])? + length(&sites[1])?;
+        let distance = |touch: &WireContact| {
+            let along = |k: usize| (touch.sites[k].arc - sites[k].arc).abs();
+            let same = (0..2).all(|k| touch.sites[k].wire == sites[k].wire);
+            same.then(|| along(0) + along(1))
+                .filter(|distance| *distance <= most)
+        };
+        let near = self.list.iter_mut().filter_map(|t| Some((distance(t)?, t)));
+        near.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, t)| t)
+    }
+
+    /// Notes which contacts pushed, and forgets those that do not, far apart on the right side.
+    pub(super) fn release(&mut self, world: &World, records: &[ContactRecord]) {
+        let pushing = records.iter().filter(|record| record.normal_force() > 0.0);
+        let pushing: BTreeSet<u64> = pushing.map(|record| record.contact.key).collect();
+        for touch in &mut self.list {
+            touch.pushing = pushing.contains(&touch.key);
+        }
+        self.list.retain(|touch| {
+            let far = touch
+                .pair(world)
+                .is_none_or(|pair| touch.gap > 2.0 * reach(world, pair));
+            touch.pushing || touch.wrong || !far
+        });
+    }
+
+    /// Whether a contact pushes on a wire strictly between two arc lengths.
+    pub(super) fn pushes_between(&self, wire: usize, from: f64, to: f64) -> bool {
+        let inside = |site: &WireSite| site.wire.0 == wire && site.arc > from && site.arc < to;
+        let mut pushing = self.list.iter().filter(|touch| touch.pushing);
+        pushing.any(|touch| touch.sites.iter().any(inside))
+    }
+}
+
+impl WireContact {
+    fn pair(&self, world: &World) -> Option<[SegmentId; 2]> {
+        pair_at(world, &self.sites)
+    }
+
+    /// Whether it is one contact with these places: not farther along either wire than they are
+    /// thick.
+    fn is_at(&self, world: &World, sites: &[WireSite; 2]) -> bool {
+        let same = |k: usize| self.sites[k].wire == sites[k].wire;
+        if !(same(0) && same(1)) {
+            return false;
+        }
+        let wires = sites.map(|site| world.wires[site.wire.0].material.radius);
+        (0..2).all(|k| (self.sites[k].arc - sites[k].arc).abs() <= wires[0] + wires[1])
+    }
+
+    fn contact(&self, friction: f64) -> ContactConstraint {
+        self.row(self.normal, self.gap, friction)
+    }
+
+    /// The contact with a normal and a gap.
+    pub(super) fn row(&self, normal: Vector, gap: f64, friction: f64) -> ContactConstraint {
+        ContactConstraint {
+            key: self.key,
+            a: self.sites[0].into(),
+            b: self.sites[1].into(),
+            normal,
+            gap,
+            friction,
+        }
+    }
+
+    /// Goes to the closest points, over ends of segments to neighbours that are closer.
+    fn slide(&mut self, world: &World, mut pair: [SegmentId; 2], taken: &mut PairSet) {
+        let mut closest = Closest::of(world, pair);
+        let from = pair;
+        // Ends: each pair is closer than the one before.
+        while let Some((next, closer)) = hand_over(world, pair, &closest, taken) {
+            (pair, closest) = (next, closer);
+        }
+        if pair != from {
+            taken.remove(&from);
+            taken.insert(pair);
+        }
+        let [u, v] = closest.parameters;
+        self.sites = [pair[0].site(world, u), pair[1].site(world, v)];
+        if let Some(direction) = direction(&closest.separation) {
+            self.normal = if self.wrong { -direction } else { direction };
+        }
+        self.gap = self.normal.dot(&closest.separation) - reach(world, pair);
+    }
+}
+
+/// A neighbouring pair that is closer, if the closest points are at an end.
+fn hand_over(
+    world: &World,
+    pair: [SegmentId; 2],
+    closest: &Closest,
+    taken: &PairSet,
+) -> Option<([SegmentId; 2], Closest)> {
+    let step = |which: usize| {
+        let count = pair[which].of(world).segments.len();
+        let at = pair[which].segment;
+        let to = match closest.parameters[which] {
+            0.0 => at.checked_sub(1),
+            1.0 => Some(at + 1).filter(|&to| to < count),
+            _ => None,
+        }?;
+        let mut next = pair;
+        next[which].segment = to;
+        Some(next)
+    };
+    let next = [step(0), step(1)].into_iter().flatten();
+    let free = next.filter(|next| !taken.contains(next) && !joined(world, *next));
+    let mut closer = free.map(|next| (next, Closest::of(world, next)));
+    closer.find(|(_, other)| other.distance() < closest.distance())
+}

@@ -1,0 +1,70 @@
+//! Why wires could not be kept apart.
+
+use std::fmt;
+
+use crate::broad::BroadError;
+use crate::narrow::Unsupported;
+use crate::query::QueryError;
+use crate::wire::model::BodyId;
+use crate::wire::site::WireSite;
+
+/// Why a step with collisions was not done.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CollisionError {
+    /// Midlines touch where the step starts: no motion, however short, keeps them apart.
+    Touching {
+        /// The two places.
+        sites: [WireSite; 2],
+    },
+    /// The collision library does not take the mesh of a body.
+    Mesh {
+        /// The body.
+        body: BodyId,
+    },
+    /// A segment does not end the step at finite positions.
+    Broad(BroadError),
+    /// A pair is no query.
+    Query(QueryError),
+    /// The narrow phase does not take edge-edge queries of radius 0.
+    Narrow(Unsupported),
+}
+
+impl fmt::Display for CollisionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            CollisionError::Touching { sites: [a, b] } => {
+                write!(f, "the midlines of {a} and {b} touch before the step")
+            }
+            CollisionError::Mesh { body } => {
+                write!(
+                    f,
+                    "the mesh of body {} is no surface that can be tested",
+                    body.0
+                )
+            }
+            CollisionError::Broad(error) => write!(f, "broad phase: {error}"),
+            CollisionError::Query(error) => write!(f, "query: {error}"),
+            CollisionError::Narrow(error) => write!(f, "narrow phase: {error}"),
+        }
+    }
+}
+
+impl std::error::Error for CollisionError {}
+
+impl From<BroadError> for CollisionError {
+    fn from(error: BroadError) -> Self {
+        CollisionError::Broad(error)
+    }
+}
+
+impl From<QueryError> for CollisionError {
+    fn from(error: QueryError) -> Self {
+        CollisionError::Query(error)
+    }
+}
+
+impl From<Unsupported> for CollisionError {
+    fn from(error: Unsupported) -> Self {
+        CollisionError::Narrow(error)
+    }
+}

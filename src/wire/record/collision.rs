@@ -1,0 +1,126 @@
+//! What is observed of the collisions in a step.
+
+use crate::contact::{Case, Flags};
+use crate::narrow::Report;
+use crate::query::Point;
+use crate::wire::model::{BodyId, WireId};
+use crate::wire::site::{SegmentId, WireSite};
+
+/// The collisions in one step. Counts are sums over all the times that the step was tested.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct CollisionRecord {
+    /// Pairs of segments that the broad phase named, joined ones apart.
+    pub broad_pairs: usize,
+    /// Of these, excluded because they move too little to meet.
+    pub excluded: usize,
+    /// Of these, tested by the narrow phase.
+    pub tested: usize,
+    /// Pairs of a segment or a body with a body that were tested.
+    pub tested_bodies: usize,
+    /// Tests by [`Case`], in the order of [`Case::ALL`], as far as the narrow phase knows it.
+    pub cases: [usize; Case::ALL.len()],
+    /// Contacts at which the segments are parallel for an instant.
+    pub temporarily_parallel: usize,
+    /// Contacts at which a segment is a point for an instant.
+    pub temporarily_point: usize,
+    /// How often the step was solved again.
+    pub rounds: usize,
+    /// Midlines that met during the motion: in guard mode every pair of segments in every motion
+    /// that was tried.
+    pub crossings: Vec<Crossing>,
+    /// Every pair that the broad phase named in the motion that was made, with segments numbered as
+    /// before it.
+    pub pairs: Vec<PairRecord>,
+    /// Islands whose motion was scaled down.
+    pub scaled_islands: Vec<ScaledIsland>,
+    /// Changes of resolution that were refused.
+    pub refused_remeshes: usize,
+}
+
+/// Midlines that meet during the motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Crossing {
+    /// Where.
+    pub sites: [WireSite; 2],
+    /// When, from 0 to 1 in the step.
+    pub toi: f64,
+    /// The case, if the narrow phase knows it.
+    pub case: Option<Case>,
+    /// The configuration at `toi`.
+    pub flags: Flags,
+    /// What became of it.
+    pub outcome: CrossingOutcome,
+    /// Where the motion that was tried starts: both ends of the first segment, then of the second.
+    pub start: [Point; 4],
+    /// Where it ends.
+    pub end: [Point; 4],
+}
+
+/// A pair of segments that the broad phase named.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct PairRecord {
+    /// The segments.
+    pub pair: [SegmentId; 2],
+    /// What was said of them.
+    pub answer: PairAnswer,
+}
+
+/// What was said of a pair of segments.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum PairAnswer {
+    /// They move too little to meet.
+    Excluded,
+    /// The narrow phase says that they do not meet.
+    Apart,
+    /// The narrow phase says that they meet.
+    Met {
+        /// When, from 0 to 1 in the step.
+        toi: f64,
+    },
+}
+
+/// What became of midlines that met.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum CrossingOutcome {
+    /// Guard mode: that motion was not made.
+    Prevented,
+    /// Thesis mode: the wires have passed through each other, +1 in the ledger.
+    Tunnelled,
+    /// Thesis mode: they are back on their sides, -1 in the ledger.
+    Returned,
+    /// Thesis mode: they touched and parted on the same sides.
+    Grazed,
+}
+
+/// Things tied to each other that made only a part of their motion, because a crossing was left.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ScaledIsland {
+    /// The part, from 0 to 1. Velocities are that part of what was solved for.
+    pub motion_scale: f64,
+    /// The wires.
+    pub wires: Vec<WireId>,
+    /// The bodies that can move.
+    pub bodies: Vec<BodyId>,
+    /// Those of them whose velocity is prescribed: they would have forced a crossing, and are
+    /// behind their script from now on.
+    pub behind: Vec<BodyId>,
+}
+
+impl CollisionRecord {
+    /// Counts a test and its answer.
+    pub(in crate::wire) fn count(&mut self, report: &Report) {
+        self.tested += 1;
+        let case = |&of: &Case| Some(of) == report.case;
+        if let Some(at) = Case::ALL.iter().position(case) {
+            self.cases[at] += 1;
+        }
+        self.temporarily_parallel += usize::from(report.flags.temporarily_parallel);
+        self.temporarily_point += usize::from(report.flags.temporarily_point);
+    }
+}

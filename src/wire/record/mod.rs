@@ -1,0 +1,213 @@
+//! What is observed of a step.
+
+mod collision;
+
+pub use collision::{
+    CollisionRecord, Crossing, CrossingOutcome, PairAnswer, PairRecord, ScaledIsland,
+};
+
+use nalgebra::UnitQuaternion;
+
+use super::contact::ContactConstraint;
+use super::energy::Energy;
+use super::model::{NodeKind, WireId};
+use super::resolution::Remesh;
+use super::vector::Vector;
+use super::world::World;
+use crate::query::Point;
+
+/// Everything that happened in one step. Outside of this crate one starts as the default, for tests of what reads it.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct StepRecord {
+    /// The step, from 0.
+    pub step: u64,
+    /// Time at its end in s.
+    pub time: f64,
+    /// Each wire.
+    pub wires: Vec<WireRecord>,
+    /// Each body.
+    pub bodies: Vec<BodyRecord>,
+    /// The contacts of the step.
+    pub contacts: Vec<ContactRecord>,
+    /// The collisions between wires; empty unless the step looked for them.
+    pub collisions: CollisionRecord,
+    /// Wires that slid over contact nodes in the motion, and those that left one after it.
+    pub slides: Vec<Slide>,
+    /// Changes of resolution, after the motion.
+    pub remeshes: Vec<Remesh>,
+    /// Energies after the motion.
+    pub energy: Energy,
+    /// How the system was solved.
+    pub solver: SolverRecord,
+    /// How long the phases took.
+    pub phases: Phases,
+}
+
+/// A wire in a step. Its nodes move on straight lines.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct WireRecord {
+    /// Arc length of each node in m.
+    pub arcs: Vec<f64>,
+    /// What carries each node.
+    pub kinds: Vec<NodeKind>,
+    /// Position of each node before the motion, in m.
+    pub before: Vec<Point>,
+    /// Position of each node after it, in m.
+    pub after: Vec<Point>,
+    /// Tension of each segment in N.
+    pub tensions: Vec<f64>,
+}
+
+/// A body in a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct BodyRecord {
+    /// Before the motion.
+    pub before: Pose,
+    /// After it.
+    pub after: Pose,
+}
+
+/// Position and orientation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Pose {
+    /// Centre of mass in m.
+    pub position: Point,
+    /// From the body's frame to the world.
+    pub orientation: UnitQuaternion<f64>,
+}
+
+/// A contact and what it did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct ContactRecord {
+    /// The contact as it was given.
+    pub contact: ContactConstraint,
+    /// Force on its place A in N, friction included.
+    pub force: Vector,
+}
+
+impl ContactRecord {
+    /// The force along the normal in N, at least 0.
+    pub fn normal_force(&self) -> f64 {
+        self.force.dot(&self.contact.normal)
+    }
+}
+
+/// A wire that slid over a contact node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Slide {
+    /// The wire.
+    pub wire: WireId,
+    /// The node's number after the motion.
+    pub node: usize,
+    /// How far the node's arc length went, in m; 0 for a node that left its body.
+    pub distance: f64,
+    /// Whether the node left its body and is free now.
+    pub left: bool,
+}
+
+/// How a system was solved.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct SolverRecord {
+    /// Backward error of the solution.
+    pub residual: f64,
+    /// Factorisations: 1, and one more for every wrong guess of which segments of chains pull, or
+    /// for every step of Newton's method where contacts are in the system.
+    pub factorisations: usize,
+    /// Sweeps over the contacts; 0 where they are in the system.
+    pub sweeps: usize,
+    /// The largest error of contact velocities, in m/s: the change in the last sweep, or the part
+    /// that was not predicted. Above the tolerance of the settings if that took too long.
+    pub contact_residual: f64,
+    /// The largest difference between a bound of friction at a contact node and the one that the
+    /// tensions beside it give, as a fraction of the largest; above 1e-9 only if rounds were not
+    /// enough.
+    pub slide_residual: f64,
+}
+
+/// Wall-clock time in s by phase.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Phases {
+    /// Putting the system together.
+    pub assembly: f64,
+    /// Factoring it.
+    pub factor: f64,
+    /// Solving it without contacts.
+    pub solve: f64,
+    /// Contacts and friction; where contacts are in the system, all of its solution.
+    pub contacts: f64,
+    /// Boxes of what may collide, and which of them meet.
+    pub broad: f64,
+    /// The rest of collision detection: pairs whose boxes meet, and what becomes of their contacts.
+    pub narrow: f64,
+    /// Moving everything.
+    pub commit: f64,
+    /// Nodes that leave their bodies, and changes of resolution.
+    pub resolution: f64,
+}
+
+impl StepRecord {
+    /// What is known before the motion.
+    pub(in crate::wire) fn before(world: &World) -> Self {
+        let wires = world.wires.iter().map(|wire| WireRecord {
+            arcs: wire.nodes.iter().map(|node| node.arc).collect(),
+            kinds: wire.nodes.iter().map(|node| node.kind).collect(),
+            before: wire.nodes.iter().map(|node| node.position).collect(),
+            ..WireRecord::default()
+        });
+        let poses = poses(world).map(|before| BodyRecord {
+            before,
+            after: before,
+        });
+        StepRecord {
+            step: world.steps,
+            wires: wires.collect(),
+            bodies: poses.collect(),
+            ..StepRecord::default()
+        }
+    }
+
+    /// Adds what the motion came to.
+    pub(in crate::wire) fn after(&mut self, world: &World) {
+        for (record, wire) in self.wires.iter_mut().zip(&world.wires) {
+            record.after = wire.nodes.iter().map(|node| node.position).collect();
+            record.tensions = wire.segments.iter().map(|s| s.tension).collect();
+        }
+        for (record, pose) in self.bodies.iter_mut().zip(poses(world)) {
+            record.after = pose;
+        }
+        self.time = world.time();
+        self.energy = world.energy();
+    }
+}
+
+fn poses(world: &World) -> impl Iterator<Item = Pose> {
+    world.bodies.iter().map(|body| Pose {
+        position: body.position,
+        orientation: body.orientation,
+    })
+}
+
+impl World {
+    pub(in crate::wire) fn contact_records(
+        &self,
+        contacts: &[ContactConstraint],
+        impulses: &[Vector],
+    ) -> Vec<ContactRecord> {
+        let pairs = contacts.iter().zip(impulses);
+        pairs
+            .map(|(&contact, impulse)| ContactRecord {
+                contact,
+                force: impulse / self.settings.step,
+            })
+            .collect()
+    }
+}

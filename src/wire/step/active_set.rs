@@ -1,0 +1,145 @@
+//! The active set: which segments of chains pull, and over which contact nodes wires slide.
+//!
+//! A chain's row `G v >= target` has the multiplier `(G v - target) / Sigma` where it is violated,
+//! and none else. So for given impulses of contacts the velocities of a step are where `v . M~ v /
+//! 2 - v . (M v + h f) + sum (G v - target)^2 / (2 Sigma)` is least, with the rows of chains
+//! counted only where they are above their target. This function is strictly convex and quadratic
+//! in branches: Newton's method with an exact line search finds its minimum in finitely many steps
+//! (Sun, Math. Program. 76, 1997). So it is with every
+//! [`ConstitutiveLaw`](super::constitutive::ConstitutiveLaw) in place of that square.
+//!
+//! The friction at a contact node is bounded by the tensions beside it ([`capstan`]). It is found
+//! for bounds that stand, then these for the tensions that follow, and so on until the bounds stay:
+//! each change moves the others by the fraction `f tan(D/2)` of itself, which is below 1 where wire
+//! slides at all.
+
+use super::capstan;
+use super::rows::Row;
+use super::system::System;
+use crate::wire::bisect::bisect;
+use crate::wire::error::Reason;
+
+/// Newton steps that are tried before a step is given up; some dozens are usual for the longest
+/// chains.
+const TRIES: usize = 1000;
+
+/// How often bounds of friction follow tensions. Each time the difference falls to a fraction of
+/// itself; a dozen is usual for a dozen nodes.
+const BOUNDS: usize = 100;
+
+/// A solution for given impulses in which every row has the branch of its law that holds there.
+pub(super) struct ActiveSet {
+    pub(super) x: Vec<f64>,
+    /// Its backward error.
+    pub(super) backward_error: f64,
+    /// Factorisations that it took.
+    pub(super) factorisations: usize,
+}
+
+/// Whether rows violates_branches the guess of their branches: one of a chain that counts and
+/// pushes, or one that does not and is longer after the step than it may be; friction whose bound
+/// is not that of the tensions. Rounding of velocities is no contradiction.
+pub(super) fn violates_branches(rows: &[Row], x: &[f64]) -> bool {
+    leaves_branch(rows, x) || capstan::bounds_differ(rows, x)
+}
+
+/// Whether a solution is not where the branches of the rows are their laws.
+pub(super) fn leaves_branch(rows: &[Row], x: &[f64]) -> bool {
+    const ROUNDING: f64 = 1e-12;
+    let changing = || rows.iter().filter(|row| row.may_change());
+    let fastest = changing().fold(0.0, |a: f64, row| a.max(row.speed(x)));
+    let accepted = ROUNDING * fastest;
+    changing().any(|row| row.branch.is_left(row.excess(x), accepted))
+}
+
+/// Finds the branches of all rows under impulses on velocities, from the velocities of `x` on.
+///
+/// # Errors
+///
+/// Those of factoring and solving; [`Reason::ActiveSet`] after very many factorisations.
+pub(super) fn find_active_set(
+    system: &mut System,
+    impulses: &[(usize, f64)],
+    mut x: Vec<f64>,
+) -> Result<ActiveSet, Reason> {
+    let (mut factorisations, mut updates) = (0, 0);
+    for _ in 0..TRIES {
+        if update_branches(&mut system.rows, &x) {
+            system.factor()?;
+            factorisations += 1;
+        }
+        let (newton, backward_error) = system.solve(impulses)?;
+        if leaves_branch(&system.rows, &newton) {
+            let fraction = line_search(system, &x, &newton, 0.0);
+            advance(&mut x, &newton, fraction);
+            continue;
+        }
+        x = newton;
+        updates += 1;
+        if updates > BOUNDS || !capstan::bounds_differ(&system.rows, &x) {
+            return Ok(ActiveSet {
+                x,
+                backward_error,
+                factorisations,
+            });
+        }
+        capstan::update_bounds(&mut system.rows, &x);
+    }
+    Err(Reason::ActiveSet { tries: TRIES })
+}
+
+/// Takes the branches that hold at a solution; whether the system is another one with them.
+pub(super) fn update_branches(rows: &mut [Row], x: &[f64]) -> bool {
+    let mut changed = false;
+    for row in rows.iter_mut().filter(|row| row.may_change()) {
+        let branch = row.law.branch(row.excess(x), row.sigma);
+        changed |= (branch.active, branch.start) != (row.branch.active, row.branch.start);
+        row.branch = branch;
+    }
+    changed
+}
+
+/// Moves `x` by a fraction of the step to the Newton point.
+pub(super) fn advance(x: &mut [f64], newton: &[f64], fraction: f64) {
+    for (x, newton) in x.iter_mut().zip(newton) {
+        *x += fraction * (newton - *x);
+    }
+}
+
+/// The fraction of the way from `x` to the Newton point at which the function is least, at most 1,
+/// to a fraction of itself.
+pub(super) fn line_search(system: &System, x: &[f64], newton: &[f64], resolution: f64) -> f64 {
+    // Quadratic as factored, the slope would rise from `-curvature` to 0 on the way.
+    let mut displacement: Vec<f64> = newton.iter().zip(x).map(|(to, from)| to - from).collect();
+    let mut changes = Vec::new();
+    for row in &system.rows {
+        let ends = [row.excess(x), row.excess(newton)];
+        let counts = if row.branch.active { 1.0 } else { 0.0 };
+        displacement[row.multiplier] = counts * (ends[1] - ends[0]) / row.sigma;
+        if row.may_change() {
+            changes.push((ends, row));
+        }
+    }
+    let contacts = system.implicit.iter();
+    let contacts: Vec<_> = contacts
+        .map(|contact| contact.slope_between(x, newton))
+        .collect();
+    let curvature = system.curvature(&displacement);
+    let slope = |fraction: f64| {
+        let terms = changes.iter().map(|([start, end], row)| {
+            let rise = end - start;
+            let excess = start + fraction * rise;
+            let law = row.law.branch(excess, row.sigma).load(excess, row.sigma);
+            rise / row.sigma * (law - row.branch.load(excess, row.sigma))
+        });
+        let contacts = contacts.iter().map(|slope| slope(fraction));
+        (fraction - 1.0) * curvature + terms.sum::<f64>() + contacts.sum::<f64>()
+    };
+    if slope(1.0) <= 0.0 {
+        return 1.0;
+    }
+    bisect(1.0, resolution, |fraction| slope(fraction) < 0.0)
+}
+
+#[cfg(test)]
+mod tests;

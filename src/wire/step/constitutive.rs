@@ -1,0 +1,213 @@
+//! Laws of multipliers that are not free: linear in pieces.
+//!
+//! A row's multiplier is a function of its excess `e = G v - target`. A bilateral row has `e /
+//! Sigma`; a chain's, which never pushes, the same for `e > 0` and nothing below. A wire that turns
+//! over a contact node has friction that takes up any slip, as far as its bound goes; and it slides
+//! no further in a step than there is wire for. All of them rise, so they are the derivatives of
+//! convex functions, which are quadratic in pieces.
+
+/// How a row's multiplier follows from its excess.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum ConstitutiveLaw {
+    /// In proportion.
+    Linear,
+    /// In proportion where the excess is above 0, else none: a pull, never a push.
+    TensionOnly,
+    /// Friction against the speed of sliding.
+    Friction {
+        /// Which factor of two other multipliers it may have, without those that push.
+        factor: f64,
+        /// These two, by their unknowns.
+        tensions: [usize; 2],
+        /// The largest magnitude of the friction, in N s: the factor of the two as they were last.
+        bound: f64,
+        /// The fastest that the wire may slide towards lower and higher arc lengths, in m/s.
+        reach: [f64; 2],
+    },
+}
+
+/// One branch of a law: `offset`, and in addition `(e - start) / Sigma` if it is active.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Branch {
+    /// Whether the multiplier rises with the excess.
+    pub(super) active: bool,
+    /// The excess from which it rises.
+    pub(super) start: f64,
+    /// The multiplier that is there whatever the excess is, in N s.
+    pub(super) offset: f64,
+    /// From which to which excess the branch is the law.
+    pub(super) range: [f64; 2],
+}
+
+impl Branch {
+    /// A row that does not count.
+    pub(super) const INACTIVE: Branch = Branch {
+        active: false,
+        start: 0.0,
+        offset: 0.0,
+        range: [f64::NEG_INFINITY, 0.0],
+    };
+
+    /// A row that counts.
+    pub(super) const ACTIVE: Branch = Branch {
+        active: true,
+        start: 0.0,
+        offset: 0.0,
+        range: [0.0, f64::INFINITY],
+    };
+
+    /// `Sigma` times the multiplier.
+    pub(super) fn load(&self, excess: f64, sigma: f64) -> f64 {
+        let counts = if self.active { 1.0 } else { 0.0 };
+        counts * (excess - self.start) + sigma * self.offset
+    }
+
+    /// Whether an excess is outside of its range by more than rounding.
+    pub(super) fn is_left(&self, excess: f64, rounding: f64) -> bool {
+        excess < self.range[0] - rounding || excess > self.range[1] + rounding
+    }
+}
+
+/// The bound of friction that has this factor of two pulls, in N s. With a factor from 1 on the
+/// wire sticks whatever they are.
+pub(super) fn friction_bound(factor: f64, pulls: [f64; 2]) -> f64 {
+    if factor < 1.0 {
+        factor * (pulls[0].max(0.0) + pulls[1].max(0.0))
+    } else {
+        f64::INFINITY
+    }
+}
+
+impl ConstitutiveLaw {
+    /// The bound of friction, and the one that follows from a solution.
+    pub(super) fn bounds(&self, x: &[f64]) -> Option<[f64; 2]> {
+        match *self {
+            ConstitutiveLaw::Friction {
+                factor,
+                tensions,
+                bound,
+                ..
+            } => Some([bound, friction_bound(factor, tensions.map(|at| x[at]))]),
+            _ => None,
+        }
+    }
+
+    /// Sets the bound of friction to the one that follows from a solution.
+    pub(super) fn update_bound(&mut self, x: &[f64]) {
+        let bounds = self.bounds(x);
+        if let (ConstitutiveLaw::Friction { bound, .. }, Some([_, due])) = (self, bounds) {
+            *bound = due;
+        }
+    }
+
+    /// The branch that holds at an excess.
+    pub(super) fn branch(&self, excess: f64, sigma: f64) -> Branch {
+        match *self {
+            ConstitutiveLaw::Linear => Branch {
+                range: [f64::NEG_INFINITY, f64::INFINITY],
+                ..Branch::ACTIVE
+            },
+            ConstitutiveLaw::TensionOnly if excess > 0.0 => Branch::ACTIVE,
+            ConstitutiveLaw::TensionOnly => Branch::INACTIVE,
+            ConstitutiveLaw::Friction { bound, reach, .. } => {
+                let (side, reach) = if excess < 0.0 {
+                    (-1.0, reach[0])
+                } else {
+                    (1.0, reach[1])
+                };
+                let stick = sigma * bound;
+                let reach = reach.max(stick);
+                let toward = |range: [f64; 2]| {
+                    if side < 0.0 {
+                        [-range[1], -range[0]]
+                    } else {
+                        range
+                    }
+                };
+                if excess.abs() <= stick {
+                    Branch {
+                        range: [-stick, stick],
+                        ..Branch::ACTIVE
+                    }
+                } else if excess.abs() <= reach {
+                    Branch {
+                        active: false,
+                        start: 0.0,
+                        offset: side * bound,
+                        range: toward([stick, reach]),
+                    }
+                } else {
+                    Branch {
+                        active: true,
+                        start: side * reach,
+                        offset: side * bound,
+                        range: toward([reach, f64::INFINITY]),
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn friction_law(bound: f64) -> ConstitutiveLaw {
+        ConstitutiveLaw::Friction {
+            factor: 0.1,
+            tensions: [0, 1],
+            bound,
+            reach: [1.0, 2.0],
+        }
+    }
+
+    #[test]
+    fn laws_rise_without_jumps_and_pieces_meet_at_their_ends() {
+        let sigma = 0.5;
+        let friction = friction_law(0.2);
+        for law in [
+            ConstitutiveLaw::Linear,
+            ConstitutiveLaw::TensionOnly,
+            friction,
+        ] {
+            let mut last = f64::NEG_INFINITY;
+            for i in -400..400 {
+                let excess = f64::from(i) / 100.0 + 0.005;
+                let branch = law.branch(excess, sigma);
+                assert!(!branch.is_left(excess, 0.0), "{law:?} {excess}");
+                let load = branch.load(excess, sigma);
+                assert!(load >= last && load - last <= 0.010_001 || i == -400);
+                last = load;
+                for end in branch.range.into_iter().filter(|end| end.is_finite()) {
+                    let [below, above] = [-1e-9, 1e-9].map(|by| law.branch(end + by, sigma));
+                    let [below, above] = [below, above].map(|branch| branch.load(end, sigma));
+                    assert!((below - above).abs() < 1e-12, "{law:?} {end}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn friction_is_a_share_of_what_pulls_and_has_no_end_from_the_whole_on() {
+        assert_eq!(friction_bound(0.25, [4.0, 2.0]), 1.5);
+        assert_eq!(friction_bound(0.25, [4.0, -2.0]), 1.0);
+        for factor in [1.0, f64::INFINITY] {
+            assert_eq!(friction_bound(factor, [0.0, 0.0]), f64::INFINITY);
+        }
+        let mut law = friction_law(0.0);
+        law.update_bound(&[30.0, 20.0]);
+        assert_eq!(law.bounds(&[10.0, 0.0]), Some([5.0, 1.0]));
+    }
+
+    #[test]
+    fn friction_takes_up_slip_to_its_bound_and_stops_what_reaches_its_end() {
+        let friction = friction_law(4.0);
+        let multiplier = |excess| friction.branch(excess, 0.125).load(excess, 0.125) / 0.125;
+        assert_eq!(multiplier(0.25), 2.0);
+        assert_eq!([0.75, 2.0].map(multiplier), [4.0; 2]);
+        assert_eq!([-0.75, -1.0].map(multiplier), [-4.0; 2]);
+        assert_eq!(multiplier(2.5), 8.0);
+        assert_eq!(multiplier(-1.5), -8.0);
+    }
+}

@@ -1,0 +1,155 @@
+//! Attaches nodes to bodies as contact nodes, and releases them.
+
+use super::capstan::{LEAST, contact_nodes, directions};
+use crate::wire::model::wire::TENSION_HISTORY;
+use crate::wire::model::{BodyId, Node, NodeKind, Wire, WireId};
+use crate::wire::record::Slide;
+use crate::wire::resolution::{Remesh, RemeshGuard, RemeshKind, put_in, remesh};
+use crate::wire::vector::{Vector, unit};
+use crate::wire::world::World;
+
+/// A place where a body bends a wire, which needs a contact node there.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::wire) struct ContactNodeInsertion {
+    pub(in crate::wire) wire: WireId,
+    /// The place on the wire, in m.
+    pub(in crate::wire) arc: f64,
+    pub(in crate::wire) body: BodyId,
+    /// Unit normal out of the body.
+    pub(in crate::wire) normal: Vector,
+    pub(in crate::wire) friction: f64,
+}
+
+/// Gives wires contact nodes where bodies bend them. A free node that is near is attached to the
+/// body; elsewhere a new node is put in, if `guard` permits it.
+pub(super) fn insert(
+    world: &mut World,
+    insertions: &[ContactNodeInsertion],
+    guard: &mut dyn RemeshGuard,
+) -> Vec<Remesh> {
+    let mut changes = Vec::new();
+    for insertion in insertions {
+        let wire = &world.wires[insertion.wire.0];
+        if let Some(node) = node_near(wire, insertion.arc) {
+            let last = wire.nodes.len() - 1;
+            if wire.nodes[node].kind == NodeKind::Free && node > 0 && node < last {
+                let along = wire.span(node - 1) + wire.span(node);
+                if let Some(attached) = attached(world, insertion, wire.nodes[node], &along) {
+                    world.wires[insertion.wire.0].nodes[node] = attached;
+                }
+            }
+            continue;
+        }
+        let (segment, parameter) = wire.at(insertion.arc);
+        let [start, end] = [wire.nodes[segment], wire.nodes[segment + 1]];
+        let node = Node {
+            position: start.position + wire.span(segment) * parameter,
+            velocity: start.velocity.lerp(&end.velocity, parameter),
+            arc: insertion.arc,
+            kind: NodeKind::Free,
+            slide: 0.0,
+            remesh_from: world.steps + TENSION_HISTORY as u64,
+        };
+        let Some(node) = attached(world, insertion, node, &wire.span(segment)) else {
+            continue;
+        };
+        let change = remesh(insertion.wire.0, RemeshKind::Split, &[start, node, end]);
+        if guard.permits(world, &change) {
+            put_in(&mut world.wires[insertion.wire.0], segment, node);
+            changes.push(change);
+        }
+    }
+    changes
+}
+
+/// The node that is too near to a place of a wire for another one there.
+pub(in crate::wire) fn node_near(wire: &Wire, arc: f64) -> Option<usize> {
+    let node = wire.nearest_node(arc);
+    let near = (wire.nodes[node].arc - arc).abs() < LEAST * wire.resolution.length;
+    near.then_some(node)
+}
+
+/// Attaches a free node to a body, where the wire runs along a vector: the inverse of [`detach`].
+/// None if the wire slides faster than it may at a contact node.
+fn attached(
+    world: &World,
+    insertion: &ContactNodeInsertion,
+    node: Node,
+    along: &Vector,
+) -> Option<Node> {
+    let body = &world.bodies[insertion.body.0];
+    let into = |vector: &Vector| body.orientation.inverse_transform_vector(vector);
+    let local = into(&(node.position - body.position));
+    let (along, _) = unit(along);
+    let slide = (body.velocity_at(&local) - node.velocity).dot(&along);
+    let length = world.wires[insertion.wire.0].resolution.length;
+    let farthest = world.settings.slide_limit.min(length / 4.0);
+    (slide.abs() * world.settings.step <= farthest).then(|| Node {
+        velocity: node.velocity + along * slide,
+        kind: NodeKind::Contact {
+            body: insertion.body,
+            local,
+            normal: into(&insertion.normal),
+            friction: insertion.friction,
+        },
+        slide,
+        ..node
+    })
+}
+
+/// Frees the nodes that leave: where the wire turns away from the body, near a free end, and where
+/// nodes crowd.
+pub(super) fn release(world: &mut World) -> Vec<Slide> {
+    let mut slides = Vec::new();
+    for at in 0..world.wires.len() {
+        for node in contact_nodes(&world.wires[at]) {
+            let wire = &world.wires[at];
+            if is_pulled_off(world, at, node) || runs_out(wire, node) || is_crowded(wire, node) {
+                detach(&mut world.wires[at], node);
+                slides.push(Slide {
+                    wire: WireId(at),
+                    node,
+                    distance: 0.0,
+                    left: true,
+                });
+            }
+        }
+    }
+    slides
+}
+
+/// The wire turns away from the body: its pull on the node has a component out of it.
+fn is_pulled_off(world: &World, wire: usize, node: usize) -> bool {
+    let wire = &world.wires[wire];
+    let NodeKind::Contact { body, normal, .. } = wire.nodes[node].kind else {
+        return false;
+    };
+    let [before, after] = directions(wire, node);
+    (after - before).dot(&world.bodies[body.0].arm(&normal)) > 0.0
+}
+
+/// A free end of the wire has come as near as it may.
+fn runs_out(wire: &Wire, node: usize) -> bool {
+    let last = wire.nodes.len() - 1;
+    let ends = [(0, node - 1), (last, node)];
+    ends.into_iter().any(|(end, segment)| {
+        let is_beside = segment == end.min(last - 1);
+        let free = wire.nodes[end].kind == NodeKind::Free;
+        is_beside && free && wire.rest_length(segment) < 2.0 * LEAST * wire.resolution.length
+    })
+}
+
+/// Hardly any wire is left before the contact node in front of it.
+fn is_crowded(wire: &Wire, node: usize) -> bool {
+    let before = matches!(wire.nodes[node - 1].kind, NodeKind::Contact { .. });
+    before && wire.rest_length(node - 1) < LEAST * LEAST * wire.resolution.length
+}
+
+/// Frees a node. It goes on with its wire, which slides against the direction in which arc length
+/// grows.
+pub(super) fn detach(wire: &mut Wire, node: usize) {
+    let [before, after] = directions(wire, node);
+    let node = &mut wire.nodes[node];
+    node.kind = NodeKind::Free;
+    node.velocity -= (before + after) / 2.0 * std::mem::take(&mut node.slide);
+}

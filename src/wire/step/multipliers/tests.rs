@@ -1,0 +1,207 @@
+//! Contacts in the system, against Coulomb's law itself, and against sweeps.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::*;
+use crate::query::Point;
+use crate::wire::contact::{ContactConstraint, ContactSite};
+use crate::wire::step::carrier::Columns;
+use crate::wire::step::friction::sweep;
+use crate::wire::step::order::{by_least_degree, by_wires};
+use crate::wire::step::rows::normal_row;
+use crate::wire::{Material, Settings, Stop, Vector, WireId, WirePlan, World};
+
+/// A wire on a floor, dragged and thrown, with a contact at every node; some are loose.
+fn dragged(
+    rng: &mut ChaCha8Rng,
+    material: Material,
+    speed: f64,
+) -> (World, Vec<ContactConstraint>) {
+    let mut world = World::new(Settings::default()).unwrap();
+    let mut point = Point::origin();
+    let mut route = vec![Stop::Pinned(point)];
+    for _ in 0..15 {
+        let turn = Vector::from_fn(|_, _| rng.random_range(-0.3..0.3));
+        point += Vector::new(0.5, turn.y, 0.0);
+        route.push(Stop::Free(point));
+    }
+    let wire = world
+        .add_wire(&WirePlan::new(material, 10.0, route))
+        .unwrap();
+    let nodes = &mut world.wires[wire.0].nodes;
+    for node in &mut nodes[1..] {
+        node.velocity = Vector::from_fn(|_, _| rng.random_range(-1.0..1.0) * speed);
+    }
+    let contacts = nodes[1..]
+        .iter()
+        .enumerate()
+        .map(|(key, node)| ContactConstraint {
+            key: key as u64,
+            a: ContactSite::Wire {
+                wire,
+                arc: node.arc,
+            },
+            b: ContactSite::World,
+            normal: Vector::new(0.2 * rng.random_range(-1.0..1.0), 0.0, 1.0).normalize(),
+            gap: rng.random_range(-1e-4..1e-3),
+            friction: rng.random_range(0.0..1.0),
+        });
+    let contacts = contacts.collect();
+    (world, contacts)
+}
+
+/// The same with short wires across, which lie on every other node, and on the floor with both
+/// ends.
+fn laid_across(
+    rng: &mut ChaCha8Rng,
+    material: Material,
+    speed: f64,
+) -> (World, Vec<ContactConstraint>) {
+    let (mut world, mut contacts) = dragged(rng, material, speed);
+    for at in (1..15).step_by(2) {
+        let under = world.wires[0].nodes[at];
+        let route = [-1.0, 0.0, 1.0].map(|y| {
+            let off = Vector::new(rng.random_range(-0.1..0.1), y, 0.02);
+            Stop::Free(under.position + off)
+        });
+        let plan = WirePlan::new(material, 0.5, route.to_vec());
+        let wire = world.add_wire(&plan).unwrap();
+        let nodes = &mut world.wires[wire.0].nodes;
+        for node in nodes.iter_mut() {
+            node.velocity = Vector::from_fn(|_, _| rng.random_range(-1.0..1.0) * speed);
+        }
+        let arcs: Vec<f64> = nodes.iter().map(|node| node.arc).collect();
+        let below = ContactSite::Wire {
+            wire: WireId(0),
+            arc: under.arc,
+        };
+        let last = arcs.len() - 1;
+        let b = [ContactSite::World, below, ContactSite::World];
+        for (arc, b) in [arcs[0], 0.5 * arcs[last], arcs[last]].into_iter().zip(b) {
+            contacts.push(ContactConstraint {
+                key: contacts.len() as u64,
+                a: ContactSite::Wire { wire, arc },
+                b,
+                normal: Vector::z(),
+                gap: rng.random_range(-1e-4..1e-3),
+                friction: 0.5,
+            });
+        }
+    }
+    (world, contacts)
+}
+
+/// What is found from impulses of 0, and the impulses.
+fn found(world: &World, contacts: &[ContactConstraint]) -> (System, Solution, Vec<Vector>) {
+    let order = by_least_degree(world, contacts).unwrap();
+    let mut system = System::new(world, &order, None);
+    system.take(world, contacts, &vec![Vector::zeros(); contacts.len()]);
+    let start = system.start(world);
+    let found = solve(&mut system, start, world.settings.contact_tolerance).unwrap();
+    let impulses = system.implicit.iter();
+    let impulses = impulses
+        .map(|contact| contact.world_impulse(&found.x))
+        .collect();
+    (system, found, impulses)
+}
+
+/// The velocity of place A; B never moves.
+fn velocity(world: &World, system: &System, contact: &ContactConstraint, x: &[f64]) -> Vector {
+    let carriers = system.layout.place(world, &contact.a).into_iter();
+    carriers
+        .map(|(carrier, share)| carrier.velocity(x) * share)
+        .sum()
+}
+
+#[test]
+fn contacts_keep_to_coulombs_law_and_their_impulses_are_what_moves_the_wire() {
+    let rng = &mut ChaCha8Rng::seed_from_u64(1);
+    let [mut apart, mut sticking, mut sliding] = [0; 3];
+    for k in 0..200 {
+        let material = Material::steel(0.01);
+        let material = if k % 2 == 0 {
+            material
+        } else {
+            material.chain()
+        };
+        let speed = [1.0, 0.02][k / 2 % 2];
+        let (world, contacts) = dragged(rng, material, speed);
+        let (mut system, found, impulses) = found(&world, &contacts);
+        assert!(
+            found.contact_residual <= 1e-8,
+            "{k}: {}",
+            found.contact_residual
+        );
+        for (contact, impulse) in contacts.iter().zip(&impulses) {
+            let before = world.wires[0].nodes[contact.key as usize + 1].velocity;
+            let speed = before.dot(&contact.normal);
+            let [target, sigma] = normal_row(&world.settings, contact, speed);
+            let u = velocity(&world, &system, contact, &found.x);
+            let (push, excess) = (
+                impulse.dot(&contact.normal),
+                u.dot(&contact.normal) - target,
+            );
+            let friction = impulse - contact.normal * push;
+            let slip = u - contact.normal * u.dot(&contact.normal);
+            let most = contact.friction * push;
+            if push == 0.0 {
+                assert!(excess > -1e-7, "{k}: {excess}");
+                apart += 1;
+                continue;
+            }
+            assert!((excess + sigma * push).abs() < 1e-7, "{k}: {excess}");
+            assert!(friction.norm() < most + 1e-7);
+            if slip.norm() > 1e-6 {
+                assert!((friction + slip.normalize() * most).norm() < 1e-6 * (1.0 + push));
+                sliding += 1;
+            } else {
+                sticking += 1;
+            }
+        }
+        // The impulses alone, on the system without contacts.
+        let mut columns = Vec::new();
+        for (contact, impulse) in contacts.iter().zip(&impulses) {
+            for (carrier, share) in system.layout.place(&world, &contact.a) {
+                let mut own = Columns::new();
+                carrier.columns(&(impulse * share), &mut own);
+                columns.extend(own);
+            }
+        }
+        system.implicit.clear();
+        system.factor().unwrap();
+        let (x, _) = system.solve(&columns).unwrap();
+        for contact in &contacts {
+            let [u, expected] = [&found.x, &x].map(|x| velocity(&world, &system, contact, x));
+            assert!((u - expected).amax() < 1e-7, "{k}: {u} {expected}");
+        }
+    }
+    assert!(
+        apart.min(sticking).min(sliding) > 100,
+        "{apart} {sticking} {sliding}"
+    );
+}
+
+#[test]
+fn impulses_are_those_that_sweeps_come_to() {
+    let rng = &mut ChaCha8Rng::seed_from_u64(2);
+    for k in 0..20 {
+        let scene = [dragged, laid_across][k % 2];
+        let (mut world, contacts) = scene(rng, Material::steel(0.01), 0.3);
+        let (_, _, impulses) = found(&world, &contacts);
+        (world.settings.sweeps, world.settings.contact_tolerance) = (100_000, 1e-12);
+        let mut system = System::new(&world, &by_wires(&world), None);
+        system.factor().unwrap();
+        let (free, _) = system.solve(&[]).unwrap();
+        let start = vec![Vector::zeros(); contacts.len()];
+        let swept = sweep(&world, &system, &contacts, &free, &start);
+        assert!(swept.residual <= 1e-12, "{k}: {}", swept.residual);
+        for (impulse, expected) in impulses.iter().zip(&swept.impulses) {
+            let difference = (impulse - expected).amax();
+            assert!(
+                difference < 1e-6 * (1.0 + expected.amax()),
+                "{k}: {impulse} {expected}"
+            );
+        }
+    }
+}
