@@ -80,7 +80,7 @@ fn simulate(scene: &Scene, narrow: &dyn NarrowPhase) -> Result<Frames, SceneErro
 fn polyline(wire: &[Point], left: f64, class: &str) -> String {
     let points = wire.iter().map(|p| {
         let x = left + 180.0 + 150.0 * p.x + 32.0 * p.y;
-        let y = 185.0 - 250.0 * p.z - 62.0 * p.y;
+        let y = 180.0 - 250.0 * p.z - 62.0 * p.y;
         format!("{x:.1},{y:.1}")
     });
     let points: Vec<String> = points.collect();
@@ -123,6 +123,8 @@ fn draw(panel: &Panel, frames: &Frames) -> Option<String> {
         )
         .ok()?;
     }
+    let x = panel.left + 64.0;
+    writeln!(picture, "<text class=\"note\" x=\"{x}\" y=\"140\">start</text>").ok()?;
     Some(picture)
 }
 
@@ -131,7 +133,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     scene.duration = scene.settings.step * STEPS as f64;
     let panels = [
         Panel {
-            title: "Checked at the ends of steps",
+            title: "discrete detection",
             words: "through both wires",
             class: "bad",
             narrow: &Discrete,
