@@ -4,6 +4,23 @@
 //! The edges advance by nine tenths of what their distance and speed allow, until less than a
 //! tenth of the first distance is left, which counts as contact. It converges from below, so it
 //! does not miss but for rounding; edges that come near without touching are false hits.
+//!
+//! ```
+//! use tunnelproof::additive::Additive;
+//! use tunnelproof::narrow::NarrowPhase;
+//! use tunnelproof::{EdgeEdge, Point, decide};
+//!
+//! let p = Point::new;
+//! let start = [p(-1.0, 0.0, 0.0), p(1.0, 0.0, 0.0), p(0.0, -1.0, 1.0), p(0.0, 1.0, 1.0)];
+//! let mut end = start;
+//! end[2].z = 0.03;
+//! end[3].z = 0.03;
+//! let query = EdgeEdge::new(start, end, 0.0)?;
+//! // They come as near as 0.03 and do not touch.
+//! assert!(Additive::default().edge_edge(&query)?.verdict.is_hit());
+//! assert_eq!(decide(&query), None);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use nalgebra::Vector3;
 

@@ -2,6 +2,22 @@
 //!
 //! [`Hit`] is the answer of the [certified path](crate::certified), with what is proved of it. [`Contact`] is a
 //! contact in space: what any narrow phase can say, in a [`Verdict`].
+//!
+//! ```
+//! use tunnelproof::contact::{Case, ContactKind};
+//! use tunnelproof::{Point, VertexFace, decide};
+//!
+//! let p = Point::new;
+//! let face = [p(0.0, 0.0, 0.0), p(4.0, 0.0, 0.0), p(0.0, 4.0, 0.0)];
+//! let at = |z: f64| [p(1.0, 1.0, z), face[0], face[1], face[2]];
+//! let query = VertexFace::new(at(1.0), at(-1.0), 0.0)?;
+//! let hit = decide(&query).expect("the vertex goes through the face");
+//! assert_eq!((hit.toi, hit.kind, hit.case), (0.5, ContactKind::Crossing, Case::General));
+//! assert_eq!(hit.place.weights, [0.5, 0.25, 0.25]);
+//! let contact = hit.contact(&query);
+//! assert_eq!(contact.first.point, p(1.0, 1.0, 0.0));
+//! # Ok::<(), tunnelproof::QueryError>(())
+//! ```
 
 use std::fmt;
 

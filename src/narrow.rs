@@ -1,4 +1,20 @@
-//! The narrow phase: whoever answers queries.
+//! The narrow phase: the trait of every method that answers queries, also of your own.
+//!
+//! ```
+//! use tunnelproof::certified::Certified;
+//! use tunnelproof::narrow::NarrowPhase;
+//! use tunnelproof::{EdgeEdge, Point};
+//!
+//! let p = Point::new;
+//! let start = [p(-1.0, 0.0, 0.0), p(1.0, 0.0, 0.0), p(0.0, -1.0, 1.0), p(0.0, 1.0, 1.0)];
+//! let mut end = start;
+//! end[2].z = -1.0;
+//! end[3].z = -1.0;
+//! let method: &dyn NarrowPhase = &Certified;
+//! let report = method.edge_edge(&EdgeEdge::new(start, end, 0.0)?)?;
+//! assert_eq!(report.verdict.contact().map(|contact| contact.toi), Some(0.5));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use std::fmt;
 

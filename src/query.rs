@@ -3,6 +3,24 @@
 //! A query holds the points at both ends of the step; in between, `X(t) = (1 - t) X(0) + t X(1)`
 //! with `t` in `[0, 1]`. Positions are stored, not velocities: `X(1) - X(0)` rounds, so `X(0)`
 //! and a rounded velocity would be a different motion from the one the simulator made.
+//!
+//! ```
+//! use tunnelproof::query::{EdgeEdge, Point, QueryError};
+//!
+//! let p = Point::new;
+//! let start = [p(-1.0, 0.0, 0.0), p(1.0, 0.0, 0.0), p(0.0, -1.0, 1.0), p(0.0, 1.0, 1.0)];
+//! let mut end = start;
+//! end[2].z = -1.0;
+//! end[3].z = -1.0;
+//! // Two wires of 1 cm and 2 cm: the radius is the exact sum, which is never rounded.
+//! let query = EdgeEdge::new(start, end, [0.01, 0.02])?;
+//! assert_eq!(query.end()[3].z, -1.0);
+//!
+//! end[2].z = f64::NAN;
+//! let error = EdgeEdge::new(start, end, 0.0).expect_err("a coordinate is NaN");
+//! assert_eq!(error.to_string(), "z of point C at t = 1 is NaN, not a finite number");
+//! # Ok::<(), QueryError>(())
+//! ```
 
 use std::fmt;
 

@@ -124,7 +124,11 @@ fn draw(panel: &Panel, frames: &Frames) -> Option<String> {
         .ok()?;
     }
     let x = panel.left + 64.0;
-    writeln!(picture, "<text class=\"note\" x=\"{x}\" y=\"140\">start</text>").ok()?;
+    writeln!(
+        picture,
+        "<text class=\"note\" x=\"{x}\" y=\"140\">start</text>"
+    )
+    .ok()?;
     Some(picture)
 }
 

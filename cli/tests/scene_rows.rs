@@ -1,5 +1,5 @@
 //! The scenes of the thesis (4.2): what comes out is what the thesis says, as far as each row of
-//! `scenario::rows` accepts.
+//! `tunnelproof_cli::rows` accepts.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

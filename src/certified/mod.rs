@@ -1,10 +1,27 @@
 //! The certified path: edges against edges and vertices against faces without thresholds, fast and never
 //! wrong.
 //!
-//! [`decide`] answers one query of two edges, [`Batch`] many; [`decide_vertex_face`] and [`FaceBatch`] do
-//! so for a vertex and a face, by the same stages (`face`). No hit is false, no contact is missed, and the time
-//! of impact is the exact one rounded down. A query goes through a cascade ([`Stage`]) of which each
-//! stage answers only what it can prove, in `f64` with an error bound derived beside the code:
+//! [`decide`] answers one query, of two edges or of a vertex and a face; a [`Batch`] answers many. No hit is false, no
+//! contact is missed, and the time of impact is the exact one rounded down.
+//!
+//! ```
+//! use tunnelproof::certified::{Stage, decide_observed};
+//! use tunnelproof::{EdgeEdge, Point};
+//!
+//! let p = Point::new;
+//! let start = [p(-1.0, 0.0, 0.0), p(1.0, 0.0, 0.0), p(0.0, -1.0, 1.0), p(0.0, 1.0, 1.0)];
+//! let mut end = start;
+//! end[2].z = 0.5;
+//! end[3].z = 0.5;
+//! // They stay apart, and the first stage proves it.
+//! let mut stages = Vec::new();
+//! let hit = decide_observed(&EdgeEdge::new(start, end, 0.0)?, &mut |stage| stages.push(stage));
+//! assert_eq!((hit, &stages[..]), (None, &[Stage::Boxes][..]));
+//! # Ok::<(), tunnelproof::QueryError>(())
+//! ```
+//!
+//! A query goes through a cascade ([`Stage`]) of which each stage answers only what it can prove, in `f64` with
+//! an error bound derived beside the code:
 //!
 //! 1. the swept boxes are disjoint (`separate`);
 //! 2. a direction separates the edges for the whole step (`separate`);

@@ -7,9 +7,10 @@ use super::resolution::Remesh;
 use super::{CollisionRecord, Contact, Energy, Slide, Vector};
 use crate::query::Point;
 
-/// Everything that happened in one step.
+/// Everything that happened in one step. Outside of this crate one starts as the default, for tests of what reads it.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct StepRecord {
     /// The step, from 0.
     pub step: u64,

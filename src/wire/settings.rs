@@ -5,9 +5,17 @@ use super::model::ModelError;
 use super::model::check::{finite_vector, not_negative, positive};
 
 /// What a [`World`](super::World) is stepped with. The default is that of docs/wires.md.
+///
+/// ```
+/// use tunnelproof::wire::{Settings, Vector};
+///
+/// let mut settings = Settings::default().with_step(0.01).with_gravity(Vector::zeros());
+/// settings.slide_limit = 0.05;
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+#[non_exhaustive]
 pub struct Settings {
     /// Time step `h` in s; usual value 1/60.
     pub step: f64,
@@ -52,6 +60,16 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// The same with another time step in s.
+    pub fn with_step(self, step: f64) -> Self {
+        Settings { step, ..self }
+    }
+
+    /// The same with another acceleration of free fall in m/s^2.
+    pub fn with_gravity(self, gravity: Vector) -> Self {
+        Settings { gravity, ..self }
+    }
+
     pub(super) fn check(&self) -> Result<(), ModelError> {
         positive("step", self.step)?;
         finite_vector("gravity", &self.gravity)?;

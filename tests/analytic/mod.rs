@@ -82,11 +82,9 @@ type Contacts<'a> = &'a dyn Fn(&World) -> Vec<Contact>;
 
 /// A world without gravity and with the given step in s.
 fn weightless(step: f64) -> Settings {
-    Settings {
-        step,
-        gravity: tunnelproof::wire::Vector::zeros(),
-        ..Settings::default()
-    }
+    Settings::default()
+        .with_step(step)
+        .with_gravity(tunnelproof::wire::Vector::zeros())
 }
 
 /// Steps a world to rest by kinetic damping: all velocity is taken whenever kinetic energy starts to fall.

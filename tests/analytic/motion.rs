@@ -298,10 +298,7 @@ fn rise(mut world: World, seconds: f64) -> Result<Rise, Box<dyn Error>> {
 }
 
 fn stepped(step: f64) -> Result<World, Box<dyn Error>> {
-    Ok(World::new(Settings {
-        step,
-        ..Settings::default()
-    })?)
+    Ok(World::new(Settings::default().with_step(step))?)
 }
 
 /// A bob of 33 kg on one segment of steel wire that starts 37 degrees from the vertical.

@@ -272,21 +272,16 @@ fn remeshed(x: f64, kind: RemeshKind) -> Report {
         RemeshKind::Merge => (bent, straight),
         RemeshKind::Split => (straight, bent),
     };
-    let first = StepRecord {
-        wires: vec![before, standing.clone()],
-        remeshes: vec![Remesh {
-            wire: WireId(0),
-            kind,
-            triangle,
-            arcs,
-        }],
-        ..StepRecord::default()
-    };
-    let second = StepRecord {
-        step: 1,
-        wires: vec![after, standing],
-        ..StepRecord::default()
-    };
+    let [mut first, mut second] = [(), ()].map(|()| StepRecord::default());
+    first.wires = vec![before, standing.clone()];
+    first.remeshes = vec![Remesh {
+        wire: WireId(0),
+        kind,
+        triangle,
+        arcs,
+    }];
+    second.step = 1;
+    second.wires = vec![after, standing];
     audited(&[first, second])
 }
 

@@ -244,10 +244,11 @@ fn triple(point: &Point) -> [f64; 3] {
 
 fn kinds(wire: &WireRecord) -> String {
     let letter = |kind: &NodeKind| match kind {
-        NodeKind::Free => 'f',
         NodeKind::Pinned => 'p',
         NodeKind::Eye { .. } => 'e',
         NodeKind::Contact { .. } => 'c',
+        // Free, or a kind that the page has no colour for.
+        _ => 'f',
     };
     wire.kinds.iter().map(letter).collect()
 }

@@ -1,6 +1,6 @@
 //! What the thesis says of its scenes (4.2), and what comes out of them here.
 //!
-//! `tunnelproof table rows` prints them; `tests/scene_rows.rs` holds each to what is accepted. Nothing is random.
+//! `tunnelproof table rows` prints them; `cli/tests/scene_rows.rs` holds each to what is accepted. Nothing is random.
 
 mod anchor;
 mod basic;
@@ -9,7 +9,7 @@ mod twist;
 
 use std::error::Error;
 
-use super::scenes::Scene;
+use crate::scenes::Scene;
 use tunnelproof::certified::Certified;
 use tunnelproof::wire::{ContactRecord, Mode, Outcome, Place, StepRecord, World};
 

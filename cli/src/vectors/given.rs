@@ -14,7 +14,7 @@ use tunnelproof_reference::shadow::Shadow;
 use tunnelproof_reference::shrink::{Disagreement, MOST_CALLS};
 
 /// The page with the witnesses, each a line of JSON.
-const ERRATA: &str = include_str!("../../../docs/errata.md");
+const ERRATA: &str = include_str!("errata.md");
 
 pub(super) fn figures() -> Source {
     let described = |(entry, caption): (Entry, &str)| Described {

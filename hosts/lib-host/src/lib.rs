@@ -111,7 +111,13 @@ impl fmt::Display for HostError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             HostError::Load(error) => write!(f, "cannot be loaded: {error}"),
-            HostError::NoFunction => write!(f, "has neither {} nor {}", FUNCTIONS[0], FUNCTIONS[1]),
+            HostError::NoFunction => {
+                let [edges, face] = FUNCTIONS;
+                write!(
+                    f,
+                    "has neither {edges} nor {face}; include/tunnelproof_subject.h declares them"
+                )
+            }
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use sha2::{Digest, Sha256};
+use hmac_sha256::Hash;
 use tunnelproof::query::Query;
 
 /// The sum, modulo 2^128, of the first half of the SHA-256 of each query with its place. So that of the parts
@@ -14,7 +14,7 @@ pub struct Fingerprint(u128);
 impl Fingerprint {
     /// Adds the query at this place in its source, from 0.
     pub fn add(&mut self, place: u64, query: &Query) {
-        let mut hash = Sha256::new();
+        let mut hash = Hash::new();
         hash.update(place.to_le_bytes());
         hash.update(query.kind().name());
         for radius in query.radius().parts() {

@@ -1,7 +1,7 @@
 //! Corpora: files of queries, and the identifiers that name a query.
 //!
 //! Read are [`jsonl`], this project's own format, [`csv`], the public CCD query format, and files of test
-//! vectors, each also packed by gzip (`.gz`) or zstd (`.zst`). The first two stream, so memory does not grow with the file. Input is exact: a coordinate is the
+//! vectors, each, with the feature `packed`, also packed by gzip (`.gz`) or zstd (`.zst`). The first two stream, so memory does not grow with the file. Input is exact: a coordinate is the
 //! `f64` that the file states, or the file is refused.
 //!
 //! A query is known by an identifier that [`locate`](locate::locate) resolves:
@@ -136,7 +136,10 @@ pub fn open(path: &str, options: ReadOptions) -> Result<Entries, CorpusError> {
     }
     let format = Format::of_path(path).ok_or_else(|| refuse(Problem::Extension))?;
     let (packing, _) = Packing::of_path(path);
-    read(packing.unpack(file), path, Some(format), options)
+    let file = packing
+        .unpack(file)
+        .map_err(|error| refuse(Problem::Io(error)))?;
+    read(file, path, Some(format), options)
 }
 
 /// Reads a corpus that is called `path` from anywhere. Without a format, the first line tells it.

@@ -1,9 +1,10 @@
-//! Files that are packed: `.gz` by gzip, `.zst` by zstd. Read as they come, in bounded memory.
+//! Files that are packed: `.gz` by gzip, `.zst` by zstd, with the feature `packed`. Read as they come, in
+//! bounded memory.
 
 use std::io::{self, BufRead, BufReader, Read};
 
-use flate2::bufread::MultiGzDecoder;
-use ruzstd::decoding::StreamingDecoder;
+#[cfg(feature = "packed")]
+mod frames;
 
 /// How a file is packed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,47 +27,31 @@ impl Packing {
     }
 
     /// What is packed in the file.
-    pub(super) fn unpack(self, file: impl Read + Send + 'static) -> Box<dyn BufRead + Send> {
+    ///
+    /// # Errors
+    ///
+    /// A packed file without the feature `packed`.
+    pub(super) fn unpack(
+        self,
+        file: impl Read + Send + 'static,
+    ) -> io::Result<Box<dyn BufRead + Send>> {
         let file = BufReader::new(file);
-        match self {
+        Ok(match self {
             Packing::None => Box::new(file),
-            Packing::Gzip => Box::new(BufReader::new(MultiGzDecoder::new(file))),
-            Packing::Zstd => Box::new(BufReader::new(Frames::Between(file))),
-        }
+            #[cfg(feature = "packed")]
+            Packing::Gzip => Box::new(BufReader::new(flate2::bufread::MultiGzDecoder::new(file))),
+            #[cfg(feature = "packed")]
+            Packing::Zstd => Box::new(BufReader::new(frames::Frames::Between(file))),
+            #[cfg(not(feature = "packed"))]
+            Packing::Gzip | Packing::Zstd => {
+                let reason = "packed files need the feature `packed` of tunnelproof-reference";
+                return Err(io::Error::new(io::ErrorKind::Unsupported, reason));
+            }
+        })
     }
 }
 
-/// What is packed in the frames of a zstd file, one after another.
-enum Frames<R: Read> {
-    Between(R),
-    Within(Box<StreamingDecoder<R, ruzstd::decoding::FrameDecoder>>),
-    Over,
-}
-
-impl<R: BufRead> Read for Frames<R> {
-    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
-        loop {
-            *self = match std::mem::replace(self, Frames::Over) {
-                Frames::Between(mut file) => match file.fill_buf()?.is_empty() {
-                    true => Frames::Over,
-                    false => {
-                        let frame = StreamingDecoder::new(file).map_err(io::Error::other)?;
-                        Frames::Within(Box::new(frame))
-                    }
-                },
-                Frames::Within(mut frame) => match frame.read(bytes)? {
-                    0 => Frames::Between(frame.into_inner()),
-                    count => {
-                        *self = Frames::Within(frame);
-                        return Ok(count);
-                    }
-                },
-                Frames::Over => return Ok(0),
-            };
-        }
-    }
-}
-
+#[cfg(feature = "packed")]
 #[cfg(test)]
 mod tests {
     use std::io::Write;
@@ -81,7 +66,7 @@ mod tests {
 
     fn unpacked(packing: Packing, bytes: Vec<u8>) -> io::Result<String> {
         let mut text = String::new();
-        let mut reader = packing.unpack(io::Cursor::new(bytes));
+        let mut reader = packing.unpack(io::Cursor::new(bytes))?;
         reader.read_to_string(&mut text).map(|_| text)
     }
 

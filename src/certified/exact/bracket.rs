@@ -241,7 +241,7 @@ impl<'a, const N: usize> Bracket<'a, N> {
     /// least 1 and that of the polynomial.
     ///
     /// On `[0, 1]` the derivative of the sum of the `c_i t^i` is at most that of the `i |c_i|`.
-    fn range(&self, q: &Poly<N>, degree: usize) -> (Integer, Integer) {
+    pub(super) fn range(&self, q: &Poly<N>, degree: usize) -> (Integer, Integer) {
         let exponent = self.low.exponent.max(self.high.exponent);
         let missing = exponent - self.low.exponent;
         let value = q

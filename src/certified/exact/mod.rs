@@ -74,7 +74,9 @@ use locus::{Locus, Place};
 pub(super) use near::are_near;
 pub(super) use passage::{Passage, passage_of_edges, passage_of_face};
 use scaled::Scaled;
-pub(super) use thick::{decide_thick_edges, decide_thick_face};
+pub(super) use thick::{
+    decide_thick_edges, decide_thick_face, normal_of_edges_exactly, normal_of_face_exactly,
+};
 use time::Time;
 
 /// The largest error of the place of a [`Hit`] of this stage, 2^-50.

@@ -16,6 +16,7 @@ pub(in crate::wire) const MEMORY: usize = 10;
 /// What carries a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum NodeKind {
     /// Nothing: a free mass.
     Free,

@@ -16,6 +16,7 @@ pub struct StepError {
 
 /// Why a step was not done.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Reason {
     /// A contact that is no contact.
     Contact {

@@ -116,6 +116,20 @@ fn open_errors_name_the_path() {
     }
 }
 
+#[cfg(not(feature = "packed"))]
+#[test]
+fn open_names_the_feature_that_packed_files_need() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.csv.gz");
+    std::fs::write(&path, csv_with(ROW)).unwrap();
+    let error = open(path.to_str().unwrap(), EDGE_EDGE).err().unwrap();
+    let said = error.to_string();
+    assert!(
+        said.ends_with("need the feature `packed` of tunnelproof-reference"),
+        "{said}"
+    );
+}
+
 #[test]
 fn open_reads_files_of_either_format() {
     let folder = tempfile::tempdir().unwrap();

@@ -20,6 +20,7 @@
 
 mod edges;
 mod face;
+mod normal;
 mod pair;
 mod roots;
 mod vector;
@@ -36,6 +37,7 @@ use crate::contact::{EdgePlace, EdgePoint, FacePlace, Flags, Hit};
 use crate::query::Radius;
 use edges::Edges;
 use face::Face;
+pub(in crate::certified) use normal::{normal_of_edges_exactly, normal_of_face_exactly};
 use pair::{Pair, Place};
 use roots::Roots;
 use vector::Vector;
