@@ -45,39 +45,69 @@ struct Place {
     file: String,
 }
 
-/// The names in a cell, each with the next file after it.
+/// The columns of names, by their heads: the folder that their files are in, and whether they hold tests.
+const COLUMNS: [(&str, &str, bool); 7] = [
+    ("engine", "src/", false),
+    ("shadow", "reference/src/shadow/", false),
+    ("oracle", "reference/src/oracle/", false),
+    ("judge", "reference/src/", false),
+    ("tests of the engine", "src/thesis/", true),
+    ("tests of the shadow", "reference/src/shadow/tests/", true),
+    ("tests", "", true),
+];
+
+/// The names in a cell, each of which is a link to its file.
 fn places(cell: &str, folder: &str) -> Vec<Place> {
-    let mut places = Vec::new();
-    let mut names = Vec::new();
-    for text in quoted(cell) {
-        if text.ends_with(".rs") {
-            let file = folder.trim_start_matches("./").to_owned() + text;
-            let place = |name| Place {
-                name,
-                file: file.clone(),
-            };
-            places.extend(names.drain(..).map(place));
-        } else {
-            names.push(text.to_owned());
-        }
-    }
-    assert!(names.is_empty(), "no file after {names:?}");
+    let links = cell.split(", ").filter(|link| link.starts_with('['));
+    let places: Vec<Place> = links
+        .map(|link| {
+            let link = link.strip_prefix("[`").and_then(|l| l.strip_suffix(')'));
+            let (name, file) = link.and_then(|l| l.split_once("`](../")).expect(cell);
+            assert!(file.starts_with(folder), "{file} is not in {folder}");
+            let (name, file) = (name.to_owned(), file.to_owned());
+            Place { name, file }
+        })
+        .collect();
+    assert_eq!(
+        places.len(),
+        quoted(cell).count(),
+        "a name without link in {cell}"
+    );
     places
 }
 
-/// The columns whose head ends in a folder: whether they hold tests, and the cells' places.
-fn columns(table: &[Vec<String>]) -> Vec<(bool, Vec<Vec<Place>>)> {
-    let (head, rows) = table.split_first().expect("a table has a head");
-    let folders = head.iter().enumerate().filter_map(|(index, head)| {
-        let folder = quoted(head).next().filter(|text| text.ends_with('/'))?;
-        Some((index, head.contains("tests, `"), folder))
+/// A column of names.
+struct Column {
+    head: &'static str,
+    is_test: bool,
+    cells: Vec<Vec<Place>>,
+}
+
+fn columns(table: &[Vec<String>]) -> Vec<Column> {
+    let (heads, rows) = table.split_first().expect("a table has a head");
+    let of_names = heads.iter().enumerate().filter_map(|(index, text)| {
+        let column = COLUMNS.iter().find(|(head, ..)| head == text)?;
+        Some((index, column))
     });
-    folders
-        .map(|(index, is_test, folder)| {
-            let cells = rows.iter().map(|row| places(&row[index], folder));
-            (is_test, cells.collect())
+    of_names
+        .map(|(index, &(head, folder, is_test))| Column {
+            head,
+            is_test,
+            cells: rows.iter().map(|row| places(&row[index], folder)).collect(),
         })
         .collect()
+}
+
+/// The table with such a head.
+fn table_of(heads: &[&str]) -> Vec<Vec<String>> {
+    let table = tables().into_iter().find(|table| table[0] == heads);
+    table.unwrap_or_else(|| panic!("no table {heads:?}"))
+}
+
+/// The numbers of the algorithms in a table of them.
+fn numbers(table: &[Vec<String>]) -> Vec<u8> {
+    let of_row = |row: &Vec<String>| row[0].split(',').next().unwrap().parse().unwrap();
+    table[1..].iter().map(of_row).collect()
 }
 
 fn is_part_of_name(c: char) -> bool {
@@ -148,10 +178,10 @@ fn conformance_names_items_that_exist_and_tests_that_run() {
     let mut missing = Vec::new();
     let mut count = 0;
     for table in tables() {
-        for (is_test, cells) in columns(&table) {
-            for place in cells.into_iter().flatten() {
+        for column in columns(&table) {
+            for place in column.cells.into_iter().flatten() {
                 let text = read(&place.file);
-                let exists = if is_test { tests } else { defines };
+                let exists = if column.is_test { tests } else { defines };
                 if !exists(&text, &place.name) {
                     missing.push(place);
                 }
@@ -166,8 +196,8 @@ fn conformance_names_items_that_exist_and_tests_that_run() {
 #[test]
 fn conformance_has_a_place_and_a_test_in_every_cell() {
     for table in tables() {
-        for (_, cells) in columns(&table) {
-            for (index, cell) in cells.iter().enumerate() {
+        for column in columns(&table) {
+            for (index, cell) in column.cells.iter().enumerate() {
                 let row = &table[index + 1];
                 let is_exempt = row.contains(&"all 0".to_owned());
                 assert!(!cell.is_empty() || is_exempt, "an empty cell in {row:?}");
@@ -178,20 +208,16 @@ fn conformance_has_a_place_and_a_test_in_every_cell() {
 
 #[test]
 fn conformance_has_every_algorithm_once_under_its_name() {
-    let table = &tables()[0];
-    let numbers: Vec<u8> = table[1..]
-        .iter()
-        .map(|row| row[0].split(',').next().unwrap().parse().unwrap())
-        .collect();
+    let table = table_of(&["algorithm", "text", "engine", "shadow", "oracle"]);
+    let numbers = numbers(&table);
     assert_eq!(numbers, (1..=20).collect::<Vec<u8>>());
-    let mut functions = columns(table);
-    functions.retain(|(is_test, _)| !is_test);
-    for ((_, cells), folder) in functions
-        .into_iter()
-        .zip(["src/thesis/", "reference/src/shadow/"])
-    {
+    let mut columns = columns(&table);
+    columns.retain(|column| column.head != "oracle");
+    let folders = ["src/thesis/", "reference/src/shadow/"];
+    assert_eq!(columns.len(), folders.len());
+    for (column, folder) in columns.into_iter().zip(folders) {
         let mut named = BTreeSet::new();
-        for ((row, number), cell) in table[1..].iter().zip(&numbers).zip(cells) {
+        for ((row, number), cell) in table[1..].iter().zip(&numbers).zip(column.cells) {
             let [place] = cell.as_slice() else {
                 panic!("not one function in {row:?}");
             };
@@ -201,6 +227,29 @@ fn conformance_has_every_algorithm_once_under_its_name() {
         }
         assert_eq!(named, documented(folder), "{folder}");
     }
+}
+
+#[test]
+fn conformance_has_tests_of_whatever_has_a_function() {
+    let tested = [
+        (
+            "algorithm",
+            &["algorithm", "text", "engine", "shadow", "oracle"][..],
+        ),
+        ("function", &["function", "text", "engine", "shadow"][..]),
+    ];
+    for (what, functions) in tested {
+        let functions = table_of(functions);
+        let tests = table_of(&[what, "tests of the engine", "tests of the shadow"]);
+        let names = |table: &[Vec<String>]| -> Vec<String> {
+            table.iter().map(|row| row[0].clone()).collect()
+        };
+        assert_eq!(names(&functions), names(&tests));
+    }
+    let surrounding = table_of(&["text", "what", "engine", "judge"]);
+    let tests = table_of(&["text", "tests"]);
+    let texts: Vec<&String> = surrounding.iter().map(|row| &row[0]).collect();
+    assert_eq!(texts, tests.iter().map(|row| &row[0]).collect::<Vec<_>>());
 }
 
 #[test]

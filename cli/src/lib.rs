@@ -14,3 +14,12 @@ pub mod tables;
 pub mod tune;
 pub mod vectors;
 pub mod vtk;
+
+/// The examples of the pages in `docs/`, as tests.
+#[cfg(doctest)]
+mod pages {
+    #[doc = include_str!("../../docs/cloth-and-hair.md")]
+    struct ClothAndHair;
+    #[doc = include_str!("../../docs/engines.md")]
+    struct Engines;
+}
