@@ -1,5 +1,5 @@
-//! The motion test of parry (`cast_shapes`), judged where it answers the same question: two edges that move without
-//! turning, each by one translation.
+//! The motion test of parry (`cast_shapes`), judged where it answers the same question: two edges
+//! that move without turning, each by one translation.
 
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query::{ShapeCastOptions, cast_shapes};
@@ -63,8 +63,8 @@ fn contact(toi: f64) -> Verdict {
     })
 }
 
-/// A query in small integers in which each edge moves as its first end does: exactly a translation, since
-/// sums of small integers are not rounded.
+/// A query in small integers in which each edge moves as its first end does: exactly a translation,
+/// since sums of small integers are not rounded.
 fn translated(query: &Query) -> Query {
     let [a, b, c, d] = *query.start();
     let [a1, _, c1, _] = *query.end();
