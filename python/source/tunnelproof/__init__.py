@@ -1,22 +1,24 @@
 """Continuous collision detection that does not tunnel, on NumPy arrays.
 
-A query is one time step of four points that move on straight lines. ``points`` of shape ``(n, 8, 3)``
-holds, for each of ``n`` queries, A, B, C, D at the start of the step and then at its end, in metres.
+A query is one time step of four points that move on straight lines. ``points`` of shape ``(n, 8,
+3)`` holds, for each of ``n`` queries, A, B, C, D at the start of the step and then at its end, in
+metres.
 
 - ``"edge-edge"``: the moving edges AB and CD. The first side is AB, the second is CD.
-- ``"vertex-face"``: the moving vertex A and the moving face BCD. The first side is A, the second BCD.
+- ``"vertex-face"``: the moving vertex A and the moving face BCD. The first side is A, the second
+BCD.
 
-``radius`` is the distance within which there is contact: one number for all queries, one for each of
-shape ``(n,)``, or two of shape ``(n, 2)``, whose sum is meant exactly, such as the radii of two wires.
-With 0 contact is a common point.
+``radius`` is the distance within which there is contact: one number for all queries, one for each
+of shape ``(n,)``, or two of shape ``(n, 2)``, whose sum is meant exactly, such as the radii of two
+wires. With 0 contact is a common point.
 
 :func:`decide` is the certified path, for simulators: never wrong, and fast. :func:`exact` is the
-oracle in rational arithmetic, by another method. :func:`certify` judges a method of your own against
-it on :func:`families` of queries, each of which aims at a weakness.
+oracle in rational arithmetic, by another method. :func:`certify` judges a method of your own
+against it on :func:`families` of queries, each of which aims at a weakness.
 
 All functions run without the global interpreter lock and on all cores. What comes in is copied.
-Arrays of other types are converted to ``float64``. The proofs assume rounding to nearest and gradual
-underflow: a library that switches on flush-to-zero for the calling process breaks that.
+Arrays of other types are converted to ``float64``. The proofs assume rounding to nearest and
+gradual underflow: a library that switches on flush-to-zero for the calling process breaks that.
 """
 
 from __future__ import annotations
@@ -67,7 +69,8 @@ class ContactKind(IntEnum):
 
 
 class Case(IntEnum):
-    """How the two sides move against each other during the whole step. Of several, the last here."""
+    """How the two sides move against each other during the whole step. Of several, the last
+    here."""
 
     GENERAL = 1
     """None of those below."""
@@ -90,8 +93,8 @@ class ContactPoints:
     weights: Floats
     """The weights of A, B, C and D, in ``[0, 1]``, float64 of shape ``(n, 4)``.
 
-    Of two edges they are ``1 - u, u, 1 - v, v`` with u on AB and v on CD. Of a vertex and a face they are
-    1 and the weights of B, C and D."""
+    Of two edges they are ``1 - u, u, 1 - v, v`` with u on AB and v on CD. Of a vertex and a face
+    they are 1 and the weights of B, C and D."""
     point: Floats
     """The point on the first side at ``toi``, in metres, float64 of shape ``(n, 3)``."""
 
@@ -104,9 +107,11 @@ class Hits:
     """
 
     hit: Bools
-    """Whether they touch in the step, bool of shape ``(n,)``. No hit is false, no contact is missed."""
+    """Whether they touch in the step, bool of shape ``(n,)``. No hit is false, no contact is
+    missed."""
     toi: Floats
-    """The largest float that is not above the time of impact, in ``[0, 1]``, float64 of shape ``(n,)``.
+    """The largest float that is not above the time of impact, in ``[0, 1]``, float64 of shape
+    ``(n,)``.
 
     Positions that are rounded to floats at this time may already be past the contact."""
     toi_above: Floats
@@ -114,42 +119,44 @@ class Hits:
     kind: Codes
     """Values of :class:`ContactKind`, exact, int8 of shape ``(n,)``."""
     side: Codes
-    """The sign of f just before the contact, exact, int8 of shape ``(n,)``; 0 if always 0, or at time 0.
+    """The sign of f just before the contact, exact, int8 of shape ``(n,)``; 0 if always 0, or at
+    time 0.
 
     Of two edges ``f = ((B - A) x (D - C)) . (C - A)``, of a vertex and a face
     ``f = ((C - B) x (D - B)) . (A - B)``."""
     case: Codes
     """Values of :class:`Case`, exact, int8 of shape ``(n,)``."""
     temporarily_parallel: Bools
-    """Whether the edges are parallel at the time of impact, or the face is a segment, though not for the
-    whole step; bool of shape ``(n,)``."""
+    """Whether the edges are parallel at the time of impact, or the face is a segment, though not
+    for the whole step; bool of shape ``(n,)``."""
     temporarily_point: Bools
-    """Whether an edge, or the face, is a point at the time of impact, though not for the whole step; bool of
-    shape ``(n,)``."""
+    """Whether an edge, or the face, is a point at the time of impact, though not for the whole
+    step; bool of shape ``(n,)``."""
     first: ContactPoints
     """Where they touch, or with a radius are nearest."""
     has_second: Bools
-    """Whether two edges touch, or are nearest, along a segment from ``first`` to ``second``; bool of shape
-    ``(n,)``."""
+    """Whether two edges touch, or are nearest, along a segment from ``first`` to ``second``; bool
+    of shape ``(n,)``."""
     second: ContactPoints
     """The other end of that segment; ``first`` again where there is none."""
     place_error: Floats
-    """Neither u, v nor a weight of a face's corner is farther from the exact one than this, at most ``2**-32``,
-    float64 of shape ``(n,)``."""
+    """Neither u, v nor a weight of a face's corner is farther from the exact one than this, at
+    most ``2**-32``, float64 of shape ``(n,)``."""
     normal: Floats
-    """The unit vector along which they touch, from the first side to the second as they are just before the
-    contact, float64 of shape ``(n, 3)``; 0 where they share a point at the start of the step."""
+    """The unit vector along which they touch, from the first side to the second as they are just
+    before the contact, float64 of shape ``(n, 3)``; 0 where they share a point at the start of the
+    step."""
     normal_error: Floats
     """The distance of ``normal`` from the exact one is at most this, float64 of shape ``(n,)``."""
 
 
 @dataclass(frozen=True, eq=False)
 class ExactHits:
-    """The first contacts of ``n`` queries by the oracle, without the points in space and the normal.
+    """The first contacts of ``n`` queries by the oracle, without the points in space and the
+    normal.
 
-    Of each exact number the two floats between which it is are given; they are equal where it is a float.
-    Where ``hit`` is false, floats are NaN, integers 0 and the rest is false.
-    """
+    Of each exact number the two floats between which it is are given; they are equal where it is a
+    float. Where ``hit`` is false, floats are NaN, integers 0 and the rest is false. """
 
     hit: Bools
     """Whether they touch in the step, bool of shape ``(n,)``."""
@@ -158,14 +165,15 @@ class ExactHits:
     kind: Codes
     """Values of :class:`ContactKind`, int8 of shape ``(n,)``."""
     crosses: Bools
-    """Whether any contact of the step, the first or a later one, is a crossing, bool of shape ``(n,)``.
+    """Whether any contact of the step, the first or a later one, is a crossing, bool of shape
+    ``(n,)``.
 
     Then a method that finds none lets them tunnel."""
     side: Codes
     """The side they come from, as in :class:`Hits`, int8 of shape ``(n,)``."""
     weights: Floats
-    """Where they touch, float64 of shape ``(n, 2, 2)``: of two edges the weights of B and of D, which are u and v;
-    of a face those of C and of D."""
+    """Where they touch, float64 of shape ``(n, 2, 2)``: of two edges the weights of B and of D,
+    which are u and v; of a face those of C and of D."""
 
 
 class Family(NamedTuple):
@@ -182,8 +190,8 @@ def decide(kind: Kind, points: npt.ArrayLike, radius: npt.ArrayLike = 0.0) -> Hi
     :param kind: ``"edge-edge"`` or ``"vertex-face"``.
     :param points: shape ``(n, 8, 3)``: A, B, C, D at the start, then at the end, in metres.
     :param radius: a number, shape ``(n,)``, or shape ``(n, 2)`` for exact sums of two, in metres.
-    :raises ValueError: for other kinds and shapes, and for a number that is not finite or a radius below 0,
-        which is named.
+    :raises ValueError: for other kinds and shapes, and for a number that is not finite or a radius
+        below 0, which is named.
 
     >>> falling = [[-1, 0, 0], [1, 0, 0], [0.5, -1, 1], [0.5, 1, 1],
     ...            [-1, 0, 0], [1, 0, 0], [0.5, -1, -3], [0.5, 1, -3]]
@@ -202,14 +210,14 @@ def decide(kind: Kind, points: npt.ArrayLike, radius: npt.ArrayLike = 0.0) -> Hi
 
 
 def exact(kind: Kind, points: npt.ArrayLike, radius: npt.ArrayLike = 0.0) -> ExactHits:
-    """The exact answers, by the oracle: rational and real algebraic numbers, some microseconds each.
+    """The exact answers, by the oracle: rational and real algebraic numbers, some microseconds
+    each.
 
     :param kind: ``"edge-edge"`` or ``"vertex-face"``.
     :param points: shape ``(n, 8, 3)``: A, B, C, D at the start, then at the end, in metres.
     :param radius: a number, shape ``(n,)``, or shape ``(n, 2)`` for exact sums of two, in metres.
-    :raises ValueError: for other kinds and shapes, and for a number that is not finite or a radius below 0,
-        which is named.
-    """
+    :raises ValueError: for other kinds and shapes, and for a number that is not finite or a radius
+        below 0, which is named. """
     columns = _tunnelproof.exact(kind, *_arrays(points, radius))
     weights = columns.pop("weights").reshape(-1, 2, 2)
     return ExactHits(weights=weights, **columns)
@@ -223,7 +231,8 @@ def families() -> list[Family]:
 def queries(family: str, count: int, *, seed: int = 1, start: int = 0) -> tuple[Floats, Floats]:
     """Queries ``start`` to ``start + count - 1`` of a family.
 
-    :returns: points of shape ``(count, 8, 3)`` and radii of shape ``(count, 2)``; the same everywhere.
+    :returns: points of shape ``(count, 8, 3)`` and radii of shape ``(count, 2)``; the same
+        everywhere.
     :raises ValueError: if there is no such family.
     """
     return _tunnelproof.family(family, seed, start, count)
@@ -266,17 +275,20 @@ def certify(
 ) -> Certificate:
     """Judges a method against the exact answers.
 
-    :param method: called as ``method(kind, points, radii)`` with some queries, ``points`` of shape ``(n, 8, 3)`` and
-        ``radii`` of shape ``(n, 2)``, from any thread. Returns ``hit`` and ``toi``, each of shape ``(n,)``; ``toi`` counts
-        where ``hit`` is true. ``None`` says that it does not take such queries. An exception counts as no answer to the
-        query that raises it by itself.
+    :param method: called as ``method(kind, points, radii)`` with some queries, ``points`` of shape
+        ``(n, 8, 3)`` and ``radii`` of shape ``(n, 2)``, from any thread. Returns ``hit`` and
+        ``toi``, each of shape ``(n,)``; ``toi`` counts where ``hit`` is true. ``None`` says that
+        it does not take such queries. An exception counts as no answer to the query that raises it
+        by itself.
     :param name: what it is called in tables.
     :param families: names of :func:`families`; all if left out.
-    :param own: queries of your own by a name: kind, points and radius, as :func:`exact` takes them.
+    :param own: queries of your own by a name: kind, points and radius, as :func:`exact` takes
+        them.
     :param count: how many queries of each family.
     :param seed: which ones.
     :param declared_distance: false hits of two that come as near as this, in metres, count apart.
-    :param shard: which part is judged, ``(i, n)`` with ``i`` from 1 to ``n``; :func:`merge` puts all parts together.
+    :param shard: which part is judged, ``(i, n)`` with ``i`` from 1 to ``n``; :func:`merge` puts
+        all parts together.
     :raises ValueError: if there is no such family or part, or one of your own queries is none.
 
     >>> def blind(kind, points, radii):
@@ -299,13 +311,9 @@ def certify(
 
     chosen = [family for family, _, _ in _tunnelproof.families()] if families is None else families
     rows = [
-        (key, kind, *_arrays(points, radius)) for key, (kind, points, radius) in (own or {}).items()
-    ]
-    return Certificate(
-        *_tunnelproof.certify(
-            call, name, declared_distance, list(chosen), rows, count, seed, shard
-        )
-    )
+        (key, kind, *_arrays(points, radius)) for key, (kind, points, radius) in (own or
+        {}).items() ] return Certificate( *_tunnelproof.certify( call, name, declared_distance,
+        list(chosen), rows, count, seed, shard ) )
 
 
 def merge(parts: Iterable[str]) -> Certificate:
