@@ -1,12 +1,11 @@
 """Continuous collision detection that does not tunnel, on NumPy arrays.
 
-A query is one time step of four points that move on straight lines. ``points`` of shape ``(n, 8,
-3)`` holds, for each of ``n`` queries, A, B, C, D at the start of the step and then at its end, in
-metres.
+A query is one time step of four points that move on straight lines. ``points``, of shape
+``(n, 8, 3)``, holds A, B, C, D of each query at the start of the step and then at its end, in metres.
 
 - ``"edge-edge"``: the moving edges AB and CD. The first side is AB, the second is CD.
-- ``"vertex-face"``: the moving vertex A and the moving face BCD. The first side is A, the second
-BCD.
+- ``"vertex-face"``: the moving vertex A and the moving face BCD. The first side is A, the
+  second is BCD.
 
 ``radius`` is the distance within which there is contact: one number for all queries, one for each
 of shape ``(n,)``, or two of shape ``(n, 2)``, whose sum is meant exactly, such as the radii of two
@@ -311,9 +310,13 @@ def certify(
 
     chosen = [family for family, _, _ in _tunnelproof.families()] if families is None else families
     rows = [
-        (key, kind, *_arrays(points, radius)) for key, (kind, points, radius) in (own or
-        {}).items() ] return Certificate( *_tunnelproof.certify( call, name, declared_distance,
-        list(chosen), rows, count, seed, shard ) )
+        (key, kind, *_arrays(points, radius)) for key, (kind, points, radius) in (own or {}).items()
+    ]
+    return Certificate(
+        *_tunnelproof.certify(
+            call, name, declared_distance, list(chosen), rows, count, seed, shard
+        )
+    )
 
 
 def merge(parts: Iterable[str]) -> Certificate:
