@@ -52,14 +52,14 @@ fn vector(point: Point) -> Vector {
 fn contact(toi: f64) -> Verdict {
     let first = ContactPoint {
         point: Point::origin(),
-        u: 0.0,
-        v: 0.0,
-        normal: None,
+        weights: [1.0, 0.0, 1.0, 0.0],
+        relative_velocity: None,
     };
     Verdict::Hit(Contact {
         toi,
         first,
         second: None,
+        normal: None,
     })
 }
 
