@@ -1,7 +1,7 @@
 """Continuous collision detection that does not tunnel, on NumPy arrays.
 
 A query is one time step of four points that move on straight lines. ``points``, of shape
-``(n, 8, 3)``, holds A, B, C, D of each query at the start of the step and then at its end, in metres.
+``(n, 8, 3)``, holds A, B, C, D of each query at the start of the step, then at its end, in metres.
 
 - ``"edge-edge"``: the moving edges AB and CD. The first side is AB, the second is CD.
 - ``"vertex-face"``: the moving vertex A and the moving face BCD. The first side is A, the
