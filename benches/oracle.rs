@@ -1,5 +1,5 @@
-//! The speed of the exact oracle: the whole decision with the time of impact to the last bit, and
-//! the answer with every number rounded both ways.
+//! The speed of the exact judges. Of the oracle: the whole decision with the time of impact to the
+//! last bit, and the answer with every number rounded both ways. Of the shadow: the answer.
 //!
 //! `cargo bench --bench oracle` runs the default backend; add `--features gmp` for GMP. The public
 //! sets are measured where `../shared/data` is present; the generated ones always.
@@ -7,9 +7,10 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use tunnelproof::query::Query;
+use tunnelproof::query::{EdgeEdge, Query};
+use tunnelproof::thesis::Repairs;
 use tunnelproof_reference::field::{self, Integer};
-use tunnelproof_reference::oracle;
+use tunnelproof_reference::{oracle, shadow};
 
 mod data;
 
@@ -34,6 +35,18 @@ fn bench(c: &mut Criterion) {
         });
     }
     group.finish();
+    let mut group = c.benchmark_group(format!("shadow/{}", <field::Default as Integer>::BACKEND));
+    for (name, queries) in data::sets() {
+        group.throughput(Throughput::Elements(queries.len() as u64));
+        group.bench_with_input(BenchmarkId::new("answer", name), &queries, |b, queries| {
+            b.iter(|| queries.iter().for_each(answer_by_shadow));
+        });
+    }
+    group.finish();
+}
+
+fn answer_by_shadow(query: &EdgeEdge) {
+    black_box(shadow::edge_edge::<field::Default>(query, Repairs::ALL));
 }
 
 fn decide_toi(query: &Query) {

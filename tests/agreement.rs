@@ -28,7 +28,7 @@ fn by_shadow<Z: Integer>(query: &EdgeEdge) -> ExactAnswer {
 /// Calls `check` on every query of this kind of the public sets, which are skipped where they are
 /// not.
 fn for_every_public_query(kind: QueryKind, check: impl Fn(&Entry)) {
-    for set in public::SETS {
+    for set in public::LABELLED {
         public::set(set, kind).iter().for_each(&check);
     }
 }

@@ -157,7 +157,7 @@ fn certified_agrees_with_the_oracle_where_the_middle_one_of_three_roots_is_a_hal
 
 #[test]
 fn certified_agrees_with_the_oracle_and_the_labels_of_the_public_sets() {
-    for set in public::SETS {
+    for set in public::LABELLED {
         for entry in public::set(set, QueryKind::EdgeEdge) {
             let query = entry.query.as_edge_edge().unwrap();
             assert_eq!(difference(query), Ok(()), "{}", entry.id);

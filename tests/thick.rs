@@ -271,7 +271,7 @@ fn thick_batch_is_certified_one_by_one() {
 #[test]
 fn thick_certified_agrees_with_the_oracle_on_public_sets() {
     let mut shares: BTreeMap<Stage, u32> = BTreeMap::new();
-    for (set, kind) in public::SETS
+    for (set, kind) in public::LABELLED
         .into_iter()
         .flat_map(|set| [QueryKind::EdgeEdge, QueryKind::VertexFace].map(|kind| (set, kind)))
     {

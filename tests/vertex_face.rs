@@ -219,6 +219,11 @@ fn vertex_face_batch_is_certified_one_by_one() {
 
 #[test]
 fn vertex_face_is_exact_and_as_labelled_on_the_public_sets() {
+    for entry in public::set(public::VECTORS, QueryKind::VertexFace) {
+        let query = entry.query.as_vertex_face().unwrap();
+        assert_eq!(difference(query), Ok(()), "{}", entry.id);
+        assert_eq!(Some(decide(query).is_some()), entry.label, "{}", entry.id);
+    }
     let sets = public::SETS.map(|set| public::set(set, QueryKind::VertexFace));
     let entries = sets.concat();
     let mut shares: BTreeMap<Stage, u32> = BTreeMap::new();

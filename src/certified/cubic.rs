@@ -1,7 +1,8 @@
 //! Stage 3: the cubic `f = (K x L) . M` in Bernstein form, with a bound on its error.
 
 use super::ends::Ends;
-use super::motion::{Motion, Vector, both, cross, dot, larger, largest, reach, smaller};
+use super::ends::{larger, smaller};
+use super::motion::{Motion, Vector, both, cross, dot, largest, reach};
 use super::separate::U;
 
 /// `f` on `[0, 1]`, up to an error.

@@ -6,13 +6,13 @@ use super::exact::{self, Passage};
 use super::kind::{Kind, Stages, query_parts};
 use super::locate::Place;
 use super::motion::{Motion, Positions};
+use super::nearest::{self, Gram, Spot};
 use super::normal::{self, Normal};
 use super::refine::Root;
 use super::root::{Bracket, Half};
 use super::separate::SweptBoxes;
 use super::stage::{Finding, Stage};
 use super::start;
-use super::thick::{self, Gram, Spot};
 use crate::contact::{Case, ContactKind, EdgePlace, EdgePoint, Flags, Hit, PLACE_ERROR};
 use crate::query::{EdgeEdge, Point, QueryError, Radius};
 
@@ -111,7 +111,7 @@ impl Stages<EdgePlace> for EdgeEdge {
 
     #[inline(always)]
     fn nearest(gram: &Gram) -> Spot {
-        thick::nearest_on_edges(gram)
+        nearest::nearest_on_edges(gram)
     }
 
     fn place(u: f64, v: f64, error: f64) -> EdgePlace {

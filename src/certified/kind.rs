@@ -4,11 +4,11 @@ use super::cubic::Cubic;
 use super::ends::Ends;
 use super::exact::Passage;
 use super::motion::{Motion, Positions};
+use super::nearest::{Gram, Spot};
 use super::normal::Normal;
 use super::root::{Bracket, Half};
 use super::separate::SweptBoxes;
 use super::stage::Stage;
-use super::thick::{Gram, Spot};
 use crate::contact::{Case, Hit};
 use crate::query::{Point, QueryError, Radius};
 

@@ -66,6 +66,7 @@ mod kind;
 mod locate;
 mod motion;
 mod narrow;
+mod nearest;
 mod normal;
 mod refine;
 mod root;

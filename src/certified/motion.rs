@@ -1,6 +1,6 @@
 //! The differences that everything else is computed from.
 
-use super::ends::{Ends, Scalar};
+use super::ends::{Ends, Scalar, larger};
 use crate::query::Point;
 
 /// A vector in `f64`.
@@ -109,16 +109,4 @@ pub(super) fn dot<T: Scalar>(x: &[T; 3], y: &[T; 3]) -> T {
 #[inline(always)]
 pub(super) fn both<E: Ends>(x: &Vector) -> [E; 3] {
     [E::both(x[0]), E::both(x[1]), E::both(x[2])]
-}
-
-/// The larger of two numbers that are not NaN: one instruction, which `f64::max` is not.
-#[inline(always)]
-pub(super) fn larger(x: f64, y: f64) -> f64 {
-    if x > y { x } else { y }
-}
-
-/// The smaller of two numbers that are not NaN.
-#[inline(always)]
-pub(super) fn smaller(x: f64, y: f64) -> f64 {
-    if x < y { x } else { y }
 }

@@ -1,7 +1,7 @@
 //! Stage 4: intervals that hold exactly one simple root of `f`, certified in `f64`.
 
 use super::cubic::{Cubic, have_one_sign};
-use super::motion::{larger, smaller};
+use super::ends::{larger, smaller};
 use super::separate::U;
 
 /// An interval that holds exactly one root of `f`, a simple one, strictly inside.

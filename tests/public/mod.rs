@@ -1,4 +1,5 @@
-//! The public sets in `../shared/data`: queries with labels, where they are.
+//! Queries with labels: those of the public sets in `../shared/data`, where they are, and those of the
+//! project's own `vectors/`, which are always there.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,11 +10,21 @@ use tunnelproof_reference::corpus::{self, Entry, ReadOptions};
 /// The sets by their names: first the handcrafted ones as one, then pairs of simulations.
 pub(crate) const SETS: [&str; 3] = ["handcrafted", "candidates-cloth-ball", "hits-cloth-ball"];
 
+/// The name of the project's own vectors.
+pub(crate) const VECTORS: &str = "vectors";
+
+/// All sets with labels. The first one is never empty.
+#[allow(dead_code, reason = "benches take the public sets alone")]
+pub(crate) const LABELLED: [&str; 4] = [VECTORS, SETS[0], SETS[1], SETS[2]];
+
 /// The queries of this kind of one set, none if it is not there. What is there is sound, or this
 /// panics.
 pub(crate) fn set(name: &str, kind: QueryKind) -> Vec<Entry> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
-    let entries: Vec<Entry> = if name == "handcrafted" {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folder = here.join("../shared/data");
+    let entries: Vec<Entry> = if name == VECTORS {
+        vectors(&here.join("vectors"), kind)
+    } else if name == "handcrafted" {
         let files = csv_files(&folder.join("ccd-sample-queries"), kind);
         files.iter().flat_map(|file| csv(file)).collect()
     } else {
@@ -22,15 +33,36 @@ pub(crate) fn set(name: &str, kind: QueryKind) -> Vec<Entry> {
         let bytes = bytes.filter(|_| kind == QueryKind::EdgeEdge);
         bytes.map_or_else(Vec::new, |bytes| binary(name, &bytes))
     };
-    if entries.is_empty() {
-        eprintln!(
-            "skipped: no {kind} queries of {name} in {}",
-            folder.display()
-        );
+    if entries.is_empty() && name != VECTORS {
+        let folder = folder.display();
+        eprintln!("skipped: no {kind} queries of {name} in {folder}");
     } else {
-        assert!(entries.len() > 1000, "{name}: only {}", entries.len());
+        eprintln!("{} {kind} queries of {name}", entries.len());
+        let least = if name == VECTORS { 500 } else { 1000 };
+        assert!(entries.len() > least, "{name}: only {}", entries.len());
     }
     entries
+}
+
+/// The vectors of a kind without a radius.
+fn vectors(folder: &Path, kind: QueryKind) -> Vec<Entry> {
+    let files = fs::read_dir(folder).expect("the vectors are there");
+    let mut files: Vec<_> = files.map(|file| file.expect("a file").path()).collect();
+    files.retain(|file| {
+        let is_json = file
+            .extension()
+            .is_some_and(|extension| extension == "json");
+        is_json && !file.ends_with("schema.json")
+    });
+    files.sort();
+    let entries = files.iter().flat_map(|file| {
+        let entries = corpus::open(&file.to_string_lossy(), ReadOptions::default());
+        entries.expect("a file of vectors opens")
+    });
+    let entries = entries.map(|entry| entry.expect("vectors are sound"));
+    let entries =
+        entries.filter(|entry| entry.query.kind() == kind && entry.query.radius().is_zero());
+    entries.collect()
 }
 
 /// The csv files with queries of a kind below a folder, in order of their paths.

@@ -20,12 +20,12 @@ use super::ends::Ends;
 use super::exact::{self, Passage};
 use super::kind::{Kind, Stages, query_parts};
 use super::motion::{Motion, Positions};
+use super::nearest::{self, Gram, Spot};
 use super::normal::{self, Normal};
 use super::refine::Root;
 use super::root::{Bracket, Half};
 use super::separate::{SweptBoxes, U};
 use super::stage::{Finding, Stage};
-use super::thick::{self, Gram, Spot};
 use crate::contact::{Case, ContactKind, FacePlace, Flags, Hit, PLACE_ERROR};
 use crate::query::{Point, QueryError, Radius, VertexFace};
 
@@ -118,7 +118,7 @@ impl Stages<FacePlace> for VertexFace {
 
     #[inline(always)]
     fn nearest(gram: &Gram) -> Spot {
-        thick::nearest_on_face(gram)
+        nearest::nearest_on_face(gram)
     }
 
     /// The weight of B is what the others leave of 1, rounded twice.

@@ -1,11 +1,11 @@
 //! The two sides at one time, about: where they are nearest, and how that moves.
 
 use super::advance::{Moving, difference};
-use super::shape::{Direction, Gram, Spot};
 use crate::certified::ends::Ends;
 use crate::certified::kind::Kind;
 use crate::certified::locate::at;
 use crate::certified::motion::{Motion, Vector, scaled, sub};
+use crate::certified::nearest::{Direction, Gram, Spot};
 
 /// The two sides at a time. Not certified: proofs that start here bound its errors.
 pub(super) struct Instant {

@@ -20,7 +20,6 @@ mod contact;
 mod instant;
 mod nearness;
 mod refine_toi;
-mod shape;
 #[cfg(test)]
 mod testing;
 mod turning;
@@ -37,7 +36,6 @@ use advance::{Advance, Moving, rounded_up};
 use contact::contact;
 use instant::Instant;
 use refine_toi::{RefinedToi, refine_toi};
-pub(super) use shape::{Gram, Spot, nearest_on_edges, nearest_on_face};
 
 /// The first contact within a radius above 0, by all stages.
 #[inline(always)]

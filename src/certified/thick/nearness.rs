@@ -7,10 +7,10 @@
 
 use super::advance::{LARGEST, Moving, SMALLEST};
 use super::instant::Instant;
-use super::shape::Direction;
 use crate::certified::cubic::permanents;
 use crate::certified::ends::Ends;
 use crate::certified::motion::{Motion, Vector, add, cross, dot, reach, scaled};
+use crate::certified::nearest::Direction;
 use crate::certified::separate::U;
 
 /// What is certain about a place from a time on, for a while.

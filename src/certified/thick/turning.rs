@@ -7,10 +7,11 @@
 
 use super::advance::{LARGEST, Moving, SMALLEST, difference};
 use super::instant::Instant;
-use super::shape::{Direction, Gram};
 use crate::certified::ends::Ends;
+use crate::certified::ends::smaller;
 use crate::certified::kind::Kind;
-use crate::certified::motion::{Vector, both, dot, scaled, smaller, sub};
+use crate::certified::motion::{Vector, both, dot, scaled, sub};
+use crate::certified::nearest::{Direction, Gram};
 use crate::certified::separate::U;
 
 /// A normal that changes linearly: `normal + s turn` for the time `s` that passes. Any two vectors

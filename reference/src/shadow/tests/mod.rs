@@ -11,7 +11,6 @@ mod algorithms;
 mod contact;
 mod errata;
 mod lattice;
-mod speed;
 mod witness;
 
 /// The points A, B, C, D at the start of the step and again at its end, in small integers.

@@ -5,10 +5,11 @@
 //! a parallelogram or a triangle whose corners move linearly; the distance of the two sides is its
 //! distance from 0.
 
-use crate::certified::motion::{Vector, dot, larger, smaller};
+use super::ends::{larger, smaller};
+use super::motion::{Vector, dot};
 
 /// Scalar products of `K`, `L` and `M` at one time.
-pub(in crate::certified) struct Gram {
+pub(super) struct Gram {
     pub(super) kk: f64,
     pub(super) ll: f64,
     pub(super) kl: f64,
@@ -22,7 +23,7 @@ pub(in crate::certified) struct Gram {
 ///
 /// The determinant of the directions is 1 or -1, and their numbers are 0, 1 or -1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::certified) struct Spot {
+pub(super) struct Spot {
     pub(super) u: f64,
     pub(super) v: f64,
     pub(super) directions: [Direction; 2],
@@ -30,7 +31,7 @@ pub(in crate::certified) struct Spot {
 
 /// A direction in which a place may move.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::certified) struct Direction {
+pub(super) struct Direction {
     pub(super) u: f64,
     pub(super) v: f64,
     /// Whether backwards too.
@@ -64,7 +65,7 @@ impl Gram {
 /// The nearest `v` for the `u` of the lines' nearest points, then the nearest `u` for that
 /// (Ericson, Real-Time Collision Detection, 5.1.9).
 #[inline(always)]
-pub(in crate::certified) fn nearest_on_edges(gram: &Gram) -> Spot {
+pub(super) fn nearest_on_edges(gram: &Gram) -> Spot {
     // Divisions that do not wait for each other.
     let (of_k, of_l) = (1.0 / gram.kk, 1.0 / gram.ll);
     let u = clamped(gram.centre().0 / gram.determinant());
@@ -81,7 +82,7 @@ pub(in crate::certified) fn nearest_on_edges(gram: &Gram) -> Spot {
 }
 
 /// The foot in the plane, or the nearest of the nearest points of the sides.
-pub(in crate::certified) fn nearest_on_face(gram: &Gram) -> Spot {
+pub(super) fn nearest_on_face(gram: &Gram) -> Spot {
     let (determinant, centre) = (gram.determinant(), gram.centre());
     let (u, v) = (centre.0 / determinant, centre.1 / determinant);
     if u > 0.0 && v > 0.0 && u + v < 1.0 {
