@@ -1,10 +1,10 @@
-//! Instructions per query of the narrow phases, and per segment and step of the broad phases and of the
-//! wire stepper, by callgrind: a count that repeats exactly, whatever else the machine does.
+//! Instructions per query of the narrow phases, and per segment and step of the broad phases and of
+//! the wire stepper, by callgrind: a count that repeats exactly, whatever else the machine does.
 //!
-//! `cargo bench --bench instructions`, where `valgrind` is present; elsewhere it says so and ends. Each
-//! method runs over each set under `valgrind --tool=callgrind`, and once more without doing anything, to
-//! take off what reading the queries costs. A broad phase runs for one step, which sorts and fills, and
-//! for [`STEPS`] more; a wire is stepped not at all, and for as many.
+//! `cargo bench --bench instructions`, where `valgrind` is present; elsewhere it says so and ends.
+//! Each method runs over each set under `valgrind --tool=callgrind`, and once more without doing
+//! anything, to take off what reading the queries costs. A broad phase runs for one step, which
+//! sorts and fills, and for [`STEPS`] more; a wire is stepped not at all, and for as many.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,

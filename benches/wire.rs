@@ -1,7 +1,7 @@
 //! A step of the wire stepper against the number of segments: whole, and by phase.
 //!
-//! `cargo bench --bench wire`. A steel wire sags between two pins and swings; wires rest on a deck and on each other.
-//! Before each number, the mean time by phase and segment, so that growth shows.
+//! `cargo bench --bench wire`. A steel wire sags between two pins and swings; wires rest on a deck
+//! and on each other. Before each number, the mean time by phase and segment, so that growth shows.
 
 use std::hint::black_box;
 

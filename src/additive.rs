@@ -1,9 +1,9 @@
 //! Additive continuous collision detection: the baseline to compare with.
 //!
-//! Li, Kaufman, Jiang, "Codimensional incremental potential contact", ACM TOG 2021, section 5, algorithm 1.
-//! The edges advance by nine tenths of what their distance and speed allow, until less than a
-//! tenth of the first distance is left, which counts as contact. It converges from below, so it
-//! does not miss but for rounding; edges that come near without touching are false hits.
+//! Li, Kaufman, Jiang, "Codimensional incremental potential contact", ACM TOG 2021, section 5,
+//! algorithm 1. The edges advance by nine tenths of what their distance and speed allow, until less
+//! than a tenth of the first distance is left, which counts as contact. It converges from below, so
+//! it does not miss but for rounding; edges that come near without touching are false hits.
 //!
 //! ```
 //! use tunnelproof::additive::Additive;
@@ -37,8 +37,8 @@ pub struct Additive {
     /// Which part of the way to contact is taken, in `(0, 1)`; the paper's experiments and the IPC
     /// Toolkit take 0.9.
     pub rescaling: f64,
-    /// After this many advances the edges count as in contact where they are. It takes that many where
-    /// the edges start next to each other, or where rounding leaves them no way to advance.
+    /// After this many advances the edges count as in contact where they are. It takes that many
+    /// where the edges start next to each other, or where rounding leaves them no way to advance.
     pub max_steps: u32,
 }
 

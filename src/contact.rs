@@ -1,7 +1,7 @@
 //! What is answered: the first contact of a step.
 //!
-//! [`Hit`] is the answer of the [certified path](crate::certified), with what is proved of it. [`Contact`] is a
-//! contact in space: what any narrow phase can say, in a [`Verdict`].
+//! [`Hit`] is the answer of the [certified path](crate::certified), with what is proved of it.
+//! [`Contact`] is a contact in space: what any narrow phase can say, in a [`Verdict`].
 //!
 //! ```
 //! use tunnelproof::contact::{Case, ContactKind};
@@ -27,8 +27,8 @@ use crate::query::Point;
 
 /// The first contact of a step, proved.
 ///
-/// `P` is the place of the contact: [`EdgePlace`] of two edges, [`FacePlace`] of a vertex and a face, [`Place`] of
-/// either.
+/// `P` is the place of the contact: [`EdgePlace`] of two edges, [`FacePlace`] of a vertex and a
+/// face, [`Place`] of either.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit<P> {
     /// The largest `f64` that is not above the exact time of impact, in `[0, 1]`.
@@ -36,25 +36,26 @@ pub struct Hit<P> {
     /// Positions that are rounded to `f64` at this time may already be past the contact: the bound
     /// holds for the time, not for stored positions.
     pub toi: f64,
-    /// The smallest `f64` that is not below the exact time of impact: the next one up, or `toi` itself
-    /// if that is the time of impact.
+    /// The smallest `f64` that is not below the exact time of impact: the next one up, or `toi`
+    /// itself if that is the time of impact.
     pub toi_above: f64,
     /// Whether a simulator that misses the contact lets the two sides through each other. Exact.
     ///
-    /// A contact at time 0 or 1 is a graze. Otherwise the definition uses `f` (see [`side`](Self::side)):
+    /// A contact at time 0 or 1 is a graze. Otherwise the definition uses `f` (see
+    /// [`side`](Self::side)):
     ///
-    /// - Where `f` is not identically 0: a crossing if `f` changes its sign at the contact and the two
-    ///   touch strictly inside: two lines that meet at an angle strictly inside both edges, or a
-    ///   vertex strictly inside a face that has an area then.
+    /// - Where `f` is not identically 0: a crossing if `f` changes its sign at the contact and the
+    ///   two touch strictly inside: two lines that meet at an angle strictly inside both edges, or
+    ///   a vertex strictly inside a face that has an area then.
     /// - Where all points stay in a plane: a crossing if an end of one edge passes through the line
-    ///   of the other edge, inside that edge or onto an overlap; or if the vertex passes through the
-    ///   line of an edge of the face, strictly inside that edge.
+    ///   of the other edge, inside that edge or onto an overlap; or if the vertex passes through
+    ///   the line of an edge of the face, strictly inside that edge.
     /// - Where all points stay on a line: always a crossing.
     ///
     /// With a radius: whether there is a crossing, at radius 0, at any time of the step.
     pub kind: ContactKind,
-    /// The sign of `f` just before the contact, which is the side that the two come from: 1, -1, or 0 where
-    /// `f` is identically 0 or the contact is at time 0. Exact.
+    /// The sign of `f` just before the contact, which is the side that the two come from: 1, -1, or
+    /// 0 where `f` is identically 0 or the contact is at time 0. Exact.
     ///
     /// Of two edges `f = ((B - A) x (D - C)) . (C - A)`. Of a vertex and a face
     /// `f = ((C - B) x (D - B)) . (A - B)`: 1 where the vertex comes from the side to which
@@ -96,8 +97,8 @@ pub struct FacePlace {
     /// The weights of the corners B, C and D, in `[0, 1]`; they add up to 1 within three times
     /// [`error`](Self::error).
     ///
-    /// In a face without area at that time they are those at the first of B, C and D, or else on the
-    /// first of BC, CD and DB, that the vertex is on.
+    /// In a face without area at that time they are those at the first of B, C and D, or else on
+    /// the first of BC, CD and DB, that the vertex is on.
     pub weights: [f64; 3],
     /// No weight is farther from the exact one than this, which is at most [`PLACE_ERROR`].
     pub error: f64,
@@ -112,7 +113,8 @@ pub enum Place {
     Face(FacePlace),
 }
 
-/// The largest error that the place of a [`Hit`] has, `2^-32`. Where `f64` cannot promise so much, integers do.
+/// The largest error that the place of a [`Hit`] has, `2^-32`. Where `f64` cannot promise so much,
+/// integers do.
 pub const PLACE_ERROR: f64 = f64::from_bits((1023 - 32) << 52);
 
 /// Hit or miss of one query, in `f64`.
@@ -134,9 +136,10 @@ pub struct Contact {
     /// The other end of the overlap where the edges are collinear at `toi` and share more than a
     /// point.
     pub second: Option<ContactPoint>,
-    /// The unit vector along which the two sides touch: from the first side (the edge AB, or the vertex) to the
-    /// second (the edge CD, or the face), as they are just before the contact. `None` from a method
-    /// that does not say, and where there is no such direction; see [`Hit::normal`].
+    /// The unit vector along which the two sides touch: from the first side (the edge AB, or the
+    /// vertex) to the second (the edge CD, or the face), as they are just before the contact.
+    /// `None` from a method that does not say, and where there is no such direction; see
+    /// [`Hit::normal`].
     pub normal: Option<Vector3<f64>>,
 }
 
@@ -145,11 +148,12 @@ pub struct Contact {
 pub struct ContactPoint {
     /// Position in space, in metres.
     pub point: Point,
-    /// How the point is made of A, B, C and D: `A w[0] + B w[1]` and `C w[2] + D w[3]` of two edges,
-    /// `A` and `B w[1] + C w[2] + D w[3]` of a vertex and a face. The weights of each side add up to 1.
+    /// How the point is made of A, B, C and D: `A w[0] + B w[1]` and `C w[2] + D w[3]` of two
+    /// edges, `A` and `B w[1] + C w[2] + D w[3]` of a vertex and a face. The weights of each side
+    /// add up to 1.
     pub weights: [f64; 4],
-    /// The direction in which the second side moves relative to the first at this point, a unit vector;
-    /// `None` where they do not move against each other.
+    /// The direction in which the second side moves relative to the first at this point, a unit
+    /// vector; `None` where they do not move against each other.
     ///
     /// Brandl calls it the normal ("Continuous Collision Detection for Wires with Adaptive
     /// Resolution", Umeå University 2017, section 2.2.2).

@@ -1,8 +1,8 @@
 //! Continuous collision detection that misses nothing and invents nothing.
 //!
-//! A simulator steps its world in fixed time steps. Thin things, such as ropes, wires, cloth and hair,
-//! can pass through each other between two steps: they *tunnel*. This crate finds the first time at
-//! which two moving edges, or a moving vertex and a moving face, touch during a step:
+//! A simulator steps its world in fixed time steps. Thin things, such as ropes, wires, cloth and
+//! hair, can pass through each other between two steps: they *tunnel*. This crate finds the first
+//! time at which two moving edges, or a moving vertex and a moving face, touch during a step:
 //!
 //! ```
 //! use tunnelproof::nalgebra::Vector3;
@@ -28,15 +28,15 @@
 //!
 //! # Guarantee
 //!
-//! No hit is false and no contact is missed, for every finite input: coplanar, parallel and collinear
-//! edges, edges that collapse to a point, subnormal numbers, 1e308. [`Hit::toi`] is the exact time of
-//! impact rounded down. There is nothing to tune.
+//! No hit is false and no contact is missed, for every finite input: coplanar, parallel and
+//! collinear edges, edges that collapse to a point, subnormal numbers, 1e308. [`Hit::toi`] is the
+//! exact time of impact rounded down. There is nothing to tune.
 //!
 //! The guarantee is about the query as it is given:
 //!
 //! - Each point moves on a straight line, at constant velocity, from its start to its end.
-//! - `toi` bounds the *time*. Positions that are rounded to `f64` at that time may already be past the
-//!   contact.
+//! - `toi` bounds the *time*. Positions that are rounded to `f64` at that time may already be past
+//!   the contact.
 //! - The processor rounds to nearest and does not flush subnormal numbers to zero, as Rust programs
 //!   run. A host that changes these settings voids the proofs.
 //!
@@ -44,8 +44,8 @@
 //!
 //! - [`query`] is what is asked, [`contact`] what is answered, [`certified`] the method.
 //! - [`broad`] finds the pairs that may meet during a step.
-//! - [`narrow`] is the trait of every method, also of your own. The crate `tunnelproof-reference` judges
-//!   any of them against the exact answer.
+//! - [`narrow`] is the trait of every method, also of your own. The crate `tunnelproof-reference`
+//!   judges any of them against the exact answer.
 //! - [`thesis`] and [`additive`] are published methods to compare with.
 //! - `wire` steps wires, ropes and rigid bodies; it needs the feature `wire`.
 //!
@@ -58,8 +58,8 @@
 //! | `serde` | its settings and records as data; includes `wire` |
 //! | `recording` | its steps to a file and back; includes `serde` |
 //!
-//! None is on by default. The types of points and vectors are those of [`nalgebra`], which this crate
-//! re-exports.
+//! None is on by default. The types of points and vectors are those of [`nalgebra`], which this
+//! crate re-exports.
 
 pub mod additive;
 pub mod broad;

@@ -23,12 +23,13 @@ use crate::query::{EdgeEdge, QueryKind, Radius, VertexFace};
 
 /// A continuous narrow phase: the thesis path, the certified path, or a user's own.
 ///
-/// Only [`edge_edge`](Self::edge_edge) has to be written. An answer is a function of the query: batches are judged
-/// on several threads, in any order. Of a [`Report`] the time of impact is judged, whether it is a hit, and the
-/// case, if it is stated; contact points and flags are not.
+/// Only [`edge_edge`](Self::edge_edge) has to be written. An answer is a function of the query:
+/// batches are judged on several threads, in any order. Of a [`Report`] the time of impact is
+/// judged, whether it is a hit, and the case, if it is stated; contact points and flags are not.
 ///
-/// The judge, `tunnelproof_reference`, compares it with the exact answer. This one sees whether the four points
-/// change their orientation during the step, and takes the middle of the step for the time of impact:
+/// The judge, `tunnelproof_reference`, compares it with the exact answer. This one sees whether the
+/// four points change their orientation during the step, and takes the middle of the step for the
+/// time of impact:
 ///
 /// ```
 /// use tunnelproof::contact::{Contact, ContactPoint, Flags, Verdict};

@@ -1,5 +1,6 @@
 //! Two independent ways to every answer, over both backends: oracle and shadow, or oracle and
-//! difference, on generated queries, and on the public sets with their labels where `../shared/data` is present.
+//! difference, on generated queries, and on the public sets with their labels where
+//! `../shared/data` is present.
 //!
 //! With the feature `gmp` the default backend is GMP, and the comparisons with `num-bigint` are
 //! between two implementations of arithmetic; without it they hold trivially.
@@ -24,7 +25,8 @@ fn by_shadow<Z: Integer>(query: &EdgeEdge) -> ExactAnswer {
     shadow::edge_edge::<Z>(query, tunnelproof::thesis::Repairs::ALL)
 }
 
-/// Calls `check` on every query of this kind of the public sets, which are skipped where they are not.
+/// Calls `check` on every query of this kind of the public sets, which are skipped where they are
+/// not.
 fn for_every_public_query(kind: QueryKind, check: impl Fn(&Entry)) {
     for set in public::SETS {
         public::set(set, kind).iter().for_each(&check);

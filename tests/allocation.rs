@@ -16,8 +16,8 @@ fn moved(query: &EdgeEdge, factor: f64, offset: f64) -> EdgeEdge {
     EdgeEdge::new(start.map(moved), end.map(moved), 0.0).expect("finite coordinates")
 }
 
-/// Whether the nonzero coordinates are within a factor of 1e12, as those between 1e-6 and 1e6 are, and a
-/// time of impact is not below 1e-12 unless it is 0.
+/// Whether the nonzero coordinates are within a factor of 1e12, as those between 1e-6 and 1e6 are,
+/// and a time of impact is not below 1e-12 unless it is 0.
 fn is_ordinary(query: &EdgeEdge) -> bool {
     let points = query.start().iter().chain(query.end());
     let sizes = points.flat_map(|p| p.iter()).map(|x| x.abs());

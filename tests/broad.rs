@@ -1,5 +1,5 @@
-//! The broad phase against exact arithmetic: swept boxes hold what moves, and no pair is left out that
-//! meets.
+//! The broad phase against exact arithmetic: swept boxes hold what moves, and no pair is left out
+//! that meets.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use num_bigint::BigInt;
@@ -72,8 +72,8 @@ proptest! {
     }
 }
 
-/// A scene that changes: where segments are placed, one step after the other, and their radius. Lengths,
-/// speeds and radii are of every proportion; some segments hardly move, some jump.
+/// A scene that changes: where segments are placed, one step after the other, and their radius.
+/// Lengths, speeds and radii are of every proportion; some segments hardly move, some jump.
 #[derive(Clone, Debug)]
 struct Scene {
     radius: f64,
@@ -113,8 +113,8 @@ fn scene() -> impl Strategy<Value = Scene> {
     )
 }
 
-/// Runs a scene; returns how many pairs were left out of tests, having asked the oracle about all that
-/// broad phase and exclusion leave out.
+/// Runs a scene; returns how many pairs were left out of tests, having asked the oracle about all
+/// that broad phase and exclusion leave out.
 fn run(scene: &Scene, method: Method) -> u64 {
     let mut broad = BroadPhase::new(method);
     let mut slow = SlowPairs::default();

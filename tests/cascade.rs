@@ -62,8 +62,8 @@ fn shares(queries: impl Iterator<Item = EdgeEdge>) -> BTreeMap<Stage, f64> {
         .collect()
 }
 
-/// The most that integers may decide of each family, in percent: what they did when this was written,
-/// rounded up.
+/// The most that integers may decide of each family, in percent: what they did when this was
+/// written, rounded up.
 const EXACT_AT_MOST: &[(&str, f64)] = &[
     ("uniform", 0.01),
     ("lattice", 42.0),

@@ -1,5 +1,5 @@
-//! The certified path and its exact stage alone against the oracle: the same answer to every query, in
-//! every bit.
+//! The certified path and its exact stage alone against the oracle: the same answer to every query,
+//! in every bit.
 //!
 //! `TUNNELPROOF_CASES` sets the number of queries of a kind.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]

@@ -45,7 +45,8 @@ struct Place {
     file: String,
 }
 
-/// The columns of names, by their heads: the folder that their files are in, and whether they hold tests.
+/// The columns of names, by their heads: the folder that their files are in, and whether they hold
+/// tests.
 const COLUMNS: [(&str, &str, bool); 7] = [
     ("engine", "src/", false),
     ("shadow", "reference/src/shadow/", false),

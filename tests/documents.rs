@@ -1,5 +1,5 @@
-//! The pages hold together: links lead somewhere, files that are named exist, the index has every page, the
-//! front page is short, and the thesis is cited wherever it is named.
+//! The pages hold together: links lead somewhere, files that are named exist, the index has every
+//! page, the front page is short, and the thesis is cited wherever it is named.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

@@ -1,5 +1,5 @@
-//! The generated families are what they are for: hits and misses, edges that come near each other, and
-//! the weakness that each is named for shows.
+//! The generated families are what they are for: hits and misses, edges that come near each other,
+//! and the weakness that each is named for shows.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::collections::BTreeMap;

@@ -1,5 +1,5 @@
-//! Faults planted in the thesis path are found by certification: a threshold raised, a root dropped, a
-//! case skipped. Each is compared with the same run without the fault.
+//! Faults planted in the thesis path are found by certification: a threshold raised, a root
+//! dropped, a case skipped. Each is compared with the same run without the fault.
 
 use tunnelproof::contact::{Case, Verdict};
 use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};

@@ -1,5 +1,5 @@
-//! What does not depend on names, handedness or units: the answers of oracle, shadow and certified path
-//! to a query and to the same query seen otherwise.
+//! What does not depend on names, handedness or units: the answers of oracle, shadow and certified
+//! path to a query and to the same query seen otherwise.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,

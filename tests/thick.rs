@@ -1,5 +1,5 @@
-//! The certified path with a radius above 0, and its exact stage alone, against the oracle: the same answer to
-//! every query, in every bit.
+//! The certified path with a radius above 0, and its exact stage alone, against the oracle: the
+//! same answer to every query, in every bit.
 //!
 //! `TUNNELPROOF_CASES` sets the number of queries of a kind.
 
@@ -25,7 +25,8 @@ fn families() -> impl Iterator<Item = &'static Family> {
     families.filter(|family| family.name().starts_with("thick"))
 }
 
-/// What both kinds of hits have in common: `[toi, toi_above]`, kind and side, places as `(u, v)` with their error.
+/// What both kinds of hits have in common: `[toi, toi_above]`, kind and side, places as `(u, v)`
+/// with their error.
 #[derive(Debug)]
 struct Said {
     toi: Enclosure,
@@ -119,8 +120,9 @@ fn is_same(said: Option<&Said>, exact: &ExactAnswer) -> bool {
         && said.places.iter().zip(&places).all(is_near)
 }
 
-/// The most that integers may decide of each family, in percent: some points more than they did when this was
-/// written. Half of the radii are distances at the ends of the step, which `f64` cannot tell from a miss.
+/// The most that integers may decide of each family, in percent: some points more than they did
+/// when this was written. Half of the radii are distances at the ends of the step, which `f64`
+/// cannot tell from a miss.
 const EXACT_AT_MOST: &[(&str, f64)] = &[
     ("thick_uniform", 12.0),
     ("thick_lattice", 54.0),
@@ -207,8 +209,9 @@ fn thick_certified_finds_figure_4_7_at_the_exact_time() {
     assert!(answers(&just_less).0.iter().all(Option::is_none));
 }
 
-/// Ends of two edges meet, one of which is so long beside the radius that rounding outweighs how fast the distance falls. A
-/// find of the fuzzer: with the sign of that speed wrong, its root was taken for one ahead.
+/// Ends of two edges meet, one of which is so long beside the radius that rounding outweighs how
+/// fast the distance falls. A find of the fuzzer: with the sign of that speed wrong, its root was
+/// taken for one ahead.
 #[test]
 fn thick_certified_where_rounding_outweighs_the_speed_agrees() {
     let mut by_planes = 0;
@@ -263,8 +266,8 @@ fn thick_batch_is_certified_one_by_one() {
     assert_eq!((edges.decide(), faces.decide()), (edge_hits, face_hits));
 }
 
-/// The public sets, both kinds, the first thousands of each, with radii of a tenth and a thousandth of the size of
-/// a query.
+/// The public sets, both kinds, the first thousands of each, with radii of a tenth and a thousandth
+/// of the size of a query.
 #[test]
 fn thick_certified_agrees_with_the_oracle_on_public_sets() {
     let mut shares: BTreeMap<Stage, u32> = BTreeMap::new();

@@ -1,5 +1,5 @@
-//! The certified path for a vertex and a face, and its exact stage alone, against the description of
-//! contact evaluated at every candidate: the same answer to every query, in every bit.
+//! The certified path for a vertex and a face, and its exact stage alone, against the description
+//! of contact evaluated at every candidate: the same answer to every query, in every bit.
 //!
 //! `TUNNELPROOF_CASES` sets the number of queries of a kind.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
@@ -147,8 +147,8 @@ fn vertex_face_is_exact_on_the_points_of_every_family() {
     }
 }
 
-/// The most that integers may decide of the points of each family, C against ABD, in percent: what they did
-/// when this was written, rounded up.
+/// The most that integers may decide of the points of each family, C against ABD, in percent: what
+/// they did when this was written, rounded up.
 const EXACT_AT_MOST: &[(&str, f64)] = &[
     ("uniform", 0.01),
     ("lattice", 68.0),

@@ -1,5 +1,5 @@
-//! Guard mode by the exact oracle: random wires at hard speeds, and no motion that is made, changes of
-//! resolution included, in which midlines meet.
+//! Guard mode by the exact oracle: random wires at hard speeds, and no motion that is made, changes
+//! of resolution included, in which midlines meet.
 //!
 //! `TUNNELPROOF_SCENES=10000 cargo test --release --test wire_guard` for more scenes.
 
@@ -141,8 +141,8 @@ fn meetings(record: &StepRecord) -> usize {
     count
 }
 
-/// Makes a change of resolution; segments that its triangle meets. Unlike the stepper, it sweeps the triangle
-/// around its middle.
+/// Makes a change of resolution; segments that its triangle meets. Unlike the stepper, it sweeps
+/// the triangle around its middle.
 fn remesh(wires: &mut [Wire], change: &Remesh) -> usize {
     let [a, b, c] = change.triangle;
     let mut count = 0;
@@ -267,8 +267,8 @@ fn guard_commits_no_motion_in_which_midlines_meet() {
     assert!(tally.riding > 0);
 }
 
-/// Scenes in which steps were once refused: chains whose segments pull in turns, one that threw a coordinate to
-/// infinity, and contact nodes over which all of a segment would have slid.
+/// Scenes in which steps were once refused: chains whose segments pull in turns, one that threw a
+/// coordinate to infinity, and contact nodes over which all of a segment would have slid.
 #[test]
 fn guard_does_every_step_of_scenes_that_were_hard() {
     for seed in [72, 1066, 1122, 1515, 3243, 6060, 6644, 9114] {

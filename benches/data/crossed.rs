@@ -6,8 +6,9 @@ use tunnelproof::wire::{BodyPlan, Collisions, Material, Settings, Shape, Stop, W
 /// Segments of each wire that lies across, and of the long one between two of them.
 const EACH: usize = 5;
 
-/// So many steel wires of a quarter metre a segment lie along a deck and across it: half of the segments are one long
-/// wire on the deck, the others are short ones that lie on it. All are at rest, nearly.
+/// So many steel wires of a quarter metre a segment lie along a deck and across it: half of the
+/// segments are one long wire on the deck, the others are short ones that lie on it. All are at
+/// rest, nearly.
 pub(crate) fn world(segments: usize) -> (World, Collisions<'static>) {
     const WARM_UP: usize = 5;
     const LENGTH: f64 = 0.25;

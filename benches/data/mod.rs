@@ -30,8 +30,8 @@ pub(crate) fn sets() -> impl Iterator<Item = (&'static str, Vec<EdgeEdge>)> {
     made.filter(|(_, queries)| !queries.is_empty())
 }
 
-/// A set with a radius: a twentieth of the mean length of its edges at the start, as of wires ten times as long as
-/// thick.
+/// A set with a radius: a twentieth of the mean length of its edges at the start, as of wires ten
+/// times as long as thick.
 #[allow(dead_code, reason = "not every bench asks for these")]
 pub(crate) fn thick(queries: &[EdgeEdge]) -> Vec<EdgeEdge> {
     let length = |query: &EdgeEdge| {

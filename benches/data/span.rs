@@ -6,8 +6,9 @@ use tunnelproof::wire::{Material, Settings, Stop, WirePlan, World};
 /// The numbers of segments that are measured.
 pub(crate) const SEGMENTS: [usize; 4] = [10, 100, 1000, 10_000];
 
-/// A steel wire in segments of a quarter metre between two pins that sags as a parabola by a tenth of its span and has swung
-/// for some steps. In so little gravity that a long wire is not tighter than a short one.
+/// A steel wire in segments of a quarter metre between two pins that sags as a parabola by a tenth
+/// of its span and has swung for some steps. In so little gravity that a long wire is not tighter
+/// than a short one.
 pub(crate) fn world(segments: usize) -> World {
     const WARM_UP: usize = 5;
     let span = 0.24 * segments as f64;

@@ -10,8 +10,9 @@ const APART: f64 = 0.15;
 /// The length of a step in seconds.
 const STEP: f64 = 1.0 / 60.0;
 
-/// Wires of 3 m in segments of a decimetre, hung across each other in a box of 4 m, swinging and waving
-/// at up to about 5 m/s: every pair of segments that are not neighbours and whose swept boxes overlap.
+/// Wires of 3 m in segments of a decimetre, hung across each other in a box of 4 m, swinging and
+/// waving at up to about 5 m/s: every pair of segments that are not neighbours and whose swept
+/// boxes overlap.
 pub(crate) fn pairs() -> Vec<EdgeEdge> {
     let starts = (0..STEPS).map(|step| step as f64 * APART);
     starts.flat_map(pairs_of_step).collect()

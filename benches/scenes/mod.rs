@@ -51,8 +51,8 @@ impl Scene {
     }
 }
 
-/// A wire in turns of half a metre radius that lie next to each other, and a wave that runs through it at
-/// up to 2 m/s.
+/// A wire in turns of half a metre radius that lie next to each other, and a wave that runs through
+/// it at up to 2 m/s.
 fn coil(count: usize) -> Scene {
     let node = |index: usize, time: f64| {
         let along = index as f64 * LENGTH;

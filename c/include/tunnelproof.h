@@ -93,7 +93,8 @@ typedef struct tunnelproof_hit {
    * which is at most 2^-32. */
   double place_error;
   /* The unit vector along which they touch, from the first side to the second as they are just
-   * before the contact. 0, 0, 0 where there is none: they touch at the start of the step. */
+   * before the contact. 0, 0, 0 where there is none: they share a point at the start of the
+   * step. */
   double normal[3];
   /* The distance of `normal` from the exact one is at most this. */
   double normal_error;

@@ -1,7 +1,7 @@
 //! The certified path for C: `include/tunnelproof.h`, which documents it, function for function.
 //!
-//! Pointers are all that is unsafe here. Each function reads its arguments as slices in one place, next to
-//! the header's promise that makes it sound, and works on those.
+//! Pointers are all that is unsafe here. Each function reads its arguments as slices in one place,
+//! next to the header's promise that makes it sound, and works on those.
 
 use std::ffi::{CStr, c_char};
 use std::mem::MaybeUninit;

@@ -1,5 +1,6 @@
-//! Draws the picture of the README: a wire that falls on two others at 10 m/s, with detection at the
-//! ends of steps alone and with guard mode, each from a simulation of the scene `basic-collision`.
+//! Draws the picture of the README: a wire that falls on two others at 10 m/s, with detection at
+//! the ends of steps alone and with guard mode, each from a simulation of the scene
+//! `basic-collision`.
 //!
 //! ```text
 //! cargo run --release -p tunnelproof-cli --example tunnel_picture > docs/pictures/tunnel.svg

@@ -1,5 +1,5 @@
-//! What the command `tunnelproof` is made of: sweeps and searches over the thesis' thresholds, scenes and
-//! their audit, pages, test vectors and fuzz targets.
+//! What the command `tunnelproof` is made of: sweeps and searches over the thesis' thresholds,
+//! scenes and their audit, pages, test vectors and fuzz targets.
 
 pub mod audit;
 pub mod fuzz;

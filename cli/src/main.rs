@@ -1,4 +1,5 @@
-//! The command line: `eval`, `certify`, `merge`, `explain`, `shrink`, `replay`, `vectors`, `sweep` and `tune`.
+//! The command line: `eval`, `certify`, `merge`, `explain`, `shrink`, `replay`, `vectors`, `sweep`
+//! and `tune`.
 
 use std::process::ExitCode;
 

@@ -1,4 +1,5 @@
-//! Scenes that start a little elsewhere: what holds of a scene should not hang on its last millimetre.
+//! Scenes that start a little elsewhere: what holds of a scene should not hang on its last
+//! millimetre.
 
 use crate::scenes::{Scene, Stop};
 use rand::RngExt;
@@ -8,9 +9,9 @@ use rand_chacha::rand_core::SeedableRng;
 /// How far each coordinate is moved at most if nothing else is said, in m.
 pub const USUAL: f64 = 0.001;
 
-/// The scene with every body, and every free and every pinned point of a wire, moved along each axis by up to so many metres. The same seed
-/// gives the same scene. Eyes move with their bodies; lengths of wires stay what the file says, and what it leaves
-/// out follows the points.
+/// The scene with every body, and every free and every pinned point of a wire, moved along each
+/// axis by up to so many metres. The same seed gives the same scene. Eyes move with their bodies;
+/// lengths of wires stay what the file says, and what it leaves out follows the points.
 pub fn perturbed(scene: &Scene, seed: u64, most: f64) -> Scene {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut scene = scene.clone();

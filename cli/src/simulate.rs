@@ -16,8 +16,8 @@ use tunnelproof::wire::{CrossingOutcome, Mode, StepError, StepRecord, World};
 use crate::sweep::Setting;
 use tunnelproof_reference::certify::table::grouped;
 
-/// No continuous detection at all: wires get contacts where they overlap at the end of a step. In guard mode changes of
-/// resolution are tested still: no time passes in them.
+/// No continuous detection at all: wires get contacts where they overlap at the end of a step. In
+/// guard mode changes of resolution are tested still: no time passes in them.
 pub struct Discrete;
 
 impl NarrowPhase for Discrete {
@@ -147,7 +147,8 @@ pub struct Summary {
 }
 
 impl Run<'_> {
-    /// Runs the scene to its end, and shows every step to `observe`. A step that cannot be done ends the run.
+    /// Runs the scene to its end, and shows every step to `observe`. A step that cannot be done
+    /// ends the run.
     ///
     /// # Errors
     ///

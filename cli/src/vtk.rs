@@ -1,7 +1,9 @@
-//! A run for ParaView: a file of polygons (`.vtp`) for each step, and a `.pvd` that puts them on a clock.
+//! A run for ParaView: a file of polygons (`.vtp`) for each step, and a `.pvd` that puts them on a
+//! clock.
 //!
-//! A `.vtp` has every segment as a line, with its tension in N, its radius in m and its wire, and every contact as a point with
-//! the force on its place A in N. The formats are those of VTK's XML, in text.
+//! A `.vtp` has every segment as a line, with its tension in N, its radius in m and its wire, and
+//! every contact as a point with the force on its place A in N. The formats are those of VTK's XML,
+//! in text.
 
 use std::fmt::Write as _;
 

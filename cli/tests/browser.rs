@@ -1,8 +1,8 @@
-//! The pages of `sweep`, `tune`, `certify` and `simulate` in a real browser: they are drawn, on a telephone and on a
-//! desk, light and dark, without an error on the console; the last one plays.
+//! The pages of `sweep`, `tune`, `certify` and `simulate` in a real browser: they are drawn, on a
+//! telephone and on a desk, light and dark, without an error on the console; the last one plays.
 //!
-//! The browser is Chromium, without a window. Where there is none the test is skipped and says so; with
-//! `TUNNELPROOF_BROWSER=required` in the environment it fails.
+//! The browser is Chromium, without a window. Where there is none the test is skipped and says so;
+//! with `TUNNELPROOF_BROWSER=required` in the environment it fails.
 
 #![allow(
     clippy::unwrap_used,

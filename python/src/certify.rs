@@ -5,6 +5,7 @@ use std::sync::Arc;
 use numpy::{PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use tunnelproof_cli::report::page;
 use tunnelproof_reference::certify::findings::{Findings, Settings};
 use tunnelproof_reference::certify::judged::Judged;
 use tunnelproof_reference::certify::run::Panel;
@@ -13,7 +14,6 @@ use tunnelproof_reference::certify::source::Source;
 use tunnelproof_reference::certify::table;
 use tunnelproof_reference::generate;
 use tunnelproof_reference::report::merge::{Kept, merge as join};
-use tunnelproof_cli::report::page;
 use tunnelproof_reference::report::results::Results;
 
 use crate::method::Method;

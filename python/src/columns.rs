@@ -3,8 +3,9 @@
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use tunnelproof::{Case, ContactKind};
 
-/// Columns by name. The first is `hit`; where it is false the others have NaN, false or 0.
+/// Columns by name, a row for each query. Where there is no hit they have NaN, false or 0.
 pub(crate) struct Columns<'a, 'py, H> {
     hits: &'a [Option<H>],
     pub(crate) dict: Bound<'py, PyDict>,
@@ -41,11 +42,30 @@ impl<'a, 'py, H> Columns<'a, 'py, H> {
             .set_item(name, PyArray1::from_iter(self.py, flags))
     }
 
-    /// `hit` and `side`, with which every answer ends.
-    pub(crate) fn sides(&mut self, of: impl Fn(&H) -> i8) -> PyResult<()> {
-        self.flags("hit", |_| true)?;
-        let sides = self.hits.iter().map(|hit| hit.as_ref().map_or(0, &of));
+    /// A small number of each hit, 0 where there is none.
+    pub(crate) fn codes(&mut self, name: &str, of: impl Fn(&H) -> i8) -> PyResult<()> {
+        let codes = self.hits.iter().map(|hit| hit.as_ref().map_or(0, &of));
         self.dict
-            .set_item("side", PyArray1::from_iter(self.py, sides))
+            .set_item(name, PyArray1::from_iter(self.py, codes))
+    }
+}
+
+/// The value of `ContactKind` in Python.
+pub(crate) fn kind(kind: ContactKind) -> i8 {
+    match kind {
+        ContactKind::Crossing => 1,
+        ContactKind::Graze => 2,
+    }
+}
+
+/// The value of `Case` in Python.
+pub(crate) fn case(case: Case) -> i8 {
+    match case {
+        Case::General => 1,
+        Case::Coplanar => 2,
+        Case::Parallel => 3,
+        Case::Collinear => 4,
+        Case::SharedStart => 5,
+        Case::Degenerate => 6,
     }
 }

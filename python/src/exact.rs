@@ -4,14 +4,13 @@ use numpy::{PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
-use tunnelproof::contact::ContactKind;
 use tunnelproof_reference::answer::{Enclosure, ExactHit};
 use tunnelproof_reference::{field, oracle};
 
-use crate::columns::Columns;
+use crate::columns::{self, Columns};
 use crate::queries::{self, Refused, Rows};
 
-/// The columns of `ExactContacts`.
+/// The columns of `ExactHits`.
 #[pyfunction]
 pub(crate) fn exact<'py>(
     py: Python<'py>,
@@ -28,11 +27,14 @@ pub(crate) fn exact<'py>(
     })?;
     let ends = |x: Enclosure| [x.below, x.above];
     let mut columns = Columns::new(py, &hits);
+    columns.flags("hit", |_| true)?;
     columns.numbers("toi", |hit: &ExactHit| ends(hit.toi))?;
-    columns.numbers("u", |hit| ends(hit.first.u))?;
-    columns.numbers("v", |hit| ends(hit.first.v))?;
-    columns.flags("is_crossing", |hit| hit.kind == ContactKind::Crossing)?;
+    columns.codes("kind", |hit| columns::kind(hit.kind))?;
     columns.flags("crosses", |hit| hit.crosses)?;
-    columns.sides(|hit| hit.side)?;
+    columns.codes("side", |hit| hit.side)?;
+    columns.numbers("weights", |hit| {
+        let ([a, b], [c, d]) = (ends(hit.first.u), ends(hit.first.v));
+        [a, b, c, d]
+    })?;
     Ok(columns.dict)
 }

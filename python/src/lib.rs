@@ -14,7 +14,7 @@ mod queries;
 #[pymodule]
 mod _tunnelproof {
     #[pymodule_export]
-    use crate::certified::{edge_edge, vertex_face};
+    use crate::certified::decide;
     #[pymodule_export]
     use crate::certify::{certify, merge};
     #[pymodule_export]

@@ -9,11 +9,8 @@ import tunnelproof
 
 
 def certified(kind, points, radii):
-    if kind == "edge-edge":
-        contacts = tunnelproof.edge_edge(points, radii)
-    else:
-        contacts = tunnelproof.vertex_face(points, radii)
-    return contacts.hit, contacts.toi
+    hits = tunnelproof.decide(kind, points, radii)
+    return hits.hit, hits.toi
 
 
 def test_certified_path_passes_on_every_family():

@@ -167,8 +167,8 @@ impl<Z: Integer> Poly<Z> {
         value
     }
 
-    /// `denominator^degree p(numerator / denominator)`, the denominator above 0: has the sign of `p`
-    /// there.
+    /// `denominator^degree p(numerator / denominator)`, the denominator above 0: has the sign of
+    /// `p` there.
     pub fn evaluate(&self, numerator: &Z, denominator: &Z) -> Z {
         let Some(leading) = self.leading() else {
             return Z::zero();
@@ -338,7 +338,8 @@ impl<Z: Integer> Poly<Z> {
         other.pseudo_remainder(self).is_zero()
     }
 
-    /// The remainder of `leading(other)^(1 + deg self - deg other) self` by `other`, which is not 0.
+    /// The remainder of `leading(other)^(1 + deg self - deg other) self` by `other`, which is not
+    /// 0.
     fn pseudo_remainder(&self, other: &Self) -> Self {
         let Some(leading) = other.leading() else {
             return Poly::zero();

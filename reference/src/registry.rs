@@ -14,7 +14,8 @@ use crate::shadow::Shadow;
 use crate::shrink::Truth;
 use crate::subject::{Answer, Certified, Engine, Subject};
 
-/// Agrees with the oracle on every query that it takes, or one of the two is wrong: edges without radius.
+/// Agrees with the oracle on every query that it takes, or one of the two is wrong: edges without
+/// radius.
 pub static SECOND_JUDGE: Shadow = Shadow::REPAIRED;
 
 /// The second judges: of those that take a query, the first is asked.
@@ -64,8 +65,8 @@ pub fn truths() -> [(&'static str, Truth); 3] {
     ]
 }
 
-/// The names of a smallest set of errata whose repair makes the published text give the exact answer;
-/// of equals the first in the order of the algorithms.
+/// The names of a smallest set of errata whose repair makes the published text give the exact
+/// answer; of equals the first in the order of the algorithms.
 pub fn errata(query: &Query, truth: &ExactAnswer) -> Vec<&'static str> {
     let exact = Ok(Answer::Exact(*truth));
     let enough = |repairs: &Repairs| Shadow::new(*repairs).answer(query) == exact;

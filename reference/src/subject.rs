@@ -22,8 +22,8 @@ pub trait Subject: Sync {
     /// [`NoAnswer`] for a query that the subject does not take, or that it fails on.
     fn answer(&self, query: &Query) -> Result<Answer, NoAnswer>;
 
-    /// The answers to several queries, as many and in their order. One that makes the subject panic has
-    /// none.
+    /// The answers to several queries, as many and in their order. One that makes the subject panic
+    /// has none.
     fn answers(&self, queries: &[Query]) -> Vec<Result<Answer, NoAnswer>> {
         let answer = |query| {
             let attempt = catch_unwind(AssertUnwindSafe(|| self.answer(query)));
@@ -44,7 +44,8 @@ pub trait Subject: Sync {
 pub enum Answer {
     /// An exact subject: every number enclosed by its neighbours.
     Exact(ExactAnswer),
-    /// The certified path, `None` for a miss: everything exact but the place, which has a stated error.
+    /// The certified path, `None` for a miss: everything exact but the place, which has a stated
+    /// error.
     Certified(Option<Hit<Place>>),
     /// An engine: every number in `f64`.
     Engine(Report),

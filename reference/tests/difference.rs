@@ -1,5 +1,5 @@
-//! The two exact judges of all kinds of queries against each other, in every field of the answer, on
-//! lattices and with every number's bits.
+//! The two exact judges of all kinds of queries against each other, in every field of the answer,
+//! on lattices and with every number's bits.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use num_bigint::BigInt;

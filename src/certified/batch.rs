@@ -1,7 +1,8 @@
 //! Many queries at once, coordinates in separate arrays.
 //!
-//! The first stages of the cascade are taken for a block of queries at once (`block`); what they leave
-//! goes through the rest one by one. So do, from the start, the queries of a batch that has radii above 0.
+//! The first stages of the cascade are taken for a block of queries at once (`block`); what they
+//! leave goes through the rest one by one. So do, from the start, the queries of a batch that has
+//! radii above 0.
 
 use std::marker::PhantomData;
 use std::ops::Range;
@@ -18,11 +19,11 @@ use crate::query::{Point, QueryError, Radius};
 /// How many blocks are not screened after one for which that did not pay.
 const UNSCREENED: u32 = 15;
 
-/// Queries of one kind, [`EdgeEdge`](crate::query::EdgeEdge) or [`VertexFace`](crate::query::VertexFace), as a
-/// structure of arrays.
+/// Queries of one kind, [`EdgeEdge`](crate::query::EdgeEdge) or
+/// [`VertexFace`](crate::query::VertexFace), as a structure of arrays.
 ///
-/// It is for candidate pairs as a broad phase delivers them, of which few touch. The answers are those of
-/// [`decide`](super::decide), bit for bit.
+/// It is for candidate pairs as a broad phase delivers them, of which few touch. The answers are
+/// those of [`decide`](super::decide), bit for bit.
 ///
 /// ```
 /// use tunnelproof::{Batch, EdgeEdge, Point};
@@ -102,8 +103,8 @@ impl<K: Kind> Batch<K> {
     ///
     /// # Errors
     ///
-    /// [`BatchError`] if the arrays differ in length or hold a number that is not finite, or if the radius is
-    /// not a finite number of at least 0.
+    /// [`BatchError`] if the arrays differ in length or hold a number that is not finite, or if the
+    /// radius is not a finite number of at least 0.
     pub fn from_arrays(
         coordinates: [Vec<f64>; 24],
         radius: impl Into<Radius>,
@@ -148,8 +149,8 @@ impl<K: Kind> Batch<K> {
         hits
     }
 
-    /// As [`decide`](Self::decide): calls `hit` for each hit, in order, and says for each query, in any order, which
-    /// stage decided it. Allocates nothing.
+    /// As [`decide`](Self::decide): calls `hit` for each hit, in order, and says for each query, in
+    /// any order, which stage decided it. Allocates nothing.
     pub fn decide_observed(
         &self,
         hit: impl FnMut(usize, Hit<K::Place>),

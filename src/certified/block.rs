@@ -1,8 +1,8 @@
 //! The first stages of the cascade for many queries at once.
 //!
 //! They are arithmetic without branches, so over arrays the compiler does several queries in one
-//! instruction, as many as the registers of the processor hold: what it has is found out at run time.
-//! The answers are the same in every bit, as no operation is contracted or reordered.
+//! instruction, as many as the registers of the processor hold: what it has is found out at run
+//! time. The answers are the same in every bit, as no operation is contracted or reordered.
 
 use std::array;
 use std::marker::PhantomData;
@@ -14,8 +14,8 @@ use super::ends::{Ends, Plain};
 use super::kind::Kind;
 use super::stage::Stage;
 
-/// How many queries go through a stage together: enough that few lanes are idle in the later stages,
-/// few enough that their coordinates stay in the cache.
+/// How many queries go through a stage together: enough that few lanes are idle in the later
+/// stages, few enough that their coordinates stay in the cache.
 pub(super) const BLOCK: usize = 256;
 
 /// How many queries lie side by side: a few registers, whatever the processor.
@@ -60,9 +60,9 @@ impl Block {
         &self.open[..self.count]
     }
 
-    /// The first three stages, and the fourth as far as it goes without a branch: a miss at the only
-    /// root. Stops after the first two where they decide little: then most of these pairs touch, and one
-    /// by one is faster. Returns whether it went on.
+    /// The first three stages, and the fourth as far as it goes without a branch: a miss at the
+    /// only root. Stops after the first two where they decide little: then most of these pairs
+    /// touch, and one by one is faster. Returns whether it went on.
     pub(super) fn screen<K: Kind>(&mut self, observe: &mut impl FnMut(Stage)) -> bool {
         let all = self.count;
         let apart = self.test(Apart::<K>(PhantomData));

@@ -13,14 +13,15 @@ use crate::contact::{Case, Hit};
 
 /// Whether and when the two sides of a query touch: certified, without thresholds.
 ///
-/// The query is an [`EdgeEdge`](crate::query::EdgeEdge) or a [`VertexFace`](crate::query::VertexFace). With a radius
-/// above 0, contact is a distance of at most the radius.
+/// The query is an [`EdgeEdge`](crate::query::EdgeEdge) or a
+/// [`VertexFace`](crate::query::VertexFace). With a radius above 0, contact is a distance of at
+/// most the radius.
 ///
 /// # Guarantee
 ///
-/// No hit is false, no contact is missed, and [`toi`](Hit::toi) is the exact time of impact rounded down,
-/// for every finite query. The proofs assume rounding to nearest and gradual underflow, which is what Rust
-/// sets up.
+/// No hit is false, no contact is missed, and [`toi`](Hit::toi) is the exact time of impact rounded
+/// down, for every finite query. The proofs assume rounding to nearest and gradual underflow, which
+/// is what Rust sets up.
 ///
 /// # Example
 ///
@@ -56,8 +57,9 @@ pub fn decide_observed<K: Kind>(
 
 /// As [`decide`], by integer arithmetic alone.
 ///
-/// It takes about a microsecond where the coordinates are of similar magnitude, and up to milliseconds
-/// where their exponents span the range of `f64`; with a radius above 0, about fifty times that.
+/// It takes about a microsecond where the coordinates are of similar magnitude, and up to
+/// milliseconds where their exponents span the range of `f64`; with a radius above 0, about fifty
+/// times that.
 pub fn decide_exactly<K: Kind>(query: &K) -> Option<Hit<K::Place>> {
     let ([start, end], radius) = query.parts();
     let positions = Positions::of(start, end);

@@ -9,10 +9,10 @@ use crate::query::Point;
 impl<P> Hit<P> {
     /// The contact in space, from the positions at [`toi`](Hit::toi).
     ///
-    /// With `S` the largest magnitude of a coordinate of the first side, and `e` the error of the place, each
-    /// coordinate of a point is within `(8 * 2^-53 + 2 e + 2 (toi_above - toi)) S` of the exact one. The relative
-    /// velocity is a difference of differences of positions: where these cancel it loses accuracy in the same
-    /// measure. The normal is that of [`Hit::normal`].
+    /// With `S` the largest magnitude of a coordinate of the first side, and `e` the error of the
+    /// place, each coordinate of a point is within `(8 * 2^-53 + 2 e + 2 (toi_above - toi)) S` of
+    /// the exact one. The relative velocity is a difference of differences of positions: where
+    /// these cancel it loses accuracy in the same measure. The normal is that of [`Hit::normal`].
     pub fn contact<K: Kind<Place = P>>(&self, query: &K) -> Contact {
         let (first, second) = self.points(query);
         Contact {
@@ -30,19 +30,21 @@ impl<P> Hit<P> {
         (point(first), second.map(point))
     }
 
-    /// The contact normal: the unit vector along which the sides are nearest, from the first side (the edge
-    /// AB, or the vertex A) to the second (the edge CD, or the face BCD), and a bound on its error.
+    /// The contact normal: the unit vector along which the sides are nearest, from the first side
+    /// (the edge AB, or the vertex A) to the second (the edge CD, or the face BCD), and a bound on
+    /// its error.
     ///
-    /// It is the direction of the shortest vector from the first side to the second, in the limit just
-    /// before the contact; with a radius, at the contact:
+    /// It is the direction of the shortest vector from the first side to the second, in the limit
+    /// just before the contact; with a radius, at the contact:
     ///
-    /// - Inside two edges that meet at an angle: the common perpendicular. Inside a face: the face's normal.
+    /// - Inside two edges that meet at an angle: the common perpendicular. Inside a face: the
+    ///   face's normal.
     /// - With a radius: the line of the nearest points.
-    /// - At ends of edges and corners, for parallel and coplanar motion: the same limit, in integers. It
-    ///   takes tens of microseconds there, else well under one.
+    /// - At ends of edges and corners, for parallel and coplanar motion: the same limit, in
+    ///   integers. It takes tens of microseconds there, else well under one.
     ///
-    /// `None` if and only if the sides touch at the start of the step: then there is no direction that
-    /// they come from.
+    /// `None` if and only if the sides touch at the start of the step: then there is no direction
+    /// that they come from.
     ///
     /// ```
     /// use tunnelproof::nalgebra::Vector3;

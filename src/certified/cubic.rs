@@ -17,24 +17,24 @@ pub(super) struct Cubic {
 }
 
 impl Cubic {
-    /// Error bound. `f` is trilinear in `M`, `K`, `L`, so its Bernstein coefficients are averages of
-    /// determinants `det(M_a, K_b, L_c)` at the ends `a`, `b`, `c` of the step:
+    /// Error bound. `f` is trilinear in `M`, `K`, `L`, so its Bernstein coefficients are averages
+    /// of determinants `det(M_a, K_b, L_c)` at the ends `a`, `b`, `c` of the step:
     ///
     /// ```text
     /// b0 = (000), 3 b1 = (100) + (010) + (001), 3 b2 = (110) + (101) + (011), b3 = (111)
     /// ```
     ///
-    /// With `k_i`, `l_i`, `m_i` the larger magnitudes at both ends and `P` the permanent, the sum of
-    /// `m_h (k_i l_j + k_j l_i)`, every determinant is at most `P` in magnitude, and so is the sum of
-    /// the magnitudes of its six terms. A term passes three rounded differences, two products and at
-    /// most five sums and the division: its relative error is below `12 u (1 + 12 u)`, `u = 2^-53`, so
-    /// each coefficient is within `12.1 u P` of the exact one. `P` is computed with a relative error
-    /// below `10 u`. Below, `16 u P`.
+    /// With `k_i`, `l_i`, `m_i` the larger magnitudes at both ends and `P` the permanent, the sum
+    /// of `m_h (k_i l_j + k_j l_i)`, every determinant is at most `P` in magnitude, and so is the
+    /// sum of the magnitudes of its six terms. A term passes three rounded differences, two
+    /// products and at most five sums and the division: its relative error is below
+    /// `12 u (1 + 12 u)`, `u = 2^-53`, so each coefficient is within `12.1 u P` of the exact one.
+    /// `P` is computed with a relative error below `10 u`. Below, `16 u P`.
     ///
-    /// A product that underflows adds at most `2^-1075`, times at most one more factor; [`Cubic::new`]
-    /// returns `None` unless all factors are below `2^180` and `P` is above `2^-650`, so what
-    /// underflow adds (fewer than 40 times `2^-895`) is far below the bound. Overflow cannot
-    /// happen then. NaN and infinities fail the same test.
+    /// A product that underflows adds at most `2^-1075`, times at most one more factor;
+    /// [`Cubic::new`] returns `None` unless all factors are below `2^180` and `P` is above
+    /// `2^-650`, so what underflow adds (fewer than 40 times `2^-895`) is far below the bound.
+    /// Overflow cannot happen then. NaN and infinities fail the same test.
     #[inline(always)]
     pub(super) fn new<E: Ends>(motion: &Motion<E>) -> Option<Self> {
         let cubic = Self::unchecked(motion);

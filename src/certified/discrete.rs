@@ -1,8 +1,8 @@
 //! Two edges at one instant: how near they are, and whether that is within a radius.
 //!
-//! What a simulator asks of pairs that do not tunnel. The points found are an upper bound on the distance,
-//! however they were found; a plane between the edges is a lower one. Where the two do not tell on
-//! which side of the radius the distance is, integers do.
+//! What a simulator asks of pairs that do not tunnel. The points found are an upper bound on the
+//! distance, however they were found; a plane between the edges is a lower one. Where the two do
+//! not tell on which side of the radius the distance is, integers do.
 
 use nalgebra::Vector3;
 
@@ -22,22 +22,23 @@ pub struct Proximity {
     pub distance_low: f64,
     /// Nor is it above this.
     ///
-    /// The two are about `2^-26` of the size of the edges apart where these are nearly parallel, else a
-    /// few units in the last place of the coordinates.
+    /// The two are about `2^-26` of the size of the edges apart where these are nearly parallel,
+    /// else a few units in the last place of the coordinates.
     pub distance_high: f64,
     /// Where the edges are nearest; one such place of several.
     ///
-    /// The exact points with these parameters are not farther apart than `distance_high`, and the vector
-    /// from one to the other is within `sqrt(distance_high^2 - distance_low^2)` of the shortest one: that is
-    /// the point nearest to 0 of a convex set, with which other points of the set make no acute angle.
+    /// The exact points with these parameters are not farther apart than `distance_high`, and the
+    /// vector from one to the other is within `sqrt(distance_high^2 - distance_low^2)` of the
+    /// shortest one: that is the point nearest to 0 of a convex set, with which other points of the
+    /// set make no acute angle.
     pub nearest: EdgePoint,
     /// The points of AB and CD with these parameters, rounded.
     pub points: [Point; 2],
     /// The direction from AB to CD. Where they may touch at distance 0 it is that of `K x L` with
     /// `K = B - A` and `L = D - C`, or `None` if they are parallel.
     pub normal: Option<Vector3<f64>>,
-    /// The radius less the distance, up to `distance_high - distance_low` and the rounding of the radius;
-    /// 0 where they do not touch.
+    /// The radius less the distance, up to `distance_high - distance_low` and the rounding of the
+    /// radius; 0 where they do not touch.
     pub depth: f64,
 }
 
@@ -108,8 +109,8 @@ impl Edges {
 
     /// Where the edges are about nearest, and the difference from AB to CD there.
     ///
-    /// The inner points that solve `(M + v L - u K) . K = 0` and `(M + v L - u K) . L = 0`, and every end with
-    /// the point of the other edge that is nearest to it.
+    /// The inner points that solve `(M + v L - u K) . K = 0` and `(M + v L - u K) . L = 0`, and
+    /// every end with the point of the other edge that is nearest to it.
     fn nearest(&self) -> (EdgePoint, Vector) {
         let Edges { k, l, m, .. } = self;
         let (kk, ll, kl) = (dot(k, k), dot(l, l), dot(k, l));
@@ -143,17 +144,18 @@ impl Edges {
         sub(&add(m, &l.map(|x| v * x)), &k.map(|x| u * x))
     }
 
-    /// Bounds on the distance, from a difference between two points of the edges; 0 and infinity if nothing
-    /// better is certain.
+    /// Bounds on the distance, from a difference between two points of the edges; 0 and infinity if
+    /// nothing better is certain.
     ///
-    /// With `u = 2^-53` and the extents `e_i`: a component of the difference passes three rounded differences, two
-    /// products and two sums of values up to `3 e_i`, so it is within `12 u e_i` of that of the exact points,
-    /// and the difference within `12 u |e|`. A length has a relative error below `4 u`.
+    /// With `u = 2^-53` and the extents `e_i`: a component of the difference passes three rounded
+    /// differences, two products and two sums of values up to `3 e_i`, so it is within `12 u e_i`
+    /// of that of the exact points, and the difference within `12 u |e|`. A length has a relative
+    /// error below `4 u`.
     ///
-    /// For any direction `d` no two points are nearer than the least `X . d` of the four differences `X` of
-    /// ends, over `|d|`. That is computed within `22 u S`, `S` the sum of `e_i |d_i|`, as that of
-    /// [`SweptBoxes::is_certain`](super::separate::SweptBoxes::is_certain). `TINY` is far above what underflow
-    /// adds. What overflows is no bound.
+    /// For any direction `d` no two points are nearer than the least `X . d` of the four
+    /// differences `X` of ends, over `|d|`. That is computed within `22 u S`, `S` the sum of
+    /// `e_i |d_i|`, as that of [`SweptBoxes::is_certain`](super::separate::SweptBoxes::is_certain).
+    /// `TINY` is far above what underflow adds. What overflows is no bound.
     fn distance(&self, difference: &Vector) -> (f64, f64) {
         let Edges { k, l, m, extent } = self;
         let high = (length(difference) + 16.0 * U * length(extent) + TINY) * (1.0 + 16.0 * U);

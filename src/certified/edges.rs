@@ -187,7 +187,8 @@ fn decide_at_root<E: Ends>(
     }
 }
 
-/// Whether the edges touch at the root in a sharpened bracket where the lines meet near an edge's end.
+/// Whether the edges touch at the root in a sharpened bracket where the lines meet near an edge's
+/// end.
 #[inline(never)]
 fn decide_near_end<E: Ends>(
     positions: &Positions,

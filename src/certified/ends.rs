@@ -18,7 +18,8 @@ impl<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>> Scalar for T
 /// A number at `t = 0` and at `t = 1`; arithmetic is done at each end by itself, in `f64`.
 ///
 /// There are two, which agree in every bit: [`f64x2`] for one query, in a register that holds both
-/// ends, and [`Plain`] for loops over many queries, of which the compiler puts several into a register.
+/// ends, and [`Plain`] for loops over many queries, of which the compiler puts several into a
+/// register.
 pub(super) trait Ends: Scalar {
     fn new(start: f64, end: f64) -> Self;
 

@@ -24,8 +24,8 @@ pub trait Kind: Stages<<Self as Kind>::Place> + Copy + Send + Sync + 'static {
 
 /// A kind of query, as the stages see it. `P` is its place.
 ///
-/// The first methods are of a query, those after them of a motion without a radius, the last ones of a
-/// motion with one.
+/// The first methods are of a query, those after them of a motion without a radius, the last ones
+/// of a motion with one.
 #[allow(
     private_bounds,
     private_interfaces,
@@ -74,8 +74,8 @@ pub trait Stages<P>: Sized {
     /// The case of the motion, decided in integers.
     fn case(positions: &Positions) -> Case;
 
-    /// From which of A, B, C and D to which one `K`, `L` and `M` are with a radius: the vectors from a point of
-    /// the first side to one of the second are `M + v L - u K`.
+    /// From which of A, B, C and D to which one `K`, `L` and `M` are with a radius: the vectors
+    /// from a point of the first side to one of the second are `M + v L - u K`.
     const DIFFERENCES: [(usize, usize); 3];
 
     /// The corners of the set of `(u, v)`; each number is 0 or 1.
@@ -93,7 +93,8 @@ pub trait Stages<P>: Sized {
     /// The place of `(u, v)` up to an error.
     fn place(u: f64, v: f64, error: f64) -> P;
 
-    /// Whether the two sides without their radius touch strictly inside at a root of `f`, if that is certain.
+    /// Whether the two sides without their radius touch strictly inside at a root of `f`, if that
+    /// is certain.
     fn crosses_at<E: Ends>(points: &[[E; 3]; 4], cubic: &Cubic, bracket: &Bracket) -> Option<bool>;
 
     /// What integers say of the two sides without their radius.

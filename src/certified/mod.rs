@@ -1,8 +1,8 @@
-//! The certified path: edges against edges and vertices against faces without thresholds, fast and never
-//! wrong.
+//! The certified path: edges against edges and vertices against faces without thresholds, fast and
+//! never wrong.
 //!
-//! [`decide`] answers one query, of two edges or of a vertex and a face; a [`Batch`] answers many. No hit is false, no
-//! contact is missed, and the time of impact is the exact one rounded down.
+//! [`decide`] answers one query, of two edges or of a vertex and a face; a [`Batch`] answers many.
+//! No hit is false, no contact is missed, and the time of impact is the exact one rounded down.
 //!
 //! ```
 //! use tunnelproof::certified::{Stage, decide_observed};
@@ -20,25 +20,27 @@
 //! # Ok::<(), tunnelproof::QueryError>(())
 //! ```
 //!
-//! A query goes through a cascade ([`Stage`]) of which each stage answers only what it can prove, in `f64` with
-//! an error bound derived beside the code:
+//! A query goes through a cascade ([`Stage`]) of which each stage answers only what it can prove,
+//! in `f64` with an error bound derived beside the code:
 //!
 //! 1. the swept boxes are disjoint (`separate`);
 //! 2. a direction separates the edges for the whole step (`separate`);
-//! 3. the cubic `f = (K x L) . M`, with `K = B - A`, `L = D - C`, `M = C - A`, has no root, by the signs
-//!    of its Bernstein coefficients (`cubic`): edges that touch are coplanar;
-//! 4. its roots are bracketed (`root`), or in a part of the step in which the edges are apart anyway;
-//!    the edges are inside or outside of each other there (`locate`), and the last bit of the time, or
-//!    what is near an edge's end, is settled in double-double arithmetic (`refine`, `double`); edges
-//!    with a common end at the start touch there (`start`);
+//! 3. the cubic `f = (K x L) . M`, with `K = B - A`, `L = D - C`, `M = C - A`, has no root, by the
+//!    signs of its Bernstein coefficients (`cubic`): edges that touch are coplanar;
+//! 4. its roots are bracketed (`root`), or in a part of the step in which the edges are apart
+//!    anyway; the edges are inside or outside of each other there (`locate`), and the last bit of
+//!    the time, or what is near an edge's end, is settled in double-double arithmetic (`refine`,
+//!    `double`); edges with a common end at the start touch there (`start`);
 //! 5. a separating direction is searched for (`separate`);
-//! 6. integers decide what is left ([`decide_exactly`], `exact`): degenerate motion, contact at ends.
+//! 6. integers decide what is left ([`decide_exactly`], `exact`): degenerate motion, contact at
+//!    ends.
 //!
 //! [`Batch`] takes the first four stages for many queries at once, as far as they need no branch
 //! (`block`); both ends of the step are a pair of numbers (`ends`) throughout.
 //!
-//! With a radius above 0 other stages take their place (`thick`): planes that separate for a part of the step, up to
-//! the contact, where double-double arithmetic settles the time; and integers again.
+//! With a radius above 0 other stages take their place (`thick`): planes that separate for a part
+//! of the step, up to the contact, where double-double arithmetic settles the time; and integers
+//! again.
 //!
 //! [`decide_discrete`] is the question at one instant, with a radius (`discrete`).
 //!

@@ -1,9 +1,9 @@
-//! A root of `f` in double-double arithmetic: the last bit of a time of impact, and where the lines meet
-//! there when that is near an edge's end.
+//! A root of `f` in double-double arithmetic: the last bit of a time of impact, and where the lines
+//! meet there when that is near an edge's end.
 //!
-//! One Newton step from an `f64` near the root, with `f` evaluated to twice the precision, gives the
-//! root as a double-double with an error that is small against an ulp. Nearly always no `f64` lies so
-//! near to the root, and rounding down is certain; else the exact stage decides.
+//! One Newton step from an `f64` near the root, with `f` evaluated to twice the precision, gives
+//! the root as a double-double with an error that is small against an ulp. Nearly always no `f64`
+//! lies so near to the root, and rounding down is certain; else the exact stage decides.
 
 use wide::f64x2;
 
@@ -26,8 +26,8 @@ pub(super) struct Root {
 /// From two points to two others, on an axis each, at a time.
 ///
 /// Error bound, with `h = 2^-106` and `k` the larger magnitude at both ends of the step: the
-/// differences at the ends are exact, their difference is within `16 h k`, the product with the time
-/// within `8 h 2 k` more, the sum within `24 h k` more (bounds at the operations): `56 h k`.
+/// differences at the ends are exact, their difference is within `16 h k`, the product with the
+/// time within `8 h 2 k` more, the sum within `24 h k` more (bounds at the operations): `56 h k`.
 #[inline(always)]
 fn difference<E: Ends>(from: [E; 2], to: [E; 2], time: Double<f64>) -> Double<E> {
     let ([from_start, from_end], [to_start, to_end]) =
@@ -41,10 +41,11 @@ fn difference<E: Ends>(from: [E; 2], to: [E; 2], time: Double<f64>) -> Double<E>
 
 /// `f` at a time, two numbers at a time.
 ///
-/// Error bound: a minor of two components is within `(8 + 2 * 56 + 8) h p_ij` of the exact one, a term
-/// of the determinant within `(8 + 56 + 128) h`, and the two last sums add `16 h`: `208 h P`, with `P`
-/// the permanent of [`Cubic`]. Below, `256 h P`. The rounding to `f64` is relative. Underflow: see [`Cubic::new`]; the errors of products that underflow are below
-/// `2^-885`, the bound above `2^-750`.
+/// Error bound: a minor of two components is within `(8 + 2 * 56 + 8) h p_ij` of the exact one, a
+/// term of the determinant within `(8 + 56 + 128) h`, and the two last sums add `16 h`: `208 h P`,
+/// with `P` the permanent of [`Cubic`]. Below, `256 h P`. The rounding to `f64` is relative.
+/// Underflow: see [`Cubic::new`]; the errors of products that underflow are below `2^-885`, the
+/// bound above `2^-750`.
 fn evaluate(positions: &Positions, time: Double<f64>) -> f64 {
     let [a, b, c, d] = positions.points::<f64x2>();
     // K and L of an axis; M of two axes.
@@ -70,9 +71,10 @@ impl Root {
     /// The root in a bracket, if the slope there is certain.
     ///
     /// Error bound. Let `t` be the middle of the sharpened bracket, `W` its width, `s` the least
-    /// magnitude of the slope in it, `C` the bound on `|f''|`. By Taylor the root is `t - f(t) / f'(t)`
-    /// up to `C W^2 / 2 s`. So it is `t + delta` up to `(256 h P + C W^2) / s` and, for slope,
-    /// division and rounding, `|delta| (slope_error / s + 8 u)`; the first error is that of [`evaluate`].
+    /// magnitude of the slope in it, `C` the bound on `|f''|`. By Taylor the root is
+    /// `t - f(t) / f'(t)` up to `C W^2 / 2 s`. So it is `t + delta` up to `(256 h P + C W^2) / s`
+    /// and, for slope, division and rounding, `|delta| (slope_error / s + 8 u)`; the first error is
+    /// that of [`evaluate`].
     pub(super) fn new(positions: &Positions, cubic: &Cubic, bracket: &Bracket) -> Option<Self> {
         let (sharp, least) = cubic.sharpen(bracket)?;
         if !(least > 0.0) {
@@ -95,7 +97,8 @@ impl Root {
         Root { time, error }
     }
 
-    /// The largest `f64` not above the root, if that is certain; then the root is not an `f64` itself.
+    /// The largest `f64` not above the root, if that is certain; then the root is not an `f64`
+    /// itself.
     pub(super) fn round_down(&self) -> Option<f64> {
         let Double { high, low } = self.time;
         let below = if low - self.error > 0.0 {
@@ -115,8 +118,9 @@ impl Root {
     ///
     /// Error bound: a minor is within `128 h p` of the exact one at `time` (see [`evaluate`]), and
     /// moving to the root changes it by at most `4 e p (1 + e)`, `e` the error of the root. A
-    /// difference of minors adds `8 h` of both. Below, `(160 h + 5 e) p`, for `e < 1/8`; the computation
-    /// of that has a relative error below `4 u`. What underflows is below `2^-1070`, and `TINY` is more.
+    /// difference of minors adds `8 h` of both. Below, `(160 h + 5 e) p`, for `e < 1/8`; the
+    /// computation of that has a relative error below `4 u`. What underflows is below `2^-1070`,
+    /// and `TINY` is more.
     pub(super) fn meeting<E: Ends>(
         &self,
         positions: &Positions,

@@ -47,8 +47,8 @@ pub(super) struct Half {
 }
 
 impl Cubic {
-    /// Brackets of all roots in `[0, 1]` but those of which `is_apart` says that the edges do not touch
-    /// at any root from one time to another; `None` if some cannot be certified.
+    /// Brackets of all roots in `[0, 1]` but those of which `is_apart` says that the edges do not
+    /// touch at any root from one time to another; `None` if some cannot be certified.
     pub(super) fn isolate(&self, is_apart: impl Fn(f64, f64) -> bool) -> Option<Brackets> {
         let mut found = Brackets {
             brackets: [Bracket::around(0.0, 1.0); 3],
@@ -58,7 +58,8 @@ impl Cubic {
         Some(found)
     }
 
-    /// Halves `part` until each piece has no root, or none that matters, or one that can be bracketed.
+    /// Halves `part` until each piece has no root, or none that matters, or one that can be
+    /// bracketed.
     fn isolate_in(
         &self,
         part: Part,
@@ -146,12 +147,13 @@ impl Cubic {
 
     /// `f` and its derivative.
     ///
-    /// Error bound of the value: `1 - t` is rounded once, a term of de Casteljau's sum passes at most
-    /// eleven roundings more, so the value is within `12 u P` of that of the given coefficients and
-    /// within `12 u P + error` of the exact one; [`Cubic::value_error`] is `2 error = 32 u P`.
+    /// Error bound of the value: `1 - t` is rounded once, a term of de Casteljau's sum passes at
+    /// most eleven roundings more, so the value is within `12 u P` of that of the given
+    /// coefficients and within `12 u P + error` of the exact one; [`Cubic::value_error`] is
+    /// `2 error = 32 u P`.
     ///
-    /// Of the derivative: three times the difference of two values, each within `25 u P` of the exact
-    /// one; [`Cubic::slope_error`] is `12 error = 192 u P`.
+    /// Of the derivative: three times the difference of two values, each within `25 u P` of the
+    /// exact one; [`Cubic::slope_error`] is `12 error = 192 u P`.
     #[inline(always)]
     pub(super) fn evaluate(&self, t: f64) -> (f64, f64) {
         let [b0, b1, b2, b3] = self.bernstein;
@@ -184,7 +186,8 @@ impl Cubic {
         self.within(&part, guess.t, distance)
     }
 
-    /// The part of a bracket up to some distance from `t`, and whether the root is certain to be there.
+    /// The part of a bracket up to some distance from `t`, and whether the root is certain to be
+    /// there.
     #[inline(always)]
     fn within(&self, bracket: &Bracket, t: f64, distance: f64) -> (Bracket, bool) {
         let (low, high) = (
@@ -215,8 +218,8 @@ impl Cubic {
         6.0 * larger(at_start.abs(), at_end.abs()) + 32.0 * self.error
     }
 
-    /// The least magnitude of the derivative in a bracket that holds a point where it is `slope`; 0 or
-    /// less, or NaN, if none is certain.
+    /// The least magnitude of the derivative in a bracket that holds a point where it is `slope`; 0
+    /// or less, or NaN, if none is certain.
     fn least_slope(&self, slope: f64, bracket: &Bracket) -> f64 {
         let width = bracket.high - bracket.low;
         (slope.abs() - self.slope_error() - self.curvature() * width) * (1.0 - 8.0 * U)
@@ -289,8 +292,9 @@ struct Part {
 }
 
 impl Part {
-    /// Two steps of Halley's method from where the chord from end to end crosses 0. Each about triples
-    /// the digits that are right, so the error that is left is far below the last step squared.
+    /// Two steps of Halley's method from where the chord from end to end crosses 0. Each about
+    /// triples the digits that are right, so the error that is left is far below the last step
+    /// squared.
     #[inline(always)]
     fn guess(&self) -> Guess {
         let [b0, b1, b2, b3] = self.bernstein;
@@ -316,7 +320,8 @@ impl Part {
     }
 
     /// Whether `f` certainly has one root in the part, a simple one, and falls or rises through it
-    /// (Descartes' rule): the signs are `+ ? ? -`, which is one change unless the middle may be `- +`.
+    /// (Descartes' rule): the signs are `+ ? ? -`, which is one change unless the middle may be
+    /// `- +`.
     #[inline(always)]
     fn falls_or_rises(&self, error: f64) -> [bool; 2] {
         let [b0, b1, b2, b3] = self.bernstein;

@@ -14,11 +14,11 @@ pub(super) struct SweptBoxes {
 }
 
 impl SweptBoxes {
-    /// The boxes around two sets of points, which count as disjoint if they are certainly farther apart than
-    /// a distance on an axis.
+    /// The boxes around two sets of points, which count as disjoint if they are certainly farther
+    /// apart than a distance on an axis.
     ///
-    /// A difference is rounded once, and of the sign of the exact one: a distance above 0 has to be larger than the
-    /// one that is meant by some `u`.
+    /// A difference is rounded once, and of the sign of the exact one: a distance above 0 has to be
+    /// larger than the one that is meant by some `u`.
     #[inline(always)]
     pub(super) fn around<E: Ends, const M: usize, const N: usize>(
         first: [&[E; 3]; M],
@@ -41,17 +41,17 @@ impl SweptBoxes {
         }
     }
 
-    /// Whether a difference of two products of differences of the points with `d` is certainly above 0
-    /// at both ends of the step.
+    /// Whether a difference of two products of differences of the points with `d` is certainly
+    /// above 0 at both ends of the step.
     ///
-    /// Error bound: every component `i` of a difference is at most the extent `e_i` of the box around
-    /// everything, and rounded once (`u = 2^-53`). With `S` the sum of `e_i |d_i|`, a product with `d` in
-    /// three products and two sums is within `4.1 u S` of the exact one (Higham, Accuracy and
-    /// Stability of Numerical Algorithms, 3.1), with the rounded difference `5.2 u S`. There are up to
-    /// three of them, and two more sums of values up to `3 S`: below `22 u S`. `S` is computed with a
-    /// relative error below `6 u`. A product that underflows is off by at most `2^-1075`, absorbed by
-    /// `TINY`. Nothing overflows while the bound is below `2^960`, so `S` below `2^1009`; else, NaN
-    /// included, there is no claim.
+    /// Error bound: every component `i` of a difference is at most the extent `e_i` of the box
+    /// around everything, and rounded once (`u = 2^-53`). With `S` the sum of `e_i |d_i|`, a
+    /// product with `d` in three products and two sums is within `4.1 u S` of the exact one
+    /// (Higham, Accuracy and Stability of Numerical Algorithms, 3.1), with the rounded difference
+    /// `5.2 u S`. There are up to three of them, and two more sums of values up to `3 S`: below
+    /// `22 u S`. `S` is computed with a relative error below `6 u`. A product that underflows is
+    /// off by at most `2^-1075`, absorbed by `TINY`. Nothing overflows while the bound is below
+    /// `2^960`, so `S` below `2^1009`; else, NaN included, there is no claim.
     #[inline(always)]
     pub(super) fn is_certain<E: Ends>(&self, margin: E, d: &Vector) -> bool {
         let bound = self.bound(d);
@@ -116,10 +116,10 @@ impl<E: Ends> Motion<E> {
         boxes.is_certain(margin, &d)
     }
 
-    /// Looks for a separating direction: a few steps towards the point of the convex hull of the eight
-    /// differences C - A, C - B, D - A, D - B that is nearest to 0 (Gilbert 1966, "An iterative procedure
-    /// for computing the minimum of a quadratic form on a convex set"). Costs more than the cubic, so it
-    /// comes last, before the exact stage.
+    /// Looks for a separating direction: a few steps towards the point of the convex hull of the
+    /// eight differences C - A, C - B, D - A, D - B that is nearest to 0 (Gilbert 1966, "An
+    /// iterative procedure for computing the minimum of a quadratic form on a convex set"). Costs
+    /// more than the cubic, so it comes last, before the exact stage.
     #[inline(never)]
     pub(super) fn is_separated_by_search(&self, boxes: &SweptBoxes) -> bool {
         let (k, l, m) = (&self.k, &self.l, &self.m);

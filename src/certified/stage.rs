@@ -14,7 +14,8 @@ pub enum Stage {
     Roots,
     /// A separating direction, found by search.
     Search,
-    /// With a radius: planes that separate, each for a part of the step, up to its end or the contact.
+    /// With a radius: planes that separate, each for a part of the step, up to its end or the
+    /// contact.
     Planes,
     /// Integers.
     Exact,

@@ -9,11 +9,12 @@ use super::motion::{Motion, Positions, Vector};
 use super::root::Bracket;
 use crate::contact::{Case, ContactKind, EdgePlace, EdgePoint, Flags, Hit};
 
-/// The contact at `t = 0` in a common end, if nothing else is shared there and the case of the motion
-/// is certain.
+/// The contact at `t = 0` in a common end, if nothing else is shared there and the case of the
+/// motion is certain.
 ///
-/// Points that are equal are so exactly. Where `N` is not 0 the lines have one point in common, which
-/// is then that end: neither edge is a point, they are not parallel, and `u` and `v` are 0 or 1.
+/// Points that are equal are so exactly. Where `N` is not 0 the lines have one point in common,
+/// which is then that end: neither edge is a point, they are not parallel, and `u` and `v` are 0 or
+/// 1.
 ///
 /// There is no claim for a motion without a cubic but where the end is common for the whole step.
 #[inline(always)]
@@ -72,8 +73,8 @@ fn common_end<E: Ends>(
 }
 
 /// The case of motion with a common end throughout and `N` not 0 at the start: with `A = C`, `M` is
-/// identically 0. With another one it is not (both `A = C` and `B = D`, say, would mean `K = L`, and
-/// `A = C` and `B = C` that `K = 0`), while `f` is 0: the four points are three.
+/// identically 0. With another one it is not (both `A = C` and `B = D`, say, would mean `K = L`,
+/// and `A = C` and `B = C` that `K = 0`), while `f` is 0: the four points are three.
 fn case_of_common_end(ends: (usize, usize)) -> Case {
     if ends == (A, C) {
         Case::SharedStart

@@ -1,5 +1,6 @@
-//! The method of a Master's thesis, with its thresholds: Michael Brandl, "Continuous Collision Detection for
-//! Wires with Adaptive Resolution", Umeå University, 2017. Algorithms 1 to 20 in `f64`.
+//! The method of a Master's thesis, with its thresholds: Michael Brandl, "Continuous Collision
+//! Detection for Wires with Adaptive Resolution", Umeå University, 2017. Algorithms 1 to 20 in
+//! `f64`.
 //!
 //! Every algorithm is a function of its own name, in the order of the text:
 //!

@@ -13,7 +13,8 @@
 //! coefficients; so double roots are found for coefficients that are exact or nearly so, and may
 //! be lost or doubled otherwise.
 
-/// The most roots that [`solve`] returns: three, and one more where rounding splits a multiple root.
+/// The most roots that [`solve`] returns: three, and one more where rounding splits a multiple
+/// root.
 const MAX_ROOTS: usize = 4;
 
 /// Steps after which refining ends, wherever it is. Newton's method takes fewer than ten as a rule;

@@ -59,8 +59,8 @@ impl Thresholds {
     /// Every threshold 0: the exact questions, asked in rounded arithmetic.
     pub const ZERO: Thresholds = Thresholds::named([0.0; 5]);
 
-    /// The thresholds of table 3.1 with these values, in the order of [`Threshold::ALL`], and for what
-    /// it does not name the readings above.
+    /// The thresholds of table 3.1 with these values, in the order of [`Threshold::ALL`], and for
+    /// what it does not name the readings above.
     pub const fn named(
         [dist, dist_1d, t, coefficients_quadratic, coefficients_cubic]: [f64; 5],
     ) -> Thresholds {

@@ -9,7 +9,8 @@ use tunnelproof_reference::corpus::{self, Entry, ReadOptions};
 /// The sets by their names: first the handcrafted ones as one, then pairs of simulations.
 pub(crate) const SETS: [&str; 3] = ["handcrafted", "candidates-cloth-ball", "hits-cloth-ball"];
 
-/// The queries of this kind of one set, none if it is not there. What is there is sound, or this panics.
+/// The queries of this kind of one set, none if it is not there. What is there is sound, or this
+/// panics.
 pub(crate) fn set(name: &str, kind: QueryKind) -> Vec<Entry> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data");
     let entries: Vec<Entry> = if name == "handcrafted" {
@@ -61,7 +62,8 @@ fn csv(file: &Path) -> Vec<Entry> {
     entries
 }
 
-/// `i64 n`, then `n` times the 24 coordinates of eight points, then `n` labels of a byte, little-endian.
+/// `i64 n`, then `n` times the 24 coordinates of eight points, then `n` labels of a byte,
+/// little-endian.
 fn binary(name: &str, bytes: &[u8]) -> Vec<Entry> {
     let (count, rest) = bytes.split_first_chunk().expect("a count");
     let (queries, labels) = rest.split_at(192 * usize::from_le_bytes(*count));

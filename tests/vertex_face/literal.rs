@@ -1,9 +1,9 @@
 //! The description of contact of a vertex and a face, evaluated at every candidate: slow and plain.
 //!
 //! With `w = A - B`, `E1 = C - B`, `E2 = D - B`, `N = E1 x E2`, `f = w . N`, `n2 = N . N`,
-//! `c = (w x E2) . N`, `d = (E1 x w) . N` and `b = n2 - c - d`, `contact(t)` is: `n2 > 0` and `f = 0` and
-//! `b, c, d >= 0`; or A is on BC, CD or DB. `X` is on `YZ` where `(Y - X) x (Z - X) = 0` and
-//! `(Y - X) . (Z - X) <= 0`.
+//! `c = (w x E2) . N`, `d = (E1 x w) . N` and `b = n2 - c - d`, `contact(t)` is: `n2 > 0` and
+//! `f = 0` and `b, c, d >= 0`; or A is on BC, CD or DB. `X` is on `YZ` where
+//! `(Y - X) x (Z - X) = 0` and `(Y - X) . (Z - X) <= 0`.
 
 use std::cmp::Ordering;
 

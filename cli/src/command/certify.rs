@@ -58,13 +58,14 @@ pub(super) struct Certify {
     /// Files of queries (.jsonl or .csv); - is the standard input
     #[arg(value_name = "FILE")]
     files: Vec<String>,
-    /// Who is judged: subjects by their names, cmd: and the command of a program, or lib: and the path of a
-    /// shared library; by default every subject but the slow second judge, difference
+    /// Who is judged: subjects by their names, cmd: and the command of a program, or lib: and the
+    /// path of a shared library; by default every subject but the slow second judge, difference
     #[arg(long, value_parser = asked_list)]
     subject: Vec<AskedList>,
     #[command(flatten)]
     programs: Programs,
-    /// Families of generated queries; by default all of edges without radius, or none if files are given
+    /// Families of generated queries; by default all of edges without radius, or none if files are
+    /// given
     #[arg(long, value_delimiter = ',', value_parser = family())]
     family: Vec<&'static Family>,
     /// How many queries of each family; 0 for none
@@ -205,8 +206,9 @@ impl Certify {
     }
 }
 
-/// The worst witness of each fault of each subject, shrunk, with the command that explains it. Where a
-/// witness shows a worse fault than the one it is listed under, or one that is permitted, there is none.
+/// The worst witness of each fault of each subject, shrunk, with the command that explains it.
+/// Where a witness shows a worse fault than the one it is listed under, or one that is permitted,
+/// there is none.
 fn shrunk_witnesses(findings: &Findings) -> String {
     let mut lines = vec!["\nShrunk:".to_owned()];
     let subjects = findings.panel.subjects.iter();

@@ -34,8 +34,8 @@ pub(super) struct Eval {
     /// Files of queries (.jsonl or .csv); - is the standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<String>,
-    /// Who answers: a subject by its name, cmd: and the command of a program, or lib: and the path of
-    /// a shared library
+    /// Who answers: a subject by its name, cmd: and the command of a program, or lib: and the path
+    /// of a shared library
     #[arg(long, default_value = "oracle", value_parser = asked)]
     subject: Asked,
     #[command(flatten)]

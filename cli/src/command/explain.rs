@@ -23,7 +23,8 @@ Examples:
   tunnelproof explain vectors/errata.json#erratum:strict-skip --svg picture.svg
   head -1 queries.jsonl | tunnelproof explain -")]
 pub(super) struct Explain {
-    /// figure:NAME, FAMILY:SEED:INDEX, PATH.csv#INDEX, PATH.jsonl#ID, PATH.json#ID of a test vector, or
+    /// figure:NAME, FAMILY:SEED:INDEX, PATH.csv#INDEX, PATH.jsonl#ID, PATH.json#ID of a test
+    /// vector, or
     /// - for a line on the standard input
     query: String,
     /// Write a picture to this file

@@ -1,4 +1,5 @@
-//! `lib-host`: a shared library that answers queries, in this process. `certify` starts it for `lib:`.
+//! `lib-host`: a shared library that answers queries, in this process. `certify` starts it for
+//! `lib:`.
 
 use std::process::ExitCode;
 

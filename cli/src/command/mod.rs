@@ -1,8 +1,8 @@
 //! The commands, what they have in common, and how they end.
 //!
-//! Exit code 0 is success, 1 a judged failure, 2 bad input or output that cannot be written, 130 that
-//! Ctrl-C ended it; then one line on the standard error says what is wrong. Whoever closes the standard output early wants no
-//! more: that is success.
+//! Exit code 0 is success, 1 a judged failure, 2 bad input or output that cannot be written, 130
+//! that Ctrl-C ended it; then one line on the standard error says what is wrong. Whoever closes the
+//! standard output early wants no more: that is success.
 
 use std::fmt;
 use std::io;

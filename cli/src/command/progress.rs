@@ -52,7 +52,8 @@ pub(super) fn counting<T>(message: &'static str, work: impl FnOnce(&dyn Fn(u64))
     result
 }
 
-/// Works under a count of settings, each judged on so many queries; how many there will be is not known.
+/// Works under a count of settings, each judged on so many queries; how many there will be is not
+/// known.
 pub(super) fn searching<T>(queries: usize, work: impl FnOnce(&(dyn Fn(u64) + Sync)) -> T) -> T {
     let bar = match is_shown() {
         true => ProgressBar::new_spinner(),

@@ -31,12 +31,13 @@ or 0, offsets go, points come to rest, as long as that fault is there.
 The query is printed as a line that eval and explain read; what was done stands on the standard error.
 Of several queries the first on which the subject is wrong is taken. Exit code 1 if there is none.")]
 pub(super) struct Shrink {
-    /// figure:NAME, FAMILY:SEED:INDEX, PATH.csv#INDEX, PATH.jsonl#ID, PATH.json#ID of a test vector, or
+    /// figure:NAME, FAMILY:SEED:INDEX, PATH.csv#INDEX, PATH.jsonl#ID, PATH.json#ID of a test
+    /// vector, or
     /// - for the standard input
     #[arg(default_value = "-")]
     query: String,
-    /// Who is wrong: a subject by its name, cmd: and the command of a program, or lib: and the path of
-    /// a shared library
+    /// Who is wrong: a subject by its name, cmd: and the command of a program, or lib: and the path
+    /// of a shared library
     #[arg(long, value_parser = asked)]
     subject: Asked,
     #[command(flatten)]

@@ -24,7 +24,8 @@ pub(super) struct Sources {
 /// How large the scene is, and how precise.
 #[derive(Args)]
 pub(super) struct Scene {
-    /// A metre of the queries becomes so many: the nearest power of two, which keeps every degeneracy
+    /// A metre of the queries becomes so many: the nearest power of two, which keeps every
+    /// degeneracy
     #[arg(
         long,
         value_name = "METRES",

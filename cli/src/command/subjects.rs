@@ -16,7 +16,8 @@ use super::Failure;
 #[derive(Clone)]
 pub(super) enum Asked {
     Known(&'static dyn Subject),
-    /// A program, by the text that asks for it: `cmd:` and a command, or `lib:` and the path of a library.
+    /// A program, by the text that asks for it: `cmd:` and a command, or `lib:` and the path of a
+    /// library.
     Program(String),
 }
 
@@ -44,7 +45,8 @@ pub(super) enum Answering {
 /// What the name of a program starts with.
 const COMMAND: &str = "cmd:";
 
-/// What the name of a shared library starts with. It is one more program: this one, with the library in it.
+/// What the name of a shared library starts with. It is one more program: this one, with the
+/// library in it.
 const LIBRARY: &str = "lib:";
 
 /// The command of a process that hosts a library, which is seen to have what it needs.

@@ -28,7 +28,8 @@ pub(super) struct Table {
     /// Run no scene for longer than this, in s; `rows` are of whole scenes
     #[arg(long, value_name = "S", default_value_t = f64::INFINITY, hide_default_value = true)]
     duration: f64,
-    /// How many perturbed starts `4.2`, `chances` and `starts` look at beside the scene as it is [default: 10]
+    /// How many perturbed starts `4.2`, `chances` and `starts` look at beside the scene as it is
+    /// [default: 10]
     #[arg(long, value_name = "N")]
     starts: Option<u64>,
     /// Only one scene of the thesis, by its name; not for `rows` and `speeds`
@@ -41,13 +42,14 @@ enum Which {
     /// Which cases occur in each scene
     #[value(name = "4.1")]
     Cases,
-    /// Run time of continuous detection against discrete at the largest step that does not tunnel: from one start, and from
-    /// others as well, moved by up to the radius of a wire
+    /// Run time of continuous detection against discrete at the largest step that does not tunnel:
+    /// from one start, and from others as well, moved by up to the radius of a wire
     #[value(name = "4.2")]
     Times,
     /// What the thesis says of each scene beside what comes out, and whether that is accepted
     Rows,
-    /// From how many starts, moved by up to the radius of a wire, discrete detection lets a wire through, at steps of 1 to 16 ms
+    /// From how many starts, moved by up to the radius of a wire, discrete detection lets a wire
+    /// through, at steps of 1 to 16 ms
     Chances,
     /// Tunnels missed by each narrow phase, by the audit
     Missed,

@@ -18,8 +18,8 @@ use super::{Failure, progress};
 
 /// Find the best thresholds of the thesis path, and what they are worth
 ///
-/// Few crossings that get through and few false hits are wanted at once: the settings of which none is
-/// better in both are searched, and one of them is recommended.
+/// Few crossings that get through and few false hits are wanted at once: the settings of which none
+/// is better in both are searched, and one of them is recommended.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

@@ -57,8 +57,9 @@ impl Polynomial {
         Polynomial::new(terms.map(|(c, n)| c * n).collect())
     }
 
-    /// Quotient and remainder by a polynomial that is not 0, by long division. Before each step what is left
-    /// is multiplied by the leading coefficient of the divisor, both times by the same number above 0.
+    /// Quotient and remainder by a polynomial that is not 0, by long division. Before each step
+    /// what is left is multiplied by the leading coefficient of the divisor, both times by the same
+    /// number above 0.
     fn divide(&self, other: &Self) -> (Self, Self) {
         let (mut rest, mut quotient) = (self.0.clone(), Vec::new());
         let Some(leading) = other.0.last() else {

@@ -1,8 +1,8 @@
 //! From the bytes of a fuzzer to a query.
 //!
 //! First a few changes, then what they are made to: a query of any family, whose random numbers are
-//! the bytes that follow; 24 numbers of any bits, or 24 small integers, and a radius. Every sequence of bytes makes
-//! a query. Where the bytes end, zeros follow.
+//! the bytes that follow; 24 numbers of any bits, or 24 small integers, and a radius. Every
+//! sequence of bytes makes a query. Where the bytes end, zeros follow.
 
 use std::convert::Infallible;
 
@@ -50,8 +50,8 @@ fn family(place: u8) -> &'static Family {
     family.unwrap_or(&FAMILIES[0])
 }
 
-/// Numbers of any bits are within a factor of 2 to this power of 1. Exact arithmetic takes a thousand times
-/// as long on numbers that span all of `f64`, and these are as rare.
+/// Numbers of any bits are within a factor of 2 to this power of 1. Exact arithmetic takes a
+/// thousand times as long on numbers that span all of `f64`, and these are as rare.
 fn span(byte: u8) -> u64 {
     match byte % 64 {
         0 => 1023,
@@ -90,7 +90,8 @@ fn base(bytes: &mut Unstructured) -> Query {
     }
 }
 
-/// A query of these numbers. What kind it is, and whether it has a radius, is in the byte after them.
+/// A query of these numbers. What kind it is, and whether it has a radius, is in the byte after
+/// them.
 fn of_numbers(bytes: &mut Unstructured, mut number: impl FnMut(&mut Unstructured) -> f64) -> Query {
     let numbers = [0; 24].map(|_| number(bytes));
     let more = byte(bytes);

@@ -11,8 +11,8 @@ use tunnelproof_reference::shrink::Disagreement;
 use tunnelproof_reference::subject::{Certified, Engine, Subject};
 
 /// The thesis path as it is by default, in exact arithmetic. With a threshold of 0 the published
-/// comparison of Algorithm 12 would pass over no equation; with that of the thesis it passes over those
-/// that are 0, which is what its repair does.
+/// comparison of Algorithm 12 would pass over no equation; with that of the thesis it passes over
+/// those that are 0, which is what its repair does.
 pub(super) const EXACT_THESIS: Shadow = Shadow::new(Repairs::SLIPS.with(Erratum::StrictSkip));
 
 /// The fault by name.
@@ -32,8 +32,8 @@ pub(super) fn oracle_vs_difference(query: &Query) -> Option<String> {
     fault(&disagreement, query)
 }
 
-/// With a radius only where the numbers are within a factor of `2^200` of each other: beyond, the certified path has nothing
-/// but long integers, and takes seconds.
+/// With a radius only where the numbers are within a factor of `2^200` of each other: beyond, the
+/// certified path has nothing but long integers, and takes seconds.
 pub(super) fn certified_vs_oracle(query: &Query) -> Option<String> {
     if !query.radius().is_zero() && !is_ordinary(query) {
         return None;

@@ -50,7 +50,8 @@ enum Check {
     Bytes(fn(&[u8]) -> Option<String>),
 }
 
-/// Every target that this build has. Without the feature `gmp` there are no two backends to compare.
+/// Every target that this build has. Without the feature `gmp` there are no two backends to
+/// compare.
 pub const TARGETS: &[Target] = &[
     Target {
         name: "thesis_vs_shadow",
@@ -129,8 +130,8 @@ impl Target {
     }
 }
 
-/// What is found; a panic is a finding. Where the fuzzer ends the program at any panic, replaying its
-/// bytes comes here.
+/// What is found; a panic is a finding. Where the fuzzer ends the program at any panic, replaying
+/// its bytes comes here.
 fn guarded(check: impl FnOnce() -> Option<String>) -> Option<String> {
     catch_unwind(AssertUnwindSafe(check)).unwrap_or_else(|_| Some("panics".to_owned()))
 }
@@ -139,8 +140,8 @@ fn guarded(check: impl FnOnce() -> Option<String>) -> Option<String> {
 pub const SEEDS: u64 = 12;
 
 impl Target {
-    /// Bytes to start fuzzing with, always the same: `count` queries of every family, or that many times
-    /// random bytes, or files for the readers.
+    /// Bytes to start fuzzing with, always the same: `count` queries of every family, or that many
+    /// times random bytes, or files for the readers.
     pub fn seeds(&self, count: u64) -> Vec<Vec<u8>> {
         match self.check {
             Check::Query(_) | Check::Edges(_) => (0..generate::all().count())
@@ -185,8 +186,8 @@ impl Finding {
 }
 
 impl fmt::Display for Finding {
-    /// What is wrong and, of a query, the line, the verdicts, the smallest query that shows the same
-    /// and the commands that explain both.
+    /// What is wrong and, of a query, the line, the verdicts, the smallest query that shows the
+    /// same and the commands that explain both.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}: {}", self.target, self.what)?;
         let Some(query) = &self.query else {

@@ -14,7 +14,8 @@ use tunnelproof_reference::poly::Poly;
 /// The backend of all that is compared: the one that is used.
 type Z = field::Default;
 
-/// How narrow the slow way makes an interval: a root of degree 9 is told from its neighbours anyway.
+/// How narrow the slow way makes an interval: a root of degree 9 is told from its neighbours
+/// anyway.
 const BITS: u64 = 24;
 
 /// Compares everything about the two polynomials that these bytes make.

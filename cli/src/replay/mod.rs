@@ -1,5 +1,6 @@
-//! A run as one page of HTML to watch: three dimensions, charts and a time line on one clock. It needs nothing else, no
-//! network; `LIBRARIES.txt` beside this file names the libraries in it and their licences.
+//! A run as one page of HTML to watch: three dimensions, charts and a time line on one clock. It
+//! needs nothing else, no network; `LIBRARIES.txt` beside this file names the libraries in it and
+//! their licences.
 
 use std::collections::BTreeMap;
 

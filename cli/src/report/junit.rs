@@ -1,5 +1,5 @@
-//! What was found as JUnit XML, which continuous integration systems show: a suite for each subject, a case
-//! for each source.
+//! What was found as JUnit XML, which continuous integration systems show: a suite for each
+//! subject, a case for each source.
 
 use std::fmt::Write as _;
 
@@ -8,8 +8,9 @@ use tunnelproof_reference::certify::findings::Findings;
 use tunnelproof_reference::certify::strict;
 use tunnelproof_reference::certify::table::command;
 
-/// The findings as JUnit XML. A case fails if [`strict::failures_of`] says so, and is skipped if the subject
-/// takes none of its queries. What the judges and the labels disagree on is a suite of its own.
+/// The findings as JUnit XML. A case fails if [`strict::failures_of`] says so, and is skipped if
+/// the subject takes none of its queries. What the judges and the labels disagree on is a suite of
+/// its own.
 pub fn text(findings: &Findings) -> String {
     let subjects = findings.panel.subjects.iter().enumerate();
     let suites: String = subjects
@@ -81,7 +82,8 @@ fn suite(name: &str, cases: &[(&Block, Outcome, Vec<String>)]) -> String {
     text + "  </testsuite>\n"
 }
 
-/// The text as content or attribute of XML. Control characters, which XML cannot have, become blanks.
+/// The text as content or attribute of XML. Control characters, which XML cannot have, become
+/// blanks.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {

@@ -1,4 +1,5 @@
-//! What is written down about certificates, sweeps, searches and audits: pages, pictures, text and JSON.
+//! What is written down about certificates, sweeps, searches and audits: pages, pictures, text and
+//! JSON.
 
 pub mod audit;
 mod caption;

@@ -1,6 +1,6 @@
-//! A query as a picture, as the thesis draws its cases (4.1.1): both edges, or the vertex and the edges
-//! of the face, at the start, at the end and at the time of impact, the paths of the points, and the
-//! points of contact.
+//! A query as a picture, as the thesis draws its cases (4.1.1): both edges, or the vertex and the
+//! edges of the face, at the start, at the end and at the time of impact, the paths of the points,
+//! and the points of contact.
 
 use nalgebra::{Vector2, Vector3};
 use tunnelproof::query::{Query, QueryKind};

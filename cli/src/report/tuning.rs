@@ -162,7 +162,8 @@ impl Tuning {
         }
     }
 
-    /// How much more the penalty of a cost is than that of the recommended setting, as a part of it.
+    /// How much more the penalty of a cost is than that of the recommended setting, as a part of
+    /// it.
     pub(super) fn excess(&self, cost: &Cost) -> f64 {
         self.penalty.of(cost) / self.penalty.of(&self.recommended.cost) - 1.0
     }

@@ -47,7 +47,8 @@ impl View {
         .upright()
     }
 
-    /// Turned in its plane by half a turn if that shows the z axis upwards (or else y to the right).
+    /// Turned in its plane by half a turn if that shows the z axis upwards (or else y to the
+    /// right).
     fn upright(self) -> Self {
         let is_upright = match self.up.z.abs() > 1e-3 {
             true => self.up.z > 0.0,

@@ -1,6 +1,7 @@
 //! What the thesis says of its scenes (4.2), and what comes out of them here.
 //!
-//! `tunnelproof table rows` prints them; `cli/tests/scene_rows.rs` holds each to what is accepted. Nothing is random.
+//! `tunnelproof table rows` prints them; `cli/tests/scene_rows.rs` holds each to what is accepted.
+//! Nothing is random.
 
 mod anchor;
 mod basic;
@@ -11,9 +12,7 @@ use std::error::Error;
 
 use crate::scenes::Scene;
 use tunnelproof::certified::Certified;
-use tunnelproof::wire::{
-    ContactRecord, ContactSite, CrossingOutcome, Mode, StepRecord, World,
-};
+use tunnelproof::wire::{ContactRecord, ContactSite, CrossingOutcome, Mode, StepRecord, World};
 
 /// What is looked at in one scene.
 #[derive(Clone, Copy, Debug)]

@@ -23,7 +23,8 @@ pub(super) struct Settings {
     impact_speed: f64,
     /// Most sweeps over contacts that are swept in one solve; usual value 200.
     sweeps: usize,
-    /// Velocity in m/s by which contacts may be off: by which none may change in the last sweep; usual value 1e-8.
+    /// Velocity in m/s by which contacts may be off: by which none may change in the last sweep;
+    /// usual value 1e-8.
     contact_tolerance: f64,
     /// Stability margin of a segment's length: `l_min >= h sqrt(T / mu) / margin`, below 1; usual
     /// value 0.8.

@@ -10,8 +10,8 @@ use super::sample::Sample;
 /// The files of one sample in a folder: what is known of its queries, and the settings that were
 /// judged on it.
 ///
-/// The names and the keys of the files are a hash of the sample, so that nothing is taken for what it
-/// is not; a file that is damaged is noticed.
+/// The names and the keys of the files are a hash of the sample, so that nothing is taken for what
+/// it is not; a file that is damaged is noticed.
 #[derive(Debug)]
 pub struct Cache {
     truths: PathBuf,

@@ -43,8 +43,8 @@ impl Precision {
 }
 
 impl Domain {
-    /// A metre becomes `scale` metres, taken as the nearest power of two: so every degeneracy stays what
-    /// it is, as do times of impact.
+    /// A metre becomes `scale` metres, taken as the nearest power of two: so every degeneracy stays
+    /// what it is, as do times of impact.
     ///
     /// # Errors
     ///

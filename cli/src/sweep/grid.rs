@@ -95,8 +95,8 @@ impl Axis {
         })
     }
 
-    /// The ends of the values that are swept by default: half decades, from below what rounding hides to
-    /// the size of what is compared, for edges of the size of the domain.
+    /// The ends of the values that are swept by default: half decades, from below what rounding
+    /// hides to the size of what is compared, for edges of the size of the domain.
     pub fn usual_ends(threshold: Threshold, domain: &Domain) -> [f64; 2] {
         let exponents = match threshold {
             Threshold::Dist | Threshold::Dist1d | Threshold::T => [-15.0, -0.5],

@@ -1,8 +1,9 @@
 //! What the thesis' thresholds cost: the thesis path judged over a grid of their values.
 //!
-//! A [`Sample`] holds queries of a [`Domain`], each with what the verdicts need of its exact answer.
-//! That is found once, and kept in a [`Cache`] between runs. A [`Grid`] of [`Setting`]s is then judged
-//! on all of them, each to a [`Price`]. The verdicts are those of [`mod@tunnelproof_reference::certify`].
+//! A [`Sample`] holds queries of a [`Domain`], each with what the verdicts need of its exact
+//! answer. That is found once, and kept in a [`Cache`] between runs. A [`Grid`] of [`Setting`]s is
+//! then judged on all of them, each to a [`Price`]. The verdicts are those of
+//! [`mod@tunnelproof_reference::certify`].
 //!
 //! All hits without contact are false hits here. The distance within which the thesis path declares
 //! them to be near is one of the thresholds, and would excuse more the larger it is.

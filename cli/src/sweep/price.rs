@@ -53,16 +53,16 @@ pub struct Price {
 
 /// How far from each other edges are that are called touching, in metres.
 ///
-/// False hits are put in order by an estimate of their gap in floating point. The gaps of the middle
-/// one and of the last one are then measured exactly.
+/// False hits are put in order by an estimate of their gap in floating point. The gaps of the
+/// middle one and of the last one are then measured exactly.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Gaps {
     /// Of half of the false hits the gap is not larger.
     pub median: f64,
     /// The largest.
     pub max: f64,
-    /// How many there are in each decade, by the estimate: at `n` those from `10^n` to `10^(n + 1)`, and
-    /// at -24 all that are smaller.
+    /// How many there are in each decade, by the estimate: at `n` those from `10^n` to
+    /// `10^(n + 1)`, and at -24 all that are smaller.
     pub decades: BTreeMap<i32, u64>,
 }
 

@@ -44,8 +44,8 @@ impl Watch<'_> {
     }
 }
 
-/// Judges the settings on the whole sample, in their order; those that are `known` are not judged again.
-/// `save` is called after each with all that was judged so far.
+/// Judges the settings on the whole sample, in their order; those that are `known` are not judged
+/// again. `save` is called after each with all that was judged so far.
 ///
 /// The result does not depend on what was known, nor on the number of threads.
 ///

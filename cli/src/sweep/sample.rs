@@ -55,8 +55,8 @@ impl Sample {
     ///
     /// # Errors
     ///
-    /// [`RunError`] for the first query that cannot be read, or that is not one of two edges with radius
-    /// 0, or whose coordinates are too large for the domain.
+    /// [`RunError`] for the first query that cannot be read, or that is not one of two edges with
+    /// radius 0, or whose coordinates are too large for the domain.
     pub fn read(
         domain: Domain,
         sources: &[Source],

@@ -1,5 +1,6 @@
-//! At which steps discrete detection lets wires through. Changes of resolution are tested as in the continuous run: in thesis mode they
-//! would go through wires at any step, which says nothing about detection.
+//! At which steps discrete detection lets wires through. Changes of resolution are tested as in the
+//! continuous run: in thesis mode they would go through wires at any step, which says nothing about
+//! detection.
 
 use crate::scenes::{Scene, SceneError};
 use rayon::prelude::*;
@@ -13,11 +14,13 @@ use tunnelproof_reference::certify::table::grouped;
 /// The shortest step of discrete detection that is looked at, in s.
 pub(super) const SHORTEST: f64 = 0.001;
 
-/// The longest step of discrete detection that is looked at, in ms: the longest whole number below the scenes' step.
+/// The longest step of discrete detection that is looked at, in ms: the longest whole number below
+/// the scenes' step.
 const LONGEST: u32 = 16;
 
-/// The largest step in whole milliseconds, at most 16, up to which no wires pass through each other with discrete
-/// detection. A larger one may do by luck: where a step ends with the wires overlapping.
+/// The largest step in whole milliseconds, at most 16, up to which no wires pass through each other
+/// with discrete detection. A larger one may do by luck: where a step ends with the wires
+/// overlapping.
 ///
 /// # Errors
 ///
@@ -34,9 +37,10 @@ pub fn largest_discrete_step(scene: &Scene) -> Result<Option<f64>, SceneError> {
     Ok(largest)
 }
 
-/// The largest step in whole milliseconds, at most so many seconds, at which no wires pass through each other with discrete detection,
-/// neither from the scene as it is nor from so many starts moved by up to `most` metres
-/// ([`perturbed`](crate::perturb::perturbed), seeds from 1). What holds from one start may hold by luck.
+/// The largest step in whole milliseconds, at most so many seconds, at which no wires pass through
+/// each other with discrete detection, neither from the scene as it is nor from so many starts
+/// moved by up to `most` metres ([`perturbed`](crate::perturb::perturbed), seeds from 1). What
+/// holds from one start may hold by luck.
 ///
 /// # Errors
 ///
@@ -77,8 +81,8 @@ pub(super) fn run(scene: &Scene, seed: u64, most: f64, step: f64) -> Result<Audi
     audited(&start, Narrow::Discrete, Mode::Guard)
 }
 
-/// Of each scene as it is and so many starts, moved by up to the radius of the thinnest wire: from how many discrete detection lets a
-/// wire through, at steps of whole milliseconds.
+/// Of each scene as it is and so many starts, moved by up to the radius of the thinnest wire: from
+/// how many discrete detection lets a wire through, at steps of whole milliseconds.
 ///
 /// # Errors
 ///
@@ -105,8 +109,8 @@ pub fn chances(scenes: &[OfThesis], count: u64) -> Result<String, SceneError> {
     Ok(text)
 }
 
-/// The radius of the thinnest wire of a scene in m: by so much a start may differ and be the same scene to the eye, while every
-/// step falls elsewhere on the way of a wire.
+/// The radius of the thinnest wire of a scene in m: by so much a start may differ and be the same
+/// scene to the eye, while every step falls elsewhere on the way of a wire.
 pub(super) fn thinnest(scene: &Scene) -> f64 {
     let radii = scene.wires.iter().map(|wire| wire.material.radius);
     radii.fold(f64::INFINITY, f64::min)

@@ -17,9 +17,9 @@ pub(super) fn start(scene: &Scene, seed: u64, most: f64) -> Scene {
     }
 }
 
-/// The scenes as they are and at so many starts moved by up to `most` metres ([`perturbed`], seeds from 1), in guard
-/// mode by the certified path: what was prevented, what passed unnoticed, what was reported and is not exact, and what
-/// stands on the wrong side at the end.
+/// The scenes as they are and at so many starts moved by up to `most` metres ([`perturbed`], seeds
+/// from 1), in guard mode by the certified path: what was prevented, what passed unnoticed, what
+/// was reported and is not exact, and what stands on the wrong side at the end.
 ///
 /// # Errors
 ///

@@ -74,7 +74,8 @@ fn largest_discrete_step_of_scene_1_does_not_tunnel_and_the_next_does() {
 fn safe_discrete_step_holds_from_other_starts_as_well() {
     let scene = &basic_collision(0.1)[0].scene;
     let safe = |longest, count| safe_discrete_step(scene, longest, count, 1e-3).unwrap();
-    // At 6 ms a step happens to end where the wires overlap; from the third start it does not, and at 5 ms from none.
+    // At 6 ms a step happens to end where the wires overlap; from the third start it does not, and
+    // at 5 ms from none.
     assert_eq!(safe(0.006, 0), Some(0.006));
     assert_eq!(safe(0.005, 0), Some(0.004));
     assert_eq!(safe(0.006, 2), Some(0.006));

@@ -54,7 +54,8 @@ impl Timed {
     }
 }
 
-/// Table 4.2 of the thesis, for a scene: its continuous and its discrete run. Narrow-phase tests are those of bodies too.
+/// Table 4.2 of the thesis, for a scene: its continuous and its discrete run. Narrow-phase tests
+/// are those of bodies too.
 struct Published {
     /// The step of the discrete run in s.
     step: f64,
@@ -129,10 +130,12 @@ const PUBLISHED: [Published; 4] = [
     ),
 ];
 
-/// Table 4.2: what continuous detection costs at 1/60 s, in guard mode by the certified path, against discrete detection
-/// at the largest step that does not tunnel: from the scene as it is, as in the thesis, and from so many other starts as well, moved by
-/// up to the radius of the thinnest wire ([`safe_discrete_step`]). Run times are those of this machine, without the audit, the least of
-/// three. Where no step of a millisecond or more holds, the run is one of a millisecond, and the change is below that against it.
+/// Table 4.2: what continuous detection costs at 1/60 s, in guard mode by the certified path,
+/// against discrete detection at the largest step that does not tunnel: from the scene as it is, as
+/// in the thesis, and from so many other starts as well, moved by up to the radius of the thinnest
+/// wire ([`safe_discrete_step`]). Run times are those of this machine, without the audit, the least
+/// of three. Where no step of a millisecond or more holds, the run is one of a millisecond, and the
+/// change is below that against it.
 ///
 /// # Errors
 ///
@@ -194,7 +197,8 @@ fn column(of: &OfThesis, count: u64) -> Result<Cells, SceneError> {
     Ok(cells)
 }
 
-/// A discrete run at a step that holds, against the continuous one. If no step holds, that at the shortest one bounds it.
+/// A discrete run at a step that holds, against the continuous one. If no step holds, that at the
+/// shortest one bounds it.
 fn against(
     name: &str,
     published: &Published,

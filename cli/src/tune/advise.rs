@@ -172,8 +172,8 @@ fn indifferent(
     Ok(ends)
 }
 
-/// Sets one threshold after the other to 0, always the one that matters least, as long as the penalty stays
-/// what it is up to [`SLACK`].
+/// Sets one threshold after the other to 0, always the one that matters least, as long as the
+/// penalty stays what it is up to [`SLACK`].
 fn superfluous(
     judge: &mut Judge,
     penalty: Penalty,

@@ -1,7 +1,7 @@
 //! Things of which none is better than another in both of two numbers.
 
-/// The things of which none dominates another: is at least as good in both numbers, and better in one.
-/// Small numbers are good.
+/// The things of which none dominates another: is at least as good in both numbers, and better in
+/// one. Small numbers are good.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Front<T> {
     members: Vec<([f64; 2], T)>,

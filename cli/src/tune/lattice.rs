@@ -7,8 +7,8 @@ use crate::sweep::Setting;
 /// A setting by the numbers of its values.
 pub type Place = [usize; 5];
 
-/// Settings for scenes of one size: each threshold is 0, or from 1e-18 to 0.1 times the size to the power
-/// that its unit asks, one value a decade.
+/// Settings for scenes of one size: each threshold is 0, or from 1e-18 to 0.1 times the size to the
+/// power that its unit asks, one value a decade.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lattice {
     /// The size of the scene in metres.

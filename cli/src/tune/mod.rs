@@ -1,10 +1,10 @@
 //! Which values of the thesis' thresholds are best, and what the best are worth.
 //!
-//! Two things are wanted at once, few crossings that get through and few false hits, and what helps one
-//! harms the other. So there is no best setting but a [`Front`] of them: settings of which none is better
-//! than another in both. [`search`] finds it by Pareto local search. [`advise`] takes from it the setting
-//! of least [`Penalty`], and tells which thresholds matter for it. [`validate`] judges settings on queries
-//! that the search has not seen.
+//! Two things are wanted at once, few crossings that get through and few false hits, and what helps
+//! one harms the other. So there is no best setting but a [`Front`] of them: settings of which none
+//! is better than another in both. [`search`] finds it by Pareto local search. [`advise`] takes
+//! from it the setting of least [`Penalty`], and tells which thresholds matter for it. [`validate`]
+//! judges settings on queries that the search has not seen.
 
 mod advise;
 mod front;

@@ -1,9 +1,9 @@
 //! Pareto local search (Paquete, Chiarandini, Stützle 2004) on the lattice of settings.
 //!
-//! From a few settings on, every member of the front is explored once: all settings that differ from it in
-//! one threshold are judged, and offered to the front. The search ends when all members are explored. Then
-//! no change of a single threshold of any member leads to a setting that the front does not dominate. There
-//! is nothing random in it.
+//! From a few settings on, every member of the front is explored once: all settings that differ
+//! from it in one threshold are judged, and offered to the front. The search ends when all members
+//! are explored. Then no change of a single threshold of any member leads to a setting that the
+//! front does not dominate. There is nothing random in it.
 
 use std::collections::{HashMap, HashSet};
 

@@ -14,7 +14,8 @@ use tunnelproof_reference::answer::{Enclosure, ExactAnswer, ExactHit, Parameters
 use tunnelproof_reference::field;
 use tunnelproof_reference::oracle::{Decision, decide};
 
-/// Products of three numbers within this factor of 1 stay in the range of `f64` with all their digits.
+/// Products of three numbers within this factor of 1 stay in the range of `f64` with all their
+/// digits.
 const RANGE: f64 = 1e60;
 
 /// The exact answer and what is special about it.

@@ -18,7 +18,8 @@ pub(super) struct ExactTime {
 /// The only root of a polynomial in an interval.
 #[derive(Serialize)]
 struct Root {
-    /// Integer coefficients in decimal digits, ascending; without common divisor, every root simple.
+    /// Integer coefficients in decimal digits, ascending; without common divisor, every root
+    /// simple.
     polynomial: Vec<String>,
     /// Strictly inside is the number and no other root; neither end is one.
     interval: [Fraction; 2],
@@ -45,8 +46,8 @@ impl ExactTime {
 }
 
 impl Root {
-    /// The interval is the one that isolation gives, not the one that questions have narrowed: it has
-    /// the fewest digits.
+    /// The interval is the one that isolation gives, not the one that questions have narrowed: it
+    /// has the fewest digits.
     fn new<Z: Integer>(time: &Algebraic<Z>) -> Self {
         let polynomial = time.poly().square_free_part();
         let bounds = isolate_roots(&polynomial).into_iter().find_map(|root| {

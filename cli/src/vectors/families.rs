@@ -1,9 +1,9 @@
-//! A selection of each family: of every class of queries that occurs the simplest ones, and of every
-//! failure of a published method a query that is shrunk.
+//! A selection of each family: of every class of queries that occurs the simplest ones, and of
+//! every failure of a published method a query that is shrunk.
 //!
-//! Two queries are of one class if they have the same flags, both hit or both miss, and the same kind of
-//! contact. So each case of motion, each place of a contact and each failure that the first queries of
-//! a family show is among the vectors.
+//! Two queries are of one class if they have the same flags, both hit or both miss, and the same
+//! kind of contact. So each case of motion, each place of a contact and each failure that the first
+//! queries of a family show is among the vectors.
 
 use std::collections::{BTreeMap, BTreeSet};
 

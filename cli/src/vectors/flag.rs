@@ -1,4 +1,5 @@
-//! Flags: what is special about a vector, and what goes wrong there in which kind of implementation.
+//! Flags: what is special about a vector, and what goes wrong there in which kind of
+//! implementation.
 
 use serde::Serialize;
 use tunnelproof::contact::Case;

@@ -80,8 +80,8 @@ fn with_smallest(entry: Entry) -> impl Iterator<Item = Described> {
         .chain(smallest)
 }
 
-/// The query shrunk as long as the text, all errata but this one repaired, is wrong in the same way;
-/// `None` if it is right, since it takes rounding to show this one.
+/// The query shrunk as long as the text, all errata but this one repaired, is wrong in the same
+/// way; `None` if it is right, since it takes rounding to show this one.
 fn smallest(erratum: Erratum, query: &Query) -> Option<Query> {
     let subject = Shadow::new(Repairs::ALL.without(erratum));
     let disagreement = Disagreement::with_oracle(&subject);

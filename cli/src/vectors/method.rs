@@ -62,8 +62,8 @@ impl Method {
         self.subject().name()
     }
 
-    /// What it gets wrong on this query, if that is more than a time that is ahead of the exact one,
-    /// which conservative methods mean to give.
+    /// What it gets wrong on this query, if that is more than a time that is ahead of the exact
+    /// one, which conservative methods mean to give.
     pub(super) fn fault(self, query: &Query) -> Option<Fault> {
         let fault = self.disagreement().fault(query).ok().flatten();
         fault.filter(|fault| *fault != Fault::Early)

@@ -3,8 +3,8 @@
 //!
 //! `vectors/README.md` describes the format, `vectors/schema.json` states it. One file for each
 //! source: the figures of the thesis, the witnesses of its errata, public bug reports, and a
-//! selection of each [family](tunnelproof_reference::generate). All of it is computed from the sources here, the same
-//! on every machine; nothing is edited by hand.
+//! selection of each [family](tunnelproof_reference::generate). All of it is computed from the
+//! sources here, the same on every machine; nothing is edited by hand.
 
 use std::collections::{BTreeMap, HashSet};
 

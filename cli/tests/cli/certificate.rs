@@ -9,7 +9,8 @@ use tempfile::TempDir;
 
 use crate::run::{stderr, stdout, tunnelproof};
 
-/// Small, with wires of two queries each, faults of each kind, and a number of queries that shards do not divide.
+/// Small, with wires of two queries each, faults of each kind, and a number of queries that shards
+/// do not divide.
 const FAMILIES: [&str; 6] = [
     "--family",
     "lattice,joint,slow",

@@ -10,8 +10,8 @@ use crate::run::{stderr, tunnelproof};
 
 const INCLUDE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../include");
 
-/// Misses everything, talks, and does something else on chosen queries: by x of A at the start, which `lattice`
-/// has small integers for.
+/// Misses everything, talks, and does something else on chosen queries: by x of A at the start,
+/// which `lattice` has small integers for.
 const MUTE: &str = r#"
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,7 +29,8 @@ int tunnelproof_edge_edge(const double points[24], const double radius[2], doubl
 }
 "#;
 
-/// Repeats what it is asked: the time of impact is the sum of all numbers, weighted, so that each is seen in its place.
+/// Repeats what it is asked: the time of impact is the sum of all numbers, weighted, so that each
+/// is seen in its place.
 const ECHO: &str = r#"
 #include "tunnelproof_subject.h"
 

@@ -10,8 +10,8 @@ use crate::run::{PROGRAM, stderr, tunnelproof};
 /// What a program does, each time that it is started, on its 40th query.
 const MISDEEDS: [&str; 6] = ["crash", "hang", "half a line", "nan", "garbage", "wrong id"];
 
-/// It answers 39 queries, always with a miss, and then misbehaves in the next way. Starts are counted in the
-/// file `$1`. After NaN it goes on for one more query, and then ends.
+/// It answers 39 queries, always with a miss, and then misbehaves in the next way. Starts are
+/// counted in the file `$1`. After NaN it goes on for one more query, and then ends.
 const ADVERSARY: &str = r#"
 echo start >> "$1"
 way=$(( ($(wc -l < "$1") - 1) % 6 ))

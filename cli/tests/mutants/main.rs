@@ -1,5 +1,5 @@
-//! Faults planted in the sources of the thesis path, the shadow, the oracle and the certified path are found
-//! by `certify`, or by `thesis_vs_shadow` on its seeds, within a minute each.
+//! Faults planted in the sources of the thesis path, the shadow, the oracle and the certified path
+//! are found by `certify`, or by `thesis_vs_shadow` on its seeds, within a minute each.
 //!
 //! Builds the program once for each fault, which takes minutes, so it has to be asked for:
 //!
@@ -84,8 +84,8 @@ fn findings(said: &Said) -> Vec<&str> {
     thesis.chain(strict).collect()
 }
 
-/// Whether the findings are those of a fault of this one, and of no other: a wrong oracle differs from the
-/// shadow and from the certified path, a wrong shadow from the oracle alone.
+/// Whether the findings are those of a fault of this one, and of no other: a wrong oracle differs
+/// from the shadow and from the certified path, a wrong shadow from the oracle alone.
 fn names(culprit: Culprit, findings: &[&str]) -> bool {
     let has = |start: &str| findings.iter().any(|line| line.starts_with(start));
     let wrong = ["shadow: ", "oracle and shadow disagree", "certified: "].map(has);

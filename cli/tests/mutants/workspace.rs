@@ -20,8 +20,8 @@ const SOURCES: [&str; 9] = [
     "c",
 ];
 
-/// A copy of the sources. It stays, with what is built from it, so that every mutant and every later run
-/// costs one incremental build.
+/// A copy of the sources. It stays, with what is built from it, so that every mutant and every
+/// later run costs one incremental build.
 pub(crate) struct Workspace {
     folder: PathBuf,
 }

@@ -1,5 +1,6 @@
-//! The exact time of a vector against the definitions, in rational arithmetic that shares nothing with
-//! the judges: Sturm's theorem for roots, the distance at a time by trying all that can be nearest.
+//! The exact time of a vector against the definitions, in rational arithmetic that shares nothing
+//! with the judges: Sturm's theorem for roots, the distance at a time by trying all that can be
+//! nearest.
 
 use std::cmp::Ordering;
 
@@ -51,8 +52,8 @@ pub(crate) fn check(vector: &Vector) -> Result<(), String> {
     }
 }
 
-/// The polynomial has exactly one root in the interval, which is within the bounds and a time at which
-/// the distance can be the radius.
+/// The polynomial has exactly one root in the interval, which is within the bounds and a time at
+/// which the distance can be the radius.
 fn check_root(vector: &Vector, root: &Root, toi: Bounds) -> Result<(), String> {
     let integers: Option<Vec<BigInt>> = root
         .polynomial
@@ -138,8 +139,8 @@ fn touch(vector: &Vector, time: &BigRational) -> bool {
     }
 }
 
-/// The least of the squared distances that can be it: of a vertex from an edge, of the insides of both
-/// edges, or of the vertex from the inside of the face.
+/// The least of the squared distances that can be it: of a vertex from an edge, of the insides of
+/// both edges, or of the vertex from the inside of the face.
 fn distance_squared(vector: &Vector, points: &[Vector3; 4]) -> BigRational {
     let [a, b, c, d] = points;
     let (of_ends, inside) = match vector.is_of_edges() {
@@ -212,10 +213,10 @@ fn dot(a: &Vector3, b: &Vector3) -> BigRational {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Whether this is so of one of the polynomials in time that are 0 where the distance becomes the radius `R`: `f`
-/// without radius, and with one `f^2 - R^2 n^2` for the lines of both edges or the plane of the face,
-/// `|w x e|^2 - R^2 e^2` for a vertex and an edge, `w^2 - R^2` for two vertices. One that is 0 throughout has
-/// no coefficients.
+/// Whether this is so of one of the polynomials in time that are 0 where the distance becomes the
+/// radius `R`: `f` without radius, and with one `f^2 - R^2 n^2` for the lines of both edges or the
+/// plane of the face, `|w x e|^2 - R^2 e^2` for a vertex and an edge, `w^2 - R^2` for two vertices.
+/// One that is 0 throughout has no coefficients.
 fn is_of_a_border(vector: &Vector, is_so: impl Fn(&Poly) -> bool) -> bool {
     let is_so_of = |value: &dyn Fn([Vector3; 4]) -> BigRational| {
         is_so(&interpolated(|time| value(positions(vector, time))))

@@ -1,5 +1,5 @@
-//! The motion test of parry (`cast_shapes`), judged where it answers the same question: two edges that move without
-//! turning, each by one translation.
+//! The motion test of parry (`cast_shapes`), judged where it answers the same question: two edges
+//! that move without turning, each by one translation.
 
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query::{ShapeCastOptions, cast_shapes};
@@ -52,19 +52,19 @@ fn vector(point: Point) -> Vector {
 fn contact(toi: f64) -> Verdict {
     let first = ContactPoint {
         point: Point::origin(),
-        u: 0.0,
-        v: 0.0,
-        normal: None,
+        weights: [1.0, 0.0, 1.0, 0.0],
+        relative_velocity: None,
     };
     Verdict::Hit(Contact {
         toi,
         first,
         second: None,
+        normal: None,
     })
 }
 
-/// A query in small integers in which each edge moves as its first end does: exactly a translation, since
-/// sums of small integers are not rounded.
+/// A query in small integers in which each edge moves as its first end does: exactly a translation,
+/// since sums of small integers are not rounded.
 fn translated(query: &Query) -> Query {
     let [a, b, c, d] = *query.start();
     let [a1, _, c1, _] = *query.end();

@@ -1,7 +1,8 @@
-//! Lets a shared library answer queries in a process of its own, so that a crash in it is not one of the judge.
+//! Lets a shared library answer queries in a process of its own, so that a crash in it is not one
+//! of the judge.
 //!
-//! `include/tunnelproof_subject.h` says what the library offers, `docs/bring-your-own.md` how queries and answers are
-//! framed. This is the only package with `unsafe`.
+//! `include/tunnelproof_subject.h` says what the library offers, `docs/bring-your-own.md` how
+//! queries and answers are framed. This is the only package with `unsafe`.
 
 use std::ffi::c_int;
 use std::fmt;
@@ -46,11 +47,12 @@ impl Host {
     ///
     /// [`HostError`] if it cannot be loaded or has none of the functions.
     pub fn load(path: &str) -> Result<Self, HostError> {
-        // SAFETY: the user asks for the code in this library to be run; whatever its initialisers do, they do in a
-        // process that has nothing to lose.
+        // SAFETY: the user asks for the code in this library to be run; whatever its initialisers
+        // do, they do in a process that has nothing to lose.
         let library = unsafe { Library::new(path) }.map_err(HostError::Load)?;
         let functions = FUNCTIONS.map(|name| {
-            // SAFETY: the header gives these names this type, and the library says by them that it keeps to the header.
+            // SAFETY: the header gives these names this type, and the library says by them that it
+            // keeps to the header.
             let function = unsafe { library.get::<Answer>(name.as_bytes()) };
             function.ok().map(|function| *function)
         });
@@ -63,8 +65,8 @@ impl Host {
         }
     }
 
-    /// Answers framed queries from the standard input on the standard output, to the end of the input. What the
-    /// library itself writes to the standard output goes to the standard error.
+    /// Answers framed queries from the standard input on the standard output, to the end of the
+    /// input. What the library itself writes to the standard output goes to the standard error.
     ///
     /// # Errors
     ///
@@ -73,7 +75,8 @@ impl Host {
         let mut queries = BufReader::new(io::stdin().lock());
         let mut answers = own_output()?;
         while let Some(query) = read(&mut queries)? {
-            // At once: an answer that a crash at the next query loses would be counted as that of this one.
+            // At once: an answer that a crash at the next query loses would be counted as that of
+            // this one.
             answers.write_all(&self.answer(&query))?;
             answers.flush()?;
         }
@@ -92,8 +95,9 @@ impl Host {
         let function = self.functions.get(usize::from(query[8])).copied().flatten();
         let verdict = match function {
             None => UNSUPPORTED,
-            // SAFETY: the function has the type of the header; the three pointers are to memory of the sizes that
-            // the header states, which lives until the call ends, and only `toi` is given to be written.
+            // SAFETY: the function has the type of the header; the three pointers are to memory of
+            // the sizes that the header states, which lives until the call ends, and only `toi` is
+            // given to be written.
             Some(function) => unsafe {
                 function(&raw const points, &raw const radius, &raw mut toi)
             },

@@ -1,20 +1,23 @@
 """Continuous collision detection that does not tunnel, on NumPy arrays.
 
-A query is one time step of four points that move on straight lines: ``points`` of shape ``(n, 8, 3)`` holds, for each of
-``n`` queries, A, B, C, D at the start of the step and then at its end, in metres.
+A query is one time step of four points that move on straight lines. ``points``, of shape
+``(n, 8, 3)``, holds A, B, C, D of each query at the start of the step and then at its end, in metres.
 
-- Edge-edge: the moving edges AB and CD.
-- Vertex-face: the moving vertex A and the moving face BCD.
+- ``"edge-edge"``: the moving edges AB and CD. The first side is AB, the second is CD.
+- ``"vertex-face"``: the moving vertex A and the moving face BCD. The first side is A, the
+  second is BCD.
 
-``radius`` is the distance within which there is contact: one number for all queries, one for each of shape ``(n,)``, or
-two of shape ``(n, 2)``, whose sum is meant exactly, as of two wires. With 0 contact is a common point.
+``radius`` is the distance within which there is contact: one number for all queries, one for each
+of shape ``(n,)``, or two of shape ``(n, 2)``, whose sum is meant exactly, such as the radii of two
+wires. With 0 contact is a common point.
 
-:func:`edge_edge` and :func:`vertex_face` are the certified path, for simulators: never wrong, and fast. :func:`exact`
-is the oracle in rational arithmetic, by another method. :func:`certify` judges a method of your own against it on
-:func:`families` of queries, each of which aims at a weakness.
+:func:`decide` is the certified path, for simulators: never wrong, and fast. :func:`exact` is the
+oracle in rational arithmetic, by another method. :func:`certify` judges a method of your own
+against it on :func:`families` of queries, each of which aims at a weakness.
 
-All functions run without the global interpreter lock and on all cores. What comes in is copied; arrays of other types
-are converted to ``float64``.
+All functions run without the global interpreter lock and on all cores. What comes in is copied.
+Arrays of other types are converted to ``float64``. The proofs assume rounding to nearest and
+gradual underflow: a library that switches on flush-to-zero for the calling process breaks that.
 """
 
 from __future__ import annotations
@@ -22,6 +25,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from enum import IntEnum
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -30,18 +34,19 @@ import numpy.typing as npt
 from . import _tunnelproof
 
 __all__ = [
+    "Case",
     "Certificate",
-    "EdgeContacts",
-    "ExactContacts",
-    "FaceContacts",
+    "ContactKind",
+    "ContactPoints",
+    "ExactHits",
     "Family",
+    "Hits",
     "certify",
-    "edge_edge",
+    "decide",
     "exact",
     "families",
     "merge",
     "queries",
-    "vertex_face",
 ]
 
 __version__ = _tunnelproof.VERSION
@@ -49,73 +54,125 @@ __version__ = _tunnelproof.VERSION
 Kind = Literal["edge-edge", "vertex-face"]
 Floats = npt.NDArray[np.float64]
 Bools = npt.NDArray[np.bool_]
-Signs = npt.NDArray[np.int8]
+Codes = npt.NDArray[np.int8]
 Method = Callable[[Kind, Floats, Floats], "tuple[npt.ArrayLike, npt.ArrayLike] | None"]
 
 
+class ContactKind(IntEnum):
+    """Whether a simulator that misses the contact lets the two sides through each other."""
+
+    CROSSING = 1
+    """They swap sides: a tunnel if missed."""
+    GRAZE = 2
+    """They touch without swapping sides."""
+
+
+class Case(IntEnum):
+    """How the two sides move against each other during the whole step. Of several, the last
+    here."""
+
+    GENERAL = 1
+    """None of those below."""
+    COPLANAR = 2
+    """All four points share a plane."""
+    PARALLEL = 3
+    """The edges are parallel, on two lines."""
+    COLLINEAR = 4
+    """All four points of two edges share a line."""
+    SHARED_START = 5
+    """A and C, of two edges, are the same point."""
+    DEGENERATE = 6
+    """An edge is a point, or the face has no area."""
+
+
 @dataclass(frozen=True, eq=False)
-class EdgeContacts:
-    """The first contacts of ``n`` pairs of edges, proved. Where there is none, numbers are NaN, 0 or false."""
+class ContactPoints:
+    """A point of contact of each of ``n`` queries, NaN where there is no hit."""
 
-    hit: Bools
-    """Whether they touch in the step, shape ``(n,)``. No hit is false, no contact is missed."""
-    toi: Floats
-    """The largest float that is not above the time of impact, in ``[0, 1]``, shape ``(n,)``."""
-    toi_above: Floats
-    """The smallest float that is not below the time of impact, shape ``(n,)``."""
-    first: Floats
-    """Where they touch, or with a radius are nearest: u on AB, v on CD, in ``[0, 1]``, shape ``(n, 2)``."""
-    second: Floats
-    """The other end of the contact where it is a segment, NaN where it is a point, shape ``(n, 2)``."""
-    parameter_error: Floats
-    """No parameter is farther from the exact one than this, at most ``2**-32``, shape ``(n,)``."""
-    crosses: Bools
-    """Whether the edges swap sides if the contact is missed, shape ``(n,)``."""
-    side: Signs
-    """The sign of ``((B - A) x (D - C)) . (C - A)`` just before the contact, shape ``(n,)``; 0 if always 0."""
-
-
-@dataclass(frozen=True, eq=False)
-class FaceContacts:
-    """The first contacts of ``n`` vertices and faces, proved. Where there is none, numbers are NaN, 0 or false."""
-
-    hit: Bools
-    """Whether they touch in the step, shape ``(n,)``. No hit is false, no contact is missed."""
-    toi: Floats
-    """The largest float that is not above the time of impact, in ``[0, 1]``, shape ``(n,)``."""
-    toi_above: Floats
-    """The smallest float that is not below the time of impact, shape ``(n,)``."""
     weights: Floats
-    """Where on the face: the weights of B, C and D, in ``[0, 1]``, shape ``(n, 3)``."""
-    weight_error: Floats
-    """No weight is farther from the exact one than this, at most ``2**-32``, shape ``(n,)``."""
-    crosses: Bools
-    """Whether the vertex goes through the face if the contact is missed, shape ``(n,)``."""
-    side: Signs
-    """The sign of ``((C - B) x (D - B)) . (A - B)`` just before the contact, shape ``(n,)``; 0 if always 0."""
+    """The weights of A, B, C and D, in ``[0, 1]``, float64 of shape ``(n, 4)``.
+
+    Of two edges they are ``1 - u, u, 1 - v, v`` with u on AB and v on CD. Of a vertex and a face
+    they are 1 and the weights of B, C and D."""
+    point: Floats
+    """The point on the first side at ``toi``, in metres, float64 of shape ``(n, 3)``."""
 
 
 @dataclass(frozen=True, eq=False)
-class ExactContacts:
-    """The first contacts of ``n`` queries by the oracle. Where there is none, numbers are NaN, 0 or false.
+class Hits:
+    """The first contacts of ``n`` queries of either kind, proved.
 
-    Of each exact number the two floats between which it is are given; they are equal where it is a float.
+    Where ``hit`` is false, floats are NaN, integers 0 and the rest is false.
     """
 
     hit: Bools
-    """Whether they touch in the step, shape ``(n,)``."""
+    """Whether they touch in the step, bool of shape ``(n,)``. No hit is false, no contact is
+    missed."""
     toi: Floats
-    """The time of impact, shape ``(n, 2)``."""
-    u: Floats
-    """The place on AB; of a face, the weight of C. Shape ``(n, 2)``."""
-    v: Floats
-    """The place on CD; of a face, the weight of D. Shape ``(n, 2)``."""
-    is_crossing: Bools
-    """Whether the first contact is a crossing, shape ``(n,)``."""
+    """The largest float that is not above the time of impact, in ``[0, 1]``, float64 of shape
+    ``(n,)``.
+
+    Positions that are rounded to floats at this time may already be past the contact."""
+    toi_above: Floats
+    """The smallest float that is not below the time of impact, float64 of shape ``(n,)``."""
+    kind: Codes
+    """Values of :class:`ContactKind`, exact, int8 of shape ``(n,)``."""
+    side: Codes
+    """The sign of f just before the contact, exact, int8 of shape ``(n,)``; 0 if always 0, or at
+    time 0.
+
+    Of two edges ``f = ((B - A) x (D - C)) . (C - A)``, of a vertex and a face
+    ``f = ((C - B) x (D - B)) . (A - B)``."""
+    case: Codes
+    """Values of :class:`Case`, exact, int8 of shape ``(n,)``."""
+    temporarily_parallel: Bools
+    """Whether the edges are parallel at the time of impact, or the face is a segment, though not
+    for the whole step; bool of shape ``(n,)``."""
+    temporarily_point: Bools
+    """Whether an edge, or the face, is a point at the time of impact, though not for the whole
+    step; bool of shape ``(n,)``."""
+    first: ContactPoints
+    """Where they touch, or with a radius are nearest."""
+    has_second: Bools
+    """Whether two edges touch, or are nearest, along a segment from ``first`` to ``second``; bool
+    of shape ``(n,)``."""
+    second: ContactPoints
+    """The other end of that segment; ``first`` again where there is none."""
+    place_error: Floats
+    """Neither u, v nor a weight of a face's corner is farther from the exact one than this, at
+    most ``2**-32``, float64 of shape ``(n,)``."""
+    normal: Floats
+    """The unit vector along which they touch, from the first side to the second as they are just
+    before the contact, float64 of shape ``(n, 3)``; 0 where they share a point at the start of the
+    step."""
+    normal_error: Floats
+    """The distance of ``normal`` from the exact one is at most this, float64 of shape ``(n,)``."""
+
+
+@dataclass(frozen=True, eq=False)
+class ExactHits:
+    """The first contacts of ``n`` queries by the oracle, without the points in space and the
+    normal.
+
+    Of each exact number the two floats between which it is are given; they are equal where it is a
+    float. Where ``hit`` is false, floats are NaN, integers 0 and the rest is false. """
+
+    hit: Bools
+    """Whether they touch in the step, bool of shape ``(n,)``."""
+    toi: Floats
+    """The time of impact, float64 of shape ``(n, 2)``."""
+    kind: Codes
+    """Values of :class:`ContactKind`, int8 of shape ``(n,)``."""
     crosses: Bools
-    """Whether any contact of the step is a crossing: then a method that finds none lets them tunnel. ``(n,)``."""
-    side: Signs
-    """The side they come from, as in :class:`EdgeContacts` and :class:`FaceContacts`, shape ``(n,)``."""
+    """Whether any contact of the step, the first or a later one, is a crossing, bool of shape
+    ``(n,)``.
+
+    Then a method that finds none lets them tunnel."""
+    side: Codes
+    """The side they come from, as in :class:`Hits`, int8 of shape ``(n,)``."""
+    weights: Floats
+    """Where they touch, float64 of shape ``(n, 2, 2)``: of two edges the weights of B and of D,
+    which are u and v; of a face those of C and of D."""
 
 
 class Family(NamedTuple):
@@ -126,43 +183,43 @@ class Family(NamedTuple):
     description: str
 
 
-def edge_edge(points: npt.ArrayLike, radius: npt.ArrayLike = 0.0) -> EdgeContacts:
-    """Whether and when pairs of moving edges touch, by the certified path.
+def decide(kind: Kind, points: npt.ArrayLike, radius: npt.ArrayLike = 0.0) -> Hits:
+    """Whether and when the two sides of each query touch, by the certified path.
 
+    :param kind: ``"edge-edge"`` or ``"vertex-face"``.
     :param points: shape ``(n, 8, 3)``: A, B, C, D at the start, then at the end, in metres.
     :param radius: a number, shape ``(n,)``, or shape ``(n, 2)`` for exact sums of two, in metres.
-    :raises ValueError: for other shapes, and for a number that is not finite or a radius below 0, which is named.
+    :raises ValueError: for other kinds and shapes, and for a number that is not finite or a radius
+        below 0, which is named.
 
     >>> falling = [[-1, 0, 0], [1, 0, 0], [0.5, -1, 1], [0.5, 1, 1],
     ...            [-1, 0, 0], [1, 0, 0], [0.5, -1, -3], [0.5, 1, -3]]
-    >>> contacts = edge_edge([falling])
-    >>> contacts.hit, contacts.toi, contacts.first
-    (array([ True]), array([0.25]), array([[0.75, 0.5 ]]))
+    >>> hits = decide("edge-edge", [falling])
+    >>> hits.hit, hits.toi, hits.first.point
+    (array([ True]), array([0.25]), array([[0.5, 0. , 0. ]]))
+    >>> hits.normal.round(9) + 0.0
+    array([[0., 0., 1.]])
     """
-    return EdgeContacts(**_tunnelproof.edge_edge(*_arrays(points, radius)))
+    columns = _tunnelproof.decide(kind, *_arrays(points, radius))
+    first, second = (
+        ContactPoints(columns.pop(f"{name}_weights"), columns.pop(f"{name}_point"))
+        for name in ("first", "second")
+    )
+    return Hits(first=first, second=second, **columns)
 
 
-def vertex_face(points: npt.ArrayLike, radius: npt.ArrayLike = 0.0) -> FaceContacts:
-    """Whether and when moving vertices and faces touch, by the certified path.
+def exact(kind: Kind, points: npt.ArrayLike, radius: npt.ArrayLike = 0.0) -> ExactHits:
+    """The exact answers, by the oracle: rational and real algebraic numbers, some microseconds
+    each.
 
-    :param points: shape ``(n, 8, 3)``: A, B, C, D at the start, then at the end, in metres.
-    :param radius: a number, shape ``(n,)``, or shape ``(n, 2)`` for exact sums of two, in metres.
-    :raises ValueError: for other shapes, and for a number that is not finite or a radius below 0, which is named.
-    """
-    return FaceContacts(**_tunnelproof.vertex_face(*_arrays(points, radius)))
-
-
-def exact(
-    points: npt.ArrayLike, radius: npt.ArrayLike = 0.0, kind: Kind = "edge-edge"
-) -> ExactContacts:
-    """The exact answers, by the oracle: rational arithmetic and real algebraic numbers, some microseconds each.
-
-    :param points: shape ``(n, 8, 3)``: A, B, C, D at the start, then at the end, in metres.
-    :param radius: a number, shape ``(n,)``, or shape ``(n, 2)`` for exact sums of two, in metres.
     :param kind: ``"edge-edge"`` or ``"vertex-face"``.
-    :raises ValueError: for other shapes, and for a number that is not finite or a radius below 0, which is named.
-    """
-    return ExactContacts(**_tunnelproof.exact(kind, *_arrays(points, radius)))
+    :param points: shape ``(n, 8, 3)``: A, B, C, D at the start, then at the end, in metres.
+    :param radius: a number, shape ``(n,)``, or shape ``(n, 2)`` for exact sums of two, in metres.
+    :raises ValueError: for other kinds and shapes, and for a number that is not finite or a radius
+        below 0, which is named. """
+    columns = _tunnelproof.exact(kind, *_arrays(points, radius))
+    weights = columns.pop("weights").reshape(-1, 2, 2)
+    return ExactHits(weights=weights, **columns)
 
 
 def families() -> list[Family]:
@@ -173,7 +230,8 @@ def families() -> list[Family]:
 def queries(family: str, count: int, *, seed: int = 1, start: int = 0) -> tuple[Floats, Floats]:
     """Queries ``start`` to ``start + count - 1`` of a family.
 
-    :returns: points of shape ``(count, 8, 3)`` and radii of shape ``(count, 2)``; the same everywhere.
+    :returns: points of shape ``(count, 8, 3)`` and radii of shape ``(count, 2)``; the same
+        everywhere.
     :raises ValueError: if there is no such family.
     """
     return _tunnelproof.family(family, seed, start, count)
@@ -216,17 +274,20 @@ def certify(
 ) -> Certificate:
     """Judges a method against the exact answers.
 
-    :param method: called as ``method(kind, points, radii)`` with some queries, ``points`` of shape ``(n, 8, 3)`` and
-        ``radii`` of shape ``(n, 2)``, from any thread. Returns ``hit`` and ``toi``, each of shape ``(n,)``; ``toi`` counts
-        where ``hit`` is true. ``None`` says that it does not take such queries. An exception counts as no answer to the
-        query that raises it by itself.
+    :param method: called as ``method(kind, points, radii)`` with some queries, ``points`` of shape
+        ``(n, 8, 3)`` and ``radii`` of shape ``(n, 2)``, from any thread. Returns ``hit`` and
+        ``toi``, each of shape ``(n,)``; ``toi`` counts where ``hit`` is true. ``None`` says that
+        it does not take such queries. An exception counts as no answer to the query that raises it
+        by itself.
     :param name: what it is called in tables.
     :param families: names of :func:`families`; all if left out.
-    :param own: queries of your own by a name: kind, points and radius, as :func:`exact` takes them.
+    :param own: queries of your own by a name: kind, points and radius, as :func:`exact` takes
+        them.
     :param count: how many queries of each family.
     :param seed: which ones.
     :param declared_distance: false hits of two that come as near as this, in metres, count apart.
-    :param shard: which part is judged, ``(i, n)`` with ``i`` from 1 to ``n``; :func:`merge` puts all parts together.
+    :param shard: which part is judged, ``(i, n)`` with ``i`` from 1 to ``n``; :func:`merge` puts
+        all parts together.
     :raises ValueError: if there is no such family or part, or one of your own queries is none.
 
     >>> def blind(kind, points, radii):

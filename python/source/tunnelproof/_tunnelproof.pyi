@@ -8,11 +8,8 @@ from . import Kind
 
 VERSION: str
 
-def edge_edge(
-    points: npt.NDArray[np.float64], radii: npt.NDArray[np.float64]
-) -> dict[str, Any]: ...
-def vertex_face(
-    points: npt.NDArray[np.float64], radii: npt.NDArray[np.float64]
+def decide(
+    kind: Kind, points: npt.NDArray[np.float64], radii: npt.NDArray[np.float64]
 ) -> dict[str, Any]: ...
 def exact(
     kind: Kind, points: npt.NDArray[np.float64], radii: npt.NDArray[np.float64]

@@ -68,8 +68,8 @@ impl<Z: Integer> Algebraic<Z> {
         Enclosure { below, above }
     }
 
-    /// Bounds in `[0, 1]` of a quotient that lies there. It is strictly between them, but where they
-    /// are 0 and 1.
+    /// Bounds in `[0, 1]` of a quotient that lies there. It is strictly between them, but where
+    /// they are 0 and 1.
     fn guess_quotient(&self, numerator: &Poly<Z>, denominator: &Poly<Z>) -> (f64, f64) {
         self.refine(BITS_OF_ENCLOSURES);
         let interval = self.interval.borrow();
@@ -85,7 +85,8 @@ impl<Z: Integer> Algebraic<Z> {
         let (n_degree, d_degree) = (numerator.degree() as u64, denominator.degree() as u64);
         let n_scale = interval.exponent * d_degree.saturating_sub(n_degree);
         let d_scale = interval.exponent * n_degree.saturating_sub(d_degree);
-        // The quotient has about 64 bits over 2^shift, so that one unit more or less hardly matters.
+        // The quotient has about 64 bits over 2^shift, so that one unit more or less hardly
+        // matters.
         let fraction = |n: &Z, d: &Z| {
             let d = d.shl(d_scale);
             let shift = (d.bits() + 64).saturating_sub(n.bits() + n_scale);
@@ -163,8 +164,8 @@ fn cut_at_f64<Z: Integer>(interval: &mut Interval<Z>, poly: &Poly<Z>, cut: f64, 
     interval.reduce();
 }
 
-/// A root of `poly` between `below` and `above` in floating point and how far off it may be: bisection
-/// and Newton steps. `before` is the sign of `poly` at the low end. Only a guess.
+/// A root of `poly` between `below` and `above` in floating point and how far off it may be:
+/// bisection and Newton steps. `before` is the sign of `poly` at the low end. Only a guess.
 fn guess_root<Z: Integer>(poly: &Poly<Z>, below: f64, above: f64, before: Ordering) -> (f64, f64) {
     let coefficients = scaled_coefficients(poly);
     let evaluate = |t: f64| {

@@ -1,5 +1,5 @@
-//! Isolation of the real roots in `[0, 1]`: Descartes' rule of signs on Bernstein coefficients, with
-//! exact halving (Collins and Akritas 1976; Rouillier and Zimmermann 2004).
+//! Isolation of the real roots in `[0, 1]`: Descartes' rule of signs on Bernstein coefficients,
+//! with exact halving (Collins and Akritas 1976; Rouillier and Zimmermann 2004).
 
 use crate::field::Integer;
 use crate::poly::Poly;
@@ -35,8 +35,8 @@ pub fn isolate_roots<Z: Integer>(poly: &Poly<Z>) -> Vec<Algebraic<Z>> {
 
 /// The roots of `poly` in the open interval `(0, 1)`, whose ends are not roots.
 ///
-/// Halving ends only if every root is simple. Mostly they are, and few halvings tell the roots apart;
-/// if not, the square-free part takes the place of the polynomial.
+/// Halving ends only if every root is simple. Mostly they are, and few halvings tell the roots
+/// apart; if not, the square-free part takes the place of the polynomial.
 fn isolate_inside<Z: Integer>(mut poly: Poly<Z>, found: &mut Vec<Algebraic<Z>>) {
     let mut depth = DEPTH_BEFORE_SQUARE_FREE;
     loop {

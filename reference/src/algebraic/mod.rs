@@ -168,8 +168,8 @@ impl<Z: Integer> Algebraic<Z> {
     /// Whether `q` is 0 at the number.
     ///
     /// The common divisor of `q` and the defining polynomial has no root in the interval but the
-    /// number, a simple one if any, so it has it exactly if it changes sign between the ends. Mostly
-    /// `q` is a multiple of the defining polynomial, which shows at less cost.
+    /// number, a simple one if any, so it has it exactly if it changes sign between the ends.
+    /// Mostly `q` is a multiple of the defining polynomial, which shows at less cost.
     fn is_root_of(&self, q: &Poly<Z>) -> bool {
         if self.poly.divides(q) {
             return true;

@@ -9,8 +9,8 @@ use rayon::prelude::*;
 /// How many items are worked on at once, and how many more are read ahead.
 const BATCH: usize = 4096;
 
-/// Calls `work` on every item, in parallel, and `sink` on every result, in the order of the items. See
-/// [`map_chunks_in_order`].
+/// Calls `work` on every item, in parallel, and `sink` on every result, in the order of the items.
+/// See [`map_chunks_in_order`].
 ///
 /// # Errors
 ///
@@ -29,8 +29,9 @@ where
     map_chunks_in_order(items, 1, work, sink)
 }
 
-/// Calls `work` on chunks of up to `size` consecutive items, in parallel, and `sink` on every result, in the
-/// order of the items. `work` gives as many results as it gets items, or ends with an error.
+/// Calls `work` on chunks of up to `size` consecutive items, in parallel, and `sink` on every
+/// result, in the order of the items. `work` gives as many results as it gets items, or ends with
+/// an error.
 ///
 /// The stream is read on a thread of its own, and what there is of it is worked on at once: whoever
 /// waits for an answer before asking on gets it. Memory is bounded by the size of a batch.

@@ -6,8 +6,8 @@ use std::str::FromStr;
 use hmac_sha256::Hash;
 use tunnelproof::query::Query;
 
-/// The sum, modulo 2^128, of the first half of the SHA-256 of each query with its place. So that of the parts
-/// of a set of queries gives that of the whole, in any order.
+/// The sum, modulo 2^128, of the first half of the SHA-256 of each query with its place. So that of
+/// the parts of a set of queries gives that of the whole, in any order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Fingerprint(u128);
 

@@ -1,10 +1,11 @@
 //! Where thresholds and rounding excuse the thesis path: near the borders of its decisions.
 //!
-//! [`is_clear`] is a proof, for one query, that the thesis path has to take the decisions of the same
-//! algorithms in exact arithmetic with every threshold 0. Every number that it compares is bounded
-//! away from the border by more than its threshold and the error of its computation in `f64`, or is 0
-//! by equal inputs. What is not proved is not clear, so the rule errs to the side of the subject. The
-//! rule and its derivation are in `docs/method.md`, "What excuses the thesis path".
+//! [`is_clear`] is a proof, for one query, that the thesis path has to take the decisions of the
+//! same algorithms in exact arithmetic with every threshold 0. Every number that it compares is
+//! bounded away from the border by more than its threshold and the error of its computation in
+//! `f64`, or is 0 by equal inputs. What is not proved is not clear, so the rule errs to the side of
+//! the subject. The rule and its derivation are in `docs/method.md`, "What excuses the thesis
+//! path".
 
 use nalgebra::Vector3;
 use tunnelproof::contact::Case;
@@ -37,7 +38,8 @@ pub fn is_clear(query: &EdgeEdge, thresholds: &Thresholds) -> bool {
     let decision = oracle::decide::<Z>(&Query::EdgeEdge(*query));
     let same = |i, j| is_clearly_same_or_not(query, i, j, thresholds, &sizes);
     match decision.case() {
-        // Points that are equal at both ends of the step are so in `f64`, and nothing more is asked.
+        // Points that are equal at both ends of the step are so in `f64`, and nothing more is
+        // asked.
         Case::Degenerate => true,
         Case::SharedStart => same(0, 1) && same(2, 3),
         case @ (Case::Parallel | Case::Collinear | Case::Coplanar) => {
@@ -80,8 +82,8 @@ struct Sizes {
     coordinate: f64,
     /// `K`, `L` and `M` at the start and at the end, rounded.
     vectors: [[Vector3<f64>; 2]; 3],
-    /// For each of `K`, `L` and `M`: the position at the start, the velocity, and twice the velocity
-    /// of a point, all together; in units of it both errors are a few `U`.
+    /// For each of `K`, `L` and `M`: the position at the start, the velocity, and twice the
+    /// velocity of a point, all together; in units of it both errors are a few `U`.
     sums: [f64; 3],
     /// Of a velocity of `K`, `L` or `M`.
     velocity: f64,
@@ -108,8 +110,8 @@ impl Sizes {
         }
     }
 
-    /// How far the value of equation 3.9 at a time of the step may be off, with its coefficients, by
-    /// rounding: six products of three factors, each off by less than 2^5 U.
+    /// How far the value of equation 3.9 at a time of the step may be off, with its coefficients,
+    /// by rounding: six products of three factors, each off by less than 2^5 U.
     fn error_of_f(&self) -> f64 {
         256.0 * U * self.sums.iter().product::<f64>()
     }
@@ -119,8 +121,8 @@ impl Sizes {
         self.vectors.map(|[start, end]| start * (1.0 - t) + end * t)
     }
 
-    /// Algorithm 5: `K x L` is so large at some time that one of its three coefficients is above the
-    /// threshold.
+    /// Algorithm 5: `K x L` is so large at some time that one of its three coefficients is above
+    /// the threshold.
     fn is_clearly_turned(&self, thresholds: &Thresholds) -> bool {
         let error = 64.0 * U * self.sums[0] * self.sums[1];
         let least = 3.0 * (2.0 * thresholds.coefficients_quadratic + error);
@@ -232,7 +234,8 @@ struct Meeting {
     turn: f64,
     /// Of `M`.
     between: f64,
-    /// How far each coordinate of `K`, `L` and `M` may be off in `f64`: at another time, and rounded.
+    /// How far each coordinate of `K`, `L` and `M` may be off in `f64`: at another time, and
+    /// rounded.
     error: f64,
     /// `u` and `v`, if the lines meet in one point.
     parameters: Option<[f64; 2]>,

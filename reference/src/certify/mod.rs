@@ -4,9 +4,11 @@
 //! say the same on every query. Each query is judged by itself, on any thread; what is counted is
 //! counted in the order of the queries, so that the result does not depend on the threads.
 //!
-//! [`judged`] compares one answer with the exact one, [`verdict`] says what it is worth, [`tally`] counts, in a
-//! [`block`] for a whole [`source`] or a [`shard`] of it. [`run`] does it, all blocks are the [`findings`], [`strict`] says whether the result passes and [`table`] writes it down. How far a
-//! subject may be off is in [`permitted`] and nowhere else; [`margin`] is its rule for thresholds.
+//! [`judged`] compares one answer with the exact one, [`verdict`] says what it is worth, [`tally`]
+//! counts, in a [`block`] for a whole [`source`] or a [`shard`] of it. [`run`] does it, all blocks
+//! are the [`findings`], [`strict`] says whether the result passes and [`table`] writes it down.
+//! How far a subject may be off is in [`permitted`] and nowhere else; [`margin`] is its rule for
+//! thresholds.
 
 pub mod batch;
 pub mod block;

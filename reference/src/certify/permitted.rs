@@ -1,5 +1,5 @@
-//! The tolerances: how far a subject may be off before `--strict` or a fuzz target fails it. This is
-//! the only place in the crate that has any.
+//! The tolerances: how far a subject may be off before `--strict` or a fuzz target fails it. This
+//! is the only place in the crate that has any.
 
 use tunnelproof::query::Query;
 use tunnelproof::thesis::Thresholds;
@@ -15,8 +15,8 @@ pub struct Permitted {
     pub distance: f64,
     /// How much later than the exact time of impact, without unit.
     pub late: f64,
-    /// Whether a fuzz target excuses every deviation on queries that bring a decision of the thesis'
-    /// algorithms near its border; see [`margin`].
+    /// Whether a fuzz target excuses every deviation on queries that bring a decision of the
+    /// thesis' algorithms near its border; see [`margin`].
     pub borders: bool,
     /// Where the values come from.
     pub source: &'static str,

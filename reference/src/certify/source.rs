@@ -117,8 +117,8 @@ impl Source {
         }
     }
 
-    /// The groups of queries of a part of the source, in their order. Queries of other parts are not made,
-    /// where they need not be read.
+    /// The groups of queries of a part of the source, in their order. Queries of other parts are
+    /// not made, where they need not be read.
     ///
     /// # Errors
     ///

@@ -10,9 +10,10 @@ use super::tally::{Fault, Tally};
 /// What fails: a line for each subject and for each disagreement among judges and labels; none if
 /// everything passes.
 ///
-/// A subject fails if it takes none of the queries, or only some of one sort; by a tunnel, one at a joint, a missed graze, a false hit or a missing answer, and by a near hit
-/// or a late time of impact beyond what it is [`permitted`]; an exact one by any other field that
-/// differs. A wrong case alone does not fail an engine: it is a way to an answer, not the answer.
+/// A subject fails if it takes none of the queries, or only some of one sort; by a tunnel, one at a
+/// joint, a missed graze, a false hit or a missing answer, and by a near hit or a late time of
+/// impact beyond what it is [`permitted`]; an exact one by any other field that differs. A wrong
+/// case alone does not fail an engine: it is a way to an answer, not the answer.
 pub fn failures(panel: &Panel, total: &Block) -> Vec<String> {
     let subjects = panel.subjects.iter().zip(&total.tallies);
     let lines = subjects.filter_map(|(judged, tally)| {

@@ -93,7 +93,8 @@ fn name_width(panel: &Panel) -> usize {
     longest.unwrap_or(0).max(NAME[0])
 }
 
-/// A name, or as much of its start and its end as there is room for: programs often differ in their last argument.
+/// A name, or as much of its start and its end as there is room for: programs often differ in their
+/// last argument.
 fn cut(name: &str) -> String {
     let letters: Vec<char> = name.chars().collect();
     let Some(over) = letters.len().checked_sub(NAME[1]).filter(|&over| over > 0) else {

@@ -18,8 +18,8 @@ pub enum Fault {
     /// [`Verdict::Tunnel`]. Worst: `toi`, `u` and `v` farthest from 0 and 1,
     /// together.
     Tunnel,
-    /// Misses of every segment of a wire that is passed, together one fault. Worst: as for a tunnel,
-    /// and of the segments the one with that contact.
+    /// Misses of every segment of a wire that is passed, together one fault. Worst: as for a
+    /// tunnel, and of the segments the one with that contact.
     JointTunnel,
     /// [`Verdict::MissedGraze`]. Worst: as for a tunnel.
     MissedGraze,

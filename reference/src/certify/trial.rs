@@ -16,8 +16,8 @@ use super::source::Source;
 use super::strict::failures;
 use super::table;
 
-/// Judges an engine against the exact answer: a thousand queries of seed 1 of every family of edges without
-/// radius, unless something else is asked for.
+/// Judges an engine against the exact answer: a thousand queries of seed 1 of every family of edges
+/// without radius, unless something else is asked for.
 ///
 /// ```
 /// use tunnelproof::certified::Certified;

@@ -31,8 +31,8 @@ pub struct Judgement {
     pub is_hit: bool,
     /// Whether the subject states a case and it is not the exact one.
     pub wrong_case: bool,
-    /// For an exact subject: whether the answer is not the exact one in every field. For the certified
-    /// path: whether it is wrong in anything that it promises.
+    /// For an exact subject: whether the answer is not the exact one in every field. For the
+    /// certified path: whether it is wrong in anything that it promises.
     pub differs: bool,
     /// How much later than the exact time of impact, at most; 0 if it is not later.
     pub late: f64,
@@ -86,8 +86,8 @@ pub struct OutlineHit {
     pub toi: Enclosure,
     /// Whether any contact of the step is a crossing.
     pub crosses: bool,
-    /// How far the time and the place of the contact are from the ends of the step and of the edges:
-    /// 0 if each is at an end, 1 if each is in the middle.
+    /// How far the time and the place of the contact are from the ends of the step and of the
+    /// edges: 0 if each is at an end, 1 if each is in the middle.
     pub centrality: f64,
 }
 
@@ -148,8 +148,8 @@ pub fn judge(
     }
 }
 
-/// Compares what a subject says with the exact answer, as [`judge`]; that an exact subject differs is
-/// not seen here.
+/// Compares what a subject says with the exact answer, as [`judge`]; that an exact subject differs
+/// is not seen here.
 pub fn judge_outline(truth: &Outline, said: &Said, is_near: impl FnOnce() -> bool) -> Judgement {
     let &Said { toi, case } = said;
     if !toi.is_none_or(is_time_of_step) {
@@ -175,8 +175,8 @@ pub fn judge_outline(truth: &Outline, said: &Said, is_near: impl FnOnce() -> boo
     }
 }
 
-/// Whether the certified path is right in all that it promises: everything exact, the place within its
-/// stated error.
+/// Whether the certified path is right in all that it promises: everything exact, the place within
+/// its stated error.
 fn keeps_promise(hit: Option<&Hit<Place>>, truth: &ExactAnswer) -> bool {
     let (Some(hit), Some(exact)) = (hit, &truth.hit) else {
         return hit.is_none() && truth.hit.is_none();

@@ -1,11 +1,11 @@
 //! Queries in the public CCD query format, eight rows a query.
 //!
-//! A row is a point: `x_num,x_den,y_num,y_den,z_num,z_den,label`, integers of any size. The rows are
-//! A, B, C, D at `t = 0`, then A, B, C, D at `t = 1`. Every coordinate has to be exactly an `f64`;
-//! the fraction need not be in lowest terms and its denominator may be negative. The label, 1 for a
-//! hit and 0 for a miss, is the same on the eight rows. The format comes with "A Large Scale
-//! Benchmark and an Inclusion-Based Algorithm for Continuous Collision Detection" (Wang, Ferguson,
-//! Schneider, Jiang, Attene, Panozzo, ACM TOG 2021).
+//! A row is a point: `x_num,x_den,y_num,y_den,z_num,z_den,label`, integers of any size. The rows
+//! are A, B, C, D at `t = 0`, then A, B, C, D at `t = 1`. Every coordinate has to be exactly an
+//! `f64`; the fraction need not be in lowest terms and its denominator may be negative. The label,
+//! 1 for a hit and 0 for a miss, is the same on the eight rows. The format comes with "A Large
+//! Scale Benchmark and an Inclusion-Based Algorithm for Continuous Collision Detection" (Wang,
+//! Ferguson, Schneider, Jiang, Attene, Panozzo, ACM TOG 2021).
 //!
 //! A file does not say which kind its queries are, but the sets keep the kinds in folders of their
 //! names; see [`kind_in_path`].
@@ -20,8 +20,8 @@ use super::lines::Line;
 use super::{Entry, ReadOptions};
 use crate::field::{self, Integer};
 
-/// The longest integer that is read, in characters: that of a subnormal `f64` takes 1,100, a fraction
-/// need not be in lowest terms, and the time that conversion takes grows with the square.
+/// The longest integer that is read, in characters: that of a subnormal `f64` takes 1,100, a
+/// fraction need not be in lowest terms, and the time that conversion takes grows with the square.
 pub(super) const LONGEST_INTEGER: usize = 1 << 13;
 
 const COLUMNS: [&str; 7] = [

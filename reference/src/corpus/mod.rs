@@ -1,7 +1,8 @@
 //! Corpora: files of queries, and the identifiers that name a query.
 //!
-//! Read are [`jsonl`], this project's own format, [`csv`], the public CCD query format, and files of test
-//! vectors, each, with the feature `packed`, also packed by gzip (`.gz`) or zstd (`.zst`). The first two stream, so memory does not grow with the file. Input is exact: a coordinate is the
+//! Read are [`jsonl`], this project's own format, [`csv`], the public CCD query format, and files
+//! of test vectors, each, with the feature `packed`, also packed by gzip (`.gz`) or zstd (`.zst`).
+//! The first two stream, so memory does not grow with the file. Input is exact: a coordinate is the
 //! `f64` that the file states, or the file is refused.
 //!
 //! A query is known by an identifier that [`locate`](locate::locate) resolves:
@@ -95,8 +96,8 @@ pub enum Format {
 }
 
 impl Format {
-    /// The format of a file, by its extension: `.jsonl`, `.ndjson` and `.json`, or `.csv`; `.gz` or `.zst` may
-    /// follow.
+    /// The format of a file, by its extension: `.jsonl`, `.ndjson` and `.json`, or `.csv`; `.gz` or
+    /// `.zst` may follow.
     pub fn of_path(path: &str) -> Option<Self> {
         let (_, path) = Packing::of_path(path);
         let extension = Path::new(path).extension()?.to_str()?;

@@ -1,5 +1,5 @@
-//! Files that are packed: `.gz` by gzip, `.zst` by zstd, with the feature `packed`. Read as they come, in
-//! bounded memory.
+//! Files that are packed: `.gz` by gzip, `.zst` by zstd, with the feature `packed`. Read as they
+//! come, in bounded memory.
 
 use std::io::{self, BufRead, BufReader, Read};
 

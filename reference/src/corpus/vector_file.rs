@@ -1,8 +1,8 @@
-//! Files of test vectors, as the folder `vectors` has them: one object of JSON over many lines, whose
-//! field `vectors` lists queries with their answers.
+//! Files of test vectors, as the folder `vectors` has them: one object of JSON over many lines,
+//! whose field `vectors` lists queries with their answers.
 //!
-//! A vector is read like a line of [`jsonl`], an edge-edge query if it does not say otherwise, and is
-//! labelled with whether its `result` is a hit. A file is read as a whole.
+//! A vector is read like a line of [`jsonl`], an edge-edge query if it does not say otherwise, and
+//! is labelled with whether its `result` is a hit. A file is read as a whole.
 
 use serde::Deserialize;
 use serde_json::Value;

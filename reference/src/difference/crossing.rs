@@ -25,8 +25,8 @@ fn end<Z: Integer>() -> Algebraic<Z> {
     Algebraic::dyadic(Z::one(), 0)
 }
 
-/// Fractions just before and just after a time strictly inside the step: none of `times`, which are in
-/// order, is between either and it.
+/// Fractions just before and just after a time strictly inside the step: none of `times`, which are
+/// in order, is between either and it.
 fn around<Z: Integer>(times: &[Algebraic<Z>], time: &Algebraic<Z>) -> [Algebraic<Z>; 2] {
     let [before, after] = neighbours(times, time);
     [before.between(time), time.between(&after)]
@@ -50,7 +50,8 @@ impl<Z: Integer> Polygon<Z> {
         }
     }
 
-    /// The volume has different signs before and after, and the origin is strictly inside the polygon.
+    /// The volume has different signs before and after, and the origin is strictly inside the
+    /// polygon.
     fn general_crossings(&self, volume: &Poly<Z>, contact: &Distance<Z>) -> Vec<Algebraic<Z>> {
         let roots = isolate_roots(volume);
         let crosses = |time: &&Algebraic<Z>| {
@@ -62,14 +63,15 @@ impl<Z: Integer> Polygon<Z> {
         roots.iter().filter(crosses).cloned().collect()
     }
 
-    /// The origin passes through the line of an edge: the corners turn around it one way before and the
-    /// other way after.
+    /// The origin passes through the line of an edge: the corners turn around it one way before and
+    /// the other way after.
     fn planar_crossings(&self, contact: &Distance<Z>) -> Vec<Algebraic<Z>> {
         let mut crossings = Vec::new();
         for &edge in self.edges() {
             let roots = isolate_roots(&self.turn(edge));
-            // A component has degree 2. If one changes its sign, its root is simple, and so the normal
-            // reverses its direction; if none does, all have a double root, and it comes back.
+            // A component has degree 2. If one changes its sign, its root is simple, and so the
+            // normal reverses its direction; if none does, all have a double root, and it comes
+            // back.
             let normal = self.normal(edge);
             let turns_back = |time: &Algebraic<Z>| {
                 normal.iter().any(|component| {

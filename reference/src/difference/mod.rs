@@ -2,13 +2,13 @@
 //!
 //! The vectors from a point of one side to a point of the other fill a polygon: of two edges the
 //! parallelogram with the corners `C - A`, `D - A`, `C - B` and `D - B`, of a vertex and a face the
-//! triangle with the corners `B - A`, `C - A` and `D - A`. The distance of the two sides is that of the
-//! origin from this polygon, so that one method does for both kinds and for every radius.
+//! triangle with the corners `B - A`, `C - A` and `D - A`. The distance of the two sides is that of
+//! the origin from this polygon, so that one method does for both kinds and for every radius.
 //!
-//! It differs from the [`oracle`](crate::oracle) throughout: everything is made of scalar products, by
-//! Gram determinants; contact is evaluated at every time at which any sign changes, from the start on,
-//! without an argument for which of them matter; what is so before and after a time is seen at
-//! fractions before and after it, not by derivatives. The two know nothing of each other.
+//! It differs from the [`oracle`](crate::oracle) throughout: everything is made of scalar products,
+//! by Gram determinants; contact is evaluated at every time at which any sign changes, from the
+//! start on, without an argument for which of them matter; what is so before and after a time is
+//! seen at fractions before and after it, not by derivatives. The two know nothing of each other.
 
 use tunnelproof::contact::{Case, ContactKind, Flags};
 use tunnelproof::query::{Query, QueryKind};

@@ -1,4 +1,5 @@
-//! The distance of the origin from the polygon, part by part, and the first time at which it is small.
+//! The distance of the origin from the polygon, part by part, and the first time at which it is
+//! small.
 
 use tunnelproof::query::{QueryKind, Radius};
 
@@ -9,8 +10,8 @@ use crate::poly::Poly;
 
 use super::polygon::Polygon;
 
-/// A corner, an edge or the inside of the polygon, and the point of what it spans that is nearest to
-/// the origin.
+/// A corner, an edge or the inside of the polygon, and the point of what it spans that is nearest
+/// to the origin.
 struct Part<Z> {
     /// The squared distance of that point is `square / size`.
     square: Poly<Z>,
@@ -85,7 +86,8 @@ fn parts<Z: Integer>(polygon: &Polygon<Z>) -> Vec<Part<Z>> {
     corners.chain(edges).chain([inside(polygon)]).collect()
 }
 
-/// The point of the line through `y` and `z` with the part `s` of the way, `s = -y.(z - y) / |z - y|^2`.
+/// The point of the line through `y` and `z` with the part `s` of the way,
+/// `s = -y.(z - y) / |z - y|^2`.
 fn along_edge<Z: Integer>(polygon: &Polygon<Z>, edge: (usize, usize)) -> Part<Z> {
     let size = polygon.length(edge);
     let to = polygon.dot_edge(edge.0, edge).neg();
@@ -103,8 +105,8 @@ fn along_edge<Z: Integer>(polygon: &Polygon<Z>, edge: (usize, usize)) -> Part<Z>
     }
 }
 
-/// The point `x_0 + alpha p + beta q` of the plane, by Cramer's rule on the normal equations. Its square
-/// is that of `x_0` and what `x_0` has along `p` and `q`.
+/// The point `x_0 + alpha p + beta q` of the plane, by Cramer's rule on the normal equations. Its
+/// square is that of `x_0` and what `x_0` has along `p` and `q`.
 fn inside<Z: Integer>(polygon: &Polygon<Z>) -> Part<Z> {
     let [pp, pq, qq] = polygon.span();
     let (size, x) = (polygon.area(), polygon.dot(0, 0));
@@ -158,8 +160,8 @@ impl<Z: Integer> Distance<Z> {
         }
     }
 
-    /// The first time at which the distance is at most the radius: the first at which any sign changes
-    /// and that is so.
+    /// The first time at which the distance is at most the radius: the first at which any sign
+    /// changes and that is so.
     pub(super) fn first_contact(&self) -> Option<Algebraic<Z>> {
         let of_parts = self.parts.iter().flat_map(|part| part.inside.iter());
         let sizes = self.parts.iter().map(|part| &part.size);

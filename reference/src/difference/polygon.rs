@@ -12,8 +12,8 @@ pub(super) type Place<Z> = [Z; 3];
 /// The difference of the two sides: a parallelogram or a triangle whose corners move linearly.
 pub(super) struct Polygon<Z> {
     pub(super) kind: QueryKind,
-    /// At the start and at the end of the step. Of edges `C - A`, `D - A`, `C - B` and `D - B`; of a
-    /// vertex and a face `B - A`, `C - A` and `D - A`.
+    /// At the start and at the end of the step. Of edges `C - A`, `D - A`, `C - B` and `D - B`; of
+    /// a vertex and a face `B - A`, `C - A` and `D - A`.
     corners: Vec<[Place<Z>; 2]>,
     /// The scalar products of the corners.
     products: Vec<Vec<Poly<Z>>>,

@@ -1,12 +1,12 @@
 //! Small motion far from the origin: a crane at UTM coordinates.
 //!
 //! Probes the loss of digits in differences of positions, and thresholds that are meant for metres.
-//! Edges of some decimetres move by millimetres, `1e5` to `1e7` m off the origin along each axis. Of 2
-//! queries
+//! Edges of some decimetres move by millimetres, `1e5` to `1e7` m off the origin along each axis.
+//! Of 2 queries
 //!
 //! - in 1 they cross in numbers with all their bits, and the offset rounds them;
-//! - in 1 they cross, all coordinates are exact, and so are time and place of contact; of 2 of these
-//!   one grazes at an end of an edge.
+//! - in 1 they cross, all coordinates are exact, and so are time and place of contact; of 2 of
+//!   these one grazes at an end of an edge.
 
 use nalgebra::Vector3;
 use rand::{Rng, RngExt};

@@ -26,8 +26,8 @@ impl Reach {
 /// Each point `X = O + sum of k P` over the `DIMENSION` directions `P`, which all points share, and
 /// with the origin `O` of the number that `origins` gives for the point.
 ///
-/// Either the directions keep still and the coefficients `k` differ between the ends of the step, or
-/// the other way round.
+/// Either the directions keep still and the coefficients `k` differ between the ends of the step,
+/// or the other way round.
 pub(super) fn confined<const DIMENSION: usize>(
     rng: &mut dyn Rng,
     origins: [usize; 4],
@@ -56,8 +56,8 @@ fn ends<T: Copy>(rng: &mut dyn Rng, changes: bool, draw: impl Fn(&mut dyn Rng) -
     [start, if changes { draw(rng) } else { start }]
 }
 
-/// Shifts points of a motion aside at the start of the step and to the other side at its end, so that
-/// each is where it was at one time, `before / (before + after)` with both from 1 to 4.
+/// Shifts points of a motion aside at the start of the step and to the other side at its end, so
+/// that each is where it was at one time, `before / (before + after)` with both from 1 to 4.
 pub(super) fn swing(rng: &mut dyn Rng, motion: &mut Motion<i32>, points: &[usize], reach: i32) {
     let aside: Vector3<i32> = vector(rng, reach);
     let [before, after] = [(); 2].map(|()| rng.random_range(1..=4));

@@ -1,12 +1,12 @@
-//! A vertex and a face in the place of two edges: every property that a family of edges probes, probed
-//! for faces.
+//! A vertex and a face in the place of two edges: every property that a family of edges probes,
+//! probed for faces.
 //!
-//! Of edges AB and CD the vertex is A and the face has the corners C, D and `2 A - B`, which is as far
-//! from A as B is, on the other side. The triple product of the four points is the same up to its
-//! sign, and where the edges touch the vertex is on the face: with the parameters `u` and `v` of the
-//! edges the weights are as `1 - v`, `v` and `u`. So an end A that is on CD becomes a vertex on an edge of
-//! the face, an edge that is a point a face that is a segment, and motion in a plane stays there.
-//! `2 A - B` is rounded where the numbers have all their bits.
+//! Of edges AB and CD the vertex is A and the face has the corners C, D and `2 A - B`, which is as
+//! far from A as B is, on the other side. The triple product of the four points is the same up to
+//! its sign, and where the edges touch the vertex is on the face: with the parameters `u` and `v`
+//! of the edges the weights are as `1 - v`, `v` and `u`. So an end A that is on CD becomes a vertex
+//! on an edge of the face, an edge that is a point a face that is a segment, and motion in a plane
+//! stays there. `2 A - B` is rounded where the numbers have all their bits.
 
 use rand::Rng;
 use tunnelproof::query::{Point, Query, QueryKind};

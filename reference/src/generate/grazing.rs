@@ -1,7 +1,7 @@
 //! Contact without crossing, where rounding decides between hit and miss.
 //!
-//! Probes double roots of the cubic and the ends of the intervals of time and of edge parameters. Of 3
-//! queries
+//! Probes double roots of the cubic and the ends of the intervals of time and of edge parameters.
+//! Of 3 queries
 //!
 //! - in 1 the edges touch inside both and move apart again to the same side: a double root;
 //! - in 1 an end of one edge touches the other edge, or an end of it;

@@ -1,17 +1,19 @@
 //! Two consecutive segments of one wire, and another segment that passes through the wire at their
 //! common node or beside it.
 //!
-//! Probes what no single query shows: if both segments miss at the node, neither miss looks bad, for
-//! each may be that of a graze, and the wire has tunnelled all the same. Queries `2 i` and `2 i + 1`
-//! are the segments `P0 P1` and `P1 P2` of one wire against the same segment CD. Of 4 wires CD passes
-//! exactly through the node in 1, 0 to `2^20` ulp beside it in 2, and farther beside it in 1.
+//! Probes what no single query shows: if both segments miss at the node, neither miss looks bad,
+//! for each may be that of a graze, and the wire has tunnelled all the same. Queries `2 i` and
+//! `2 i + 1` are the segments `P0 P1` and `P1 P2` of one wire against the same segment CD. Of 4
+//! wires CD passes exactly through the node in 1, 0 to `2^20` ulp beside it in 2, and farther
+//! beside it in 1.
 //!
-//! **The wire is passed.** Let `P1` be the origin. Before it is placed, the wire is for the whole step
-//! the graph of a function of `x` on an interval that holds the `x` of C and of D; C is above it in
-//! `y`, D below. So, seen along `z`, CD crosses the wire, an odd number of times, and no end of one
-//! comes upon the other. Unless they touch, the parity of the crossings at which CD is in front stays
-//! the same. At the start CD is in front of the whole wire, at the end behind it: they touch. All these
-//! are strict inequalities with room for the nudge, and hold at both ends of the step, hence throughout.
+//! **The wire is passed.** Let `P1` be the origin. Before it is placed, the wire is for the whole
+//! step the graph of a function of `x` on an interval that holds the `x` of C and of D; C is above
+//! it in `y`, D below. So, seen along `z`, CD crosses the wire, an odd number of times, and no end
+//! of one comes upon the other. Unless they touch, the parity of the crossings at which CD is in
+//! front stays the same. At the start CD is in front of the whole wire, at the end behind it: they
+//! touch. All these are strict inequalities with room for the nudge, and hold at both ends of the
+//! step, hence throughout.
 
 use nalgebra::Vector3;
 use rand::{Rng, RngExt};

@@ -1,14 +1,15 @@
-//! Motion on a lattice: every coordinate is a small integer, so that every degeneracy is met exactly
-//! and often, together with others.
+//! Motion on a lattice: every coordinate is a small integer, so that every degeneracy is met
+//! exactly and often, together with others.
 //!
 //! Probes the classification, and contact at ends of edges, at ends of the step and at times of
 //! parallel or vanishing edges. A query is made in two steps:
 //!
-//! 1. The motion is confined. Of 16 queries, 6 are free in space (coordinates up to 1, 2 or 3), 4 keep
-//!    the four points in a plane, 3 on a line, and 3 keep the edges parallel on a line each. Plane and
-//!    lines move; of two such queries one moves the points freely within a confinement of fixed
-//!    direction, the other carries them along with one that turns, stretches or collapses.
-//! 2. Points are merged for the whole step: of 16 queries, in 1 A and B, in 1 C and D, in 2 A and C.
+//! 1. The motion is confined. Of 16 queries, 6 are free in space (coordinates up to 1, 2 or 3), 4
+//!    keep the four points in a plane, 3 on a line, and 3 keep the edges parallel on a line each.
+//!    Plane and lines move; of two such queries one moves the points freely within a confinement of
+//!    fixed direction, the other carries them along with one that turns, stretches or collapses.
+//! 2. Points are merged for the whole step: of 16 queries, in 1 A and B, in 1 C and D, in 2 A and
+//!    C.
 //!
 //! Each of the six cases is met by more than a tenth of the queries; coordinates are at most 5.
 

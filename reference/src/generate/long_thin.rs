@@ -1,8 +1,9 @@
 //! An edge of a kilometre against one of a millimetre that moves by a millimetre.
 //!
-//! Probes quantities that differ by six orders of magnitude within one query, and thresholds without
-//! regard to length: the long edge's parameter changes by a millionth during the step. Of 4 queries in 1
-//! the short edge is nearly parallel to the long one, to `2^-30` at the least. Then the edges and their ends are renamed.
+//! Probes quantities that differ by six orders of magnitude within one query, and thresholds
+//! without regard to length: the long edge's parameter changes by a millionth during the step. Of 4
+//! queries in 1 the short edge is nearly parallel to the long one, to `2^-30` at the least. Then
+//! the edges and their ends are renamed.
 
 use rand::{Rng, RngExt};
 use tunnelproof::query::Query;

@@ -8,8 +8,8 @@ use super::motion::{Motion, metres, placed, renamed, vector};
 /// Two edges at a time of the step and how they move there, in integers.
 ///
 /// They meet at that time, if `places` are on the edges and `aside` is 0: with `s` the time since
-/// then, `K = 8 (p + s a)`, `L = 8 (q + s b)`, and the point `i` eighths along AB is off the one `j`
-/// eighths along CD by `aside + s w`. Then
+/// then, `K = 8 (p + s a)`, `L = 8 (q + s b)`, and the point `i` eighths along AB is off the one
+/// `j` eighths along CD by `aside + s w`. Then
 ///
 /// ```text
 /// f / 64 = s det(p + s a, q + s b, w)    if aside is 0,

@@ -4,8 +4,8 @@
 //! alone: any one can be made by itself, on any thread, in any order. The random numbers are
 //! ChaCha8, keyed by the seed and the family's name, with the index as the stream.
 //!
-//! The queries of a family come in groups that belong together: each by itself, or the segments of one
-//! wire one after the other, which share a stream.
+//! The queries of a family come in groups that belong together: each by itself, or the segments of
+//! one wire one after the other, which share a stream.
 
 use std::fmt;
 use std::str::FromStr;
@@ -61,7 +61,8 @@ pub const FAMILIES: &[Family] = &[
     joint::FAMILY,
 ];
 
-/// Every family of other kinds of queries, in the order of tables: vertices and faces, and with a radius.
+/// Every family of other kinds of queries, in the order of tables: vertices and faces, and with a
+/// radius.
 pub const OTHER_KINDS: &[Family] = &[
     face::UNIFORM,
     face::LATTICE,
@@ -97,8 +98,8 @@ pub struct Family {
 enum Draw {
     /// Each query by itself.
     Query(fn(&mut dyn Rng) -> Query),
-    /// Two consecutive segments of one wire against one other segment, which provably passes from one
-    /// side of the wire to the other.
+    /// Two consecutive segments of one wire against one other segment, which provably passes from
+    /// one side of the wire to the other.
     Wire(fn(&mut dyn Rng) -> [Query; 2]),
 }
 

@@ -1,8 +1,8 @@
 //! What exact families have in common: a motion in integers, seen from anywhere, in metres.
 //!
-//! Contact, its time and its parameters stay the same under affine maps of space, under a translation
-//! that changes steadily during the step, and under renaming of edges and ends. So a family builds
-//! its motion where that is simple and has it moved about here. All of it is exact.
+//! Contact, its time and its parameters stay the same under affine maps of space, under a
+//! translation that changes steadily during the step, and under renaming of edges and ends. So a
+//! family builds its motion where that is simple and has it moved about here. All of it is exact.
 
 use nalgebra::{Matrix3, Vector3};
 use rand::{Rng, RngExt};

@@ -3,9 +3,9 @@
 //! Probes the decision between the collinear, the parallel and the general case. A query is made in
 //! two steps:
 //!
-//! 1. A collinear motion in integers of up to 18 bits: of two queries one moves the points freely along
-//!    a line of fixed direction, the other carries them along with a line that turns, stretches or
-//!    collapses.
+//! 1. A collinear motion in integers of up to 18 bits: of two queries one moves the points freely
+//!    along a line of fixed direction, the other carries them along with a line that turns,
+//!    stretches or collapses.
 //! 2. In metres, one coordinate, one point or all of it is nudged by 0 to `2^20` ulp.
 
 use rand::Rng;

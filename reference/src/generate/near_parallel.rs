@@ -4,8 +4,8 @@
 //! edges that are nearly parallel. A query is made in three steps:
 //!
 //! 1. A collinear motion in integers, as of `near_collinear`.
-//! 2. CD swings aside, from one side of AB's line to the other, so that the lines are one line at one
-//!    time; there the edges overlap or not.
+//! 2. CD swings aside, from one side of AB's line to the other, so that the lines are one line at
+//!    one time; there the edges overlap or not.
 //! 3. In metres, one coordinate, one point or all of it is nudged by 0 to `2^20` ulp.
 
 use rand::Rng;

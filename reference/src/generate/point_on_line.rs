@@ -1,8 +1,8 @@
 //! An end of one edge that is on the line of the other for the whole step.
 //!
-//! Probes coplanar motion with a permanent point on a line (thesis figures 4.10 and 4.11): its distance
-//! to the line is identically 0 and says nothing of when it reaches the edge. A, C and D keep to a
-//! line, as of `near_collinear`; of three queries B
+//! Probes coplanar motion with a permanent point on a line (thesis figures 4.10 and 4.11): its
+//! distance to the line is identically 0 and says nothing of when it reaches the edge. A, C and D
+//! keep to a line, as of `near_collinear`; of three queries B
 //!
 //! - keeps to a line of the same direction beside it, or wanders off it, in one;
 //! - swings through the line, in one, so that the edges are parallel at one time (figure 4.11);

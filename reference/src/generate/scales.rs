@@ -3,7 +3,8 @@
 //! Probes overflow, underflow, subnormal numbers and thresholds with a unit. Of 8 queries
 //!
 //! - 2 are edges that cross, all coordinates times one power of two, `2^-996` to `2^996`;
-//! - 2 are the same with a power of two for each axis, which changes neither time nor place of contact;
+//! - 2 are the same with a power of two for each axis, which changes neither time nor place of
+//!   contact;
 //! - 1 is a crossing in integers times 5e-324, so that every coordinate is subnormal;
 //! - 1 has one coordinate as large as `2^996` times the others;
 //! - 2 have an exponent of their own for each coordinate, from a band of 8 to 1992.

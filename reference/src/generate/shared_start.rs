@@ -1,7 +1,8 @@
 //! Edges that start in the same point, as consecutive segments of a wire do.
 //!
-//! Probes case 2, which is decided by the distance of A and C, and contact at the very ends of edges.
-//! Half of the motions are free in space with all bits, the others coplanar in integers. Of 8 queries
+//! Probes case 2, which is decided by the distance of A and C, and contact at the very ends of
+//! edges. Half of the motions are free in space with all bits, the others coplanar in integers. Of
+//! 8 queries
 //!
 //! - 2 have A = C for the whole step, exactly;
 //! - 1 has another pair of ends in one place for the whole step;

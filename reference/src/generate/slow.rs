@@ -1,9 +1,9 @@
 //! Motion of a few ulp.
 //!
 //! Probes the smallest motions that numbers can hold: velocities of one or two bits, and a contact
-//! between positions that are neighbours in `f64`. Edges of about a metre start where they touch up to
-//! rounding, from 0 to some metres off the origin, and each coordinate changes by up to 4 ulp, or each
-//! of one point alone.
+//! between positions that are neighbours in `f64`. Edges of about a metre start where they touch up
+//! to rounding, from 0 to some metres off the origin, and each coordinate changes by up to 4 ulp,
+//! or each of one point alone.
 
 use rand::{Rng, RngExt};
 use tunnelproof::query::Query;

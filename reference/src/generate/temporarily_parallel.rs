@@ -1,9 +1,9 @@
 //! Edges that are parallel at exactly one time of the step.
 //!
 //! Probes contact at roots of the cubic at which the lines of the edges have no single common point
-//! (thesis figure 4.2). Of 8 queries the time is inside the step in 4, at its start in 2, at its end in
-//! 2; of 4 queries the lines of the edges are one line at that time in 3, where the edges overlap or
-//! not. One query in three is nudged by 0 to `2^20` ulp.
+//! (thesis figure 4.2). Of 8 queries the time is inside the step in 4, at its start in 2, at its
+//! end in 2; of 4 queries the lines of the edges are one line at that time in 3, where the edges
+//! overlap or not. One query in three is nudged by 0 to `2^20` ulp.
 
 use nalgebra::Vector3;
 use rand::{Rng, RngExt};

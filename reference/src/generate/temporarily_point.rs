@@ -1,10 +1,10 @@
 //! An edge that is a point at one time of the step.
 //!
 //! Probes contact at roots of the cubic at which an edge has no direction (thesis figure 4.3), and
-//! edges of length 0 at an end of the step, which adaptive resolution makes when it puts a node into a
-//! wire or takes one out. Of 8 queries the time is inside the step in 4, at its start in 2, at its end
-//! in 2; of 8 queries the other edge is a point at the same time in 1. In one of 4 the point is not
-//! on the line of the other edge. One query in three is nudged by 0 to `2^20` ulp.
+//! edges of length 0 at an end of the step, which adaptive resolution makes when it puts a node
+//! into a wire or takes one out. Of 8 queries the time is inside the step in 4, at its start in 2,
+//! at its end in 2; of 8 queries the other edge is a point at the same time in 1. In one of 4 the
+//! point is not on the line of the other edge. One query in three is nudged by 0 to `2^20` ulp.
 
 use nalgebra::Vector3;
 use rand::{Rng, RngExt};

@@ -140,7 +140,8 @@ const DIGESTS: [(&str, u64); 16] = [
     ("joint", 0xbbe5_22b6_e792_b744),
 ];
 
-/// What an identifier names must not change: a release of `rand` that draws other numbers fails here.
+/// What an identifier names must not change: a release of `rand` that draws other numbers fails
+/// here.
 #[test]
 fn families_query_stays_the_same_over_releases() {
     let query = by_name("uniform").unwrap().query(1, 0);

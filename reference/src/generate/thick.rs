@@ -1,16 +1,16 @@
 //! A radius for the queries of other families, such that contact at it is decided narrowly.
 //!
-//! Probes contact at exactly or nearly the radius, initial overlap among it; tiny and huge radii, and
-//! sums of two that no `f64` is. Of 8 queries the radius is
+//! Probes contact at exactly or nearly the radius, initial overlap among it; tiny and huge radii,
+//! and sums of two that no `f64` is. Of 8 queries the radius is
 //!
-//! - in 3 the distance of two vertices at one end of the step: exactly, where that is the square root
-//!   of a square (edges on a lattice: Pythagorean numbers);
-//! - in 3 the distance of the lines of the edges, or of the vertex from the plane, at the start, in the
-//!   middle or at the end;
+//! - in 3 the distance of two vertices at one end of the step: exactly, where that is the square
+//!   root of a square (edges on a lattice: Pythagorean numbers);
+//! - in 3 the distance of the lines of the edges, or of the vertex from the plane, at the start, in
+//!   the middle or at the end;
 //! - in 2 a power of two: of the size of the query, or from far below to far above it.
 //!
-//! Of 2 it is nudged in 1 by 0 to `2^20` ulp. Of 4 it is a sum of two in 2: of halves, or of the whole and
-//! half an ulp of it.
+//! Of 2 it is nudged in 1 by 0 to `2^20` ulp. Of 4 it is a sum of two in 2: of halves, or of the
+//! whole and half an ulp of it.
 
 use nalgebra::Vector3;
 use rand::{Rng, RngExt};

@@ -75,8 +75,8 @@ fn independent(rng: &mut dyn Rng, reach: i32) -> [Vector3<i32>; 3] {
     ]
 }
 
-/// With `p` and `q` in the plane `z = 0` and `w = x p + y q`, the determinant is `s^2 det(a, b, w)` if
-/// `x a + y b` is in the plane too; it is not 0 if that is not along `w`.
+/// With `p` and `q` in the plane `z = 0` and `w = x p + y q`, the determinant is `s^2 det(a, b, w)`
+/// if `x a + y b` is in the plane too; it is not 0 if that is not along `w`.
 fn crossing(rng: &mut dyn Rng, mut meeting: Meeting, reach: i32) -> Meeting {
     let [p, q] = &mut meeting.edges;
     *p = Vector3::new(not_zero(rng, reach), p.y, 0);

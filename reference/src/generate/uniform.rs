@@ -2,8 +2,8 @@
 //! from `[-1, 1)`.
 //!
 //! Probes the general case with well-conditioned numbers and whole mantissas, where a sound method
-//! has no excuse. Edges are about as long as the box and steps about as long as the edges, which makes
-//! one query in five a hit.
+//! has no excuse. Edges are about as long as the box and steps about as long as the edges, which
+//! makes one query in five a hit.
 
 use rand::Rng;
 use tunnelproof::query::Query;

@@ -1,6 +1,7 @@
 //! Motion confined to a plane or a line: `f` is identically 0.
 //!
-//! Edges and faces that are a point for the whole step and edges with a common start belong here too.
+//! Edges and faces that are a point for the whole step and edges with a common start belong here
+//! too.
 
 use std::cmp::Ordering;
 

@@ -173,8 +173,8 @@ impl<Z: Integer> Edges<Z> {
         }
     }
 
-    /// The lines meet in one point. From `A + u K = C + v L`: `M x L = u N` and `M x K = v N`, which
-    /// one component of `N` that is not 0 solves.
+    /// The lines meet in one point. From `A + u K = C + v L`: `M x L = u N` and `M x K = v N`,
+    /// which one component of `N` that is not 0 solves.
     fn locus_transversal(
         &self,
         time: &Algebraic<Z>,

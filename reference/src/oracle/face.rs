@@ -121,8 +121,8 @@ impl<Z: Integer> Face<Z> {
         [self.w.neg(), self.e1.sub(&self.w), self.e2.sub(&self.w)]
     }
 
-    /// Where `f` is 0, `u` and `v` times a component of `N`: from `w = u E1 + v E2`, crossed with `E2`
-    /// and with `E1`, `w x E2 = u N` and `E1 x w = v N`.
+    /// Where `f` is 0, `u` and `v` times a component of `N`: from `w = u E1 + v E2`, crossed with
+    /// `E2` and with `E1`, `w x E2 = u N` and `E1 x w = v N`.
     fn weights(&self, axis: usize) -> [Poly<Z>; 2] {
         let Face { w, e1, e2, .. } = self;
         [w.cross_component(e2, axis), e1.cross_component(w, axis)]

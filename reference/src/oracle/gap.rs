@@ -1,8 +1,8 @@
 //! The gap: how much farther than their radius the two sides are from each other during a step, at
 //! least.
 //!
-//! Whether they come within `R + x` is decided exactly ([`super::proximity`]); the least `x` follows by
-//! bisection, from a guess in floating point, which can cost time only.
+//! Whether they come within `R + x` is decided exactly ([`super::proximity`]); the least `x`
+//! follows by bisection, from a guess in floating point, which can cost time only.
 
 use nalgebra::Vector3;
 use tunnelproof::query::{Query, QueryKind};
@@ -31,8 +31,8 @@ pub fn least_gap_to(query: &Query, width: f64) -> Enclosure {
     enclose_gap(query, |below, above| above - below <= width)
 }
 
-/// The gap between two `f64` that are neighbours or near enough to each other. Infinite above if it is
-/// beyond the largest `f64`.
+/// The gap between two `f64` that are neighbours or near enough to each other. Infinite above if it
+/// is beyond the largest `f64`.
 fn enclose_gap(query: &Query, is_near_enough: impl Fn(f64, f64) -> bool) -> Enclosure {
     let gap = Gap::<field::Default>::new(query);
     if gap.is_within(0.0) {
@@ -83,8 +83,8 @@ impl<Z: Integer> Gap<Z> {
     }
 }
 
-/// The gap in metres in floating point, by sampling and ternary search. Heuristic: to choose what to
-/// measure exactly.
+/// The gap in metres in floating point, by sampling and ternary search. Heuristic: to choose what
+/// to measure exactly.
 pub fn estimate_gap(query: &Query) -> f64 {
     let distance = |t: f64| {
         let at = |i: usize| query.start()[i].coords * (1.0 - t) + query.end()[i].coords * t;
@@ -121,7 +121,8 @@ fn distance_of_end([x, y, z]: [&Vector3<f64>; 3]) -> f64 {
     (x - y - edge * if s > 0.0 { s.min(1.0) } else { 0.0 }).norm()
 }
 
-/// The distance of two segments in floating point: of an end from the other segment, or of the lines.
+/// The distance of two segments in floating point: of an end from the other segment, or of the
+/// lines.
 fn distance_of_segments([a, b, c, d]: &[Vector3<f64>; 4]) -> f64 {
     let ends = [[a, c, d], [b, c, d], [c, a, b], [d, a, b]];
     let of_ends = ends

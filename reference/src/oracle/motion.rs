@@ -20,8 +20,8 @@ pub(super) trait Motion<Z: Integer> {
     /// The case of the motion, in the sense of [`crate::answer`].
     fn case(&self) -> Case;
 
-    /// Each vertex with each edge of the other side: where motion in a plane begins to touch, such a
-    /// vertex is on such an edge.
+    /// Each vertex with each edge of the other side: where motion in a plane begins to touch, such
+    /// a vertex is on such an edge.
     fn ends(&self) -> Vec<End<Z>>;
 
     /// For each two vertices that can meet, the way from one to the other.
@@ -83,8 +83,8 @@ impl<Z: Integer> End<Z> {
         self.to_z.sub(&self.to_y)
     }
 
-    /// `(X - Y) . E`, `(Z - X) . E` and their sum `E . E`: how far along the edge the nearest point of
-    /// its line is.
+    /// `(X - Y) . E`, `(Z - X) . E` and their sum `E . E`: how far along the edge the nearest point
+    /// of its line is.
     pub(super) fn along(&self) -> [Poly<Z>; 3] {
         let edge = self.edge();
         let (from_y, to_z) = (self.to_y.dot(&edge).neg(), self.to_z.dot(&edge));

@@ -1,8 +1,8 @@
 //! Two features, one of each side, and when their distance is that of the whole.
 //!
-//! A feature is a vertex, an edge or the face without what bounds it. Of two convex sets the nearest
-//! points are each in one feature, and there they are also the nearest points of what the features
-//! span: of lines, planes, or single points.
+//! A feature is a vertex, an edge or the face without what bounds it. Of two convex sets the
+//! nearest points are each in one feature, and there they are also the nearest points of what the
+//! features span: of lines, planes, or single points.
 
 use crate::algebraic::Algebraic;
 use crate::field::Integer;
@@ -37,8 +37,8 @@ impl<Z: Integer> Pair<Z> {
         }
     }
 
-    /// A vertex `X` and an edge `YZ`. With `w = X - Y` and `E = Z - Y` the squared distance from the
-    /// line is `|w x E|^2 / E.E`, the nearest point is `w.E / E.E` of the way from `Y`.
+    /// A vertex `X` and an edge `YZ`. With `w = X - Y` and `E = Z - Y` the squared distance from
+    /// the line is `|w x E|^2 / E.E`, the nearest point is `w.E / E.E` of the way from `Y`.
     pub(super) fn end(end: &End<Z>, place: impl FnOnce(&[Poly<Z>; 3]) -> Place<Z>) -> Self {
         let along = end.along();
         let place = place(&along);

@@ -1,14 +1,15 @@
 //! Contact at a distance: when the two sides first come within a radius of each other.
 //!
-//! Let `R` be the radius and `s > 0` the first time at which the distance is at most `R`. Then it is
-//! `R` at `s`. Of the pairs of features that hold the nearest points at `s` take the one with the fewest
-//! points: what its features span is at the distance `R`, with the nearest points strictly inside the
-//! features. So `s` is a root of `P = numerator - R^2 denominator` of that [`Pair`]. It is not
-//! identically 0: if it were, the features would be `R` apart before `s` too, their nearest points
-//! still inside. Conversely, where a pair holds and its `P` is 0 the distance is at most `R`.
+//! Let `R` be the radius and `s > 0` the first time at which the distance is at most `R`. Then it
+//! is `R` at `s`. Of the pairs of features that hold the nearest points at `s` take the one with
+//! the fewest points: what its features span is at the distance `R`, with the nearest points
+//! strictly inside the features. So `s` is a root of `P = numerator - R^2 denominator` of that
+//! [`Pair`]. It is not identically 0: if it were, the features would be `R` apart before `s` too,
+//! their nearest points still inside. Conversely, where a pair holds and its `P` is 0 the distance
+//! is at most `R`.
 //!
-//! So the candidates are 0 and, of each pair whose `P` is not identically 0, the roots of it at which
-//! the pair holds; the first of them is the time.
+//! So the candidates are 0 and, of each pair whose `P` is not identically 0, the roots of it at
+//! which the pair holds; the first of them is the time.
 
 use crate::algebraic::{Algebraic, decompose, isolate_roots};
 use crate::field::Integer;

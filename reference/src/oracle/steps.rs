@@ -16,8 +16,8 @@ pub struct Step<Z> {
     pub event: Event,
     /// Where they touch at that time, if they do: the point or the two ends of an overlap.
     pub contact: Option<(Parameters, Option<Parameters>)>,
-    /// Without radius: where the lines of the edges meet, or the vertex the plane of the face, if in one
-    /// point: `u` and `v`, rounded.
+    /// Without radius: where the lines of the edges meet, or the vertex the plane of the face, if
+    /// in one point: `u` and `v`, rounded.
     pub meeting: Option<[f64; 2]>,
 }
 
@@ -28,8 +28,8 @@ pub enum Event {
     Start,
     /// `f` is 0 and not identically 0: the points are coplanar.
     Coplanar,
-    /// Of edges, an end, 0 to 3 for A to D, comes onto the line of the other edge, or onto an end of
-    /// it; of a face, the vertex onto one of its edges, 0 to 2 for BC, CD and BD.
+    /// Of edges, an end, 0 to 3 for A to D, comes onto the line of the other edge, or onto an end
+    /// of it; of a face, the vertex onto one of its edges, 0 to 2 for BC, CD and BD.
     EndOnLine(usize),
     /// Two features are as far apart as the radius.
     AtRadius,
@@ -62,8 +62,8 @@ impl<Z: Integer> Decision<Z> {
         times.into_iter().map(step).collect()
     }
 
-    /// The start, and the times at which a vertex comes onto the line of an edge; if it is always on
-    /// it, those at which it passes an end of that edge.
+    /// The start, and the times at which a vertex comes onto the line of an edge; if it is always
+    /// on it, those at which it passes an end of that edge.
     fn end_times(&self) -> Vec<(Algebraic<Z>, Event)> {
         let mut times = vec![(Algebraic::zero(), Event::Start)];
         for (index, end) in self.motion.ends().iter().enumerate() {

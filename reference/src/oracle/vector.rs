@@ -58,8 +58,8 @@ impl<Z: Integer> Vector<Z> {
             .all(|component| time.sign_of(component).is_eq())
     }
 
-    /// A component that is not 0 at the time, and its sign. The ones that the time's bounds show come
-    /// first: to see that a component is 0 costs more.
+    /// A component that is not 0 at the time, and its sign. The ones that the time's bounds show
+    /// come first: to see that a component is 0 costs more.
     pub(super) fn axis_at(&self, time: &Algebraic<Z>) -> Option<(usize, Ordering)> {
         let axes = || [0, 1, 2].into_iter();
         let shown = |h: usize| Some((h, time.try_sign_of(&self.0[h])?));

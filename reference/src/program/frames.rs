@@ -39,7 +39,8 @@ pub(super) fn write(id: u64, query: &Query, bytes: &mut Vec<u8>) {
     bytes.extend(numbers.flat_map(f64::to_le_bytes));
 }
 
-/// What follows the next length. The start of it, if it is cut off or has another length than an answer.
+/// What follows the next length. The start of it, if it is cut off or has another length than an
+/// answer.
 pub(super) fn read(reader: &mut impl BufRead) -> io::Result<Option<Vec<u8>>> {
     let mut length = Vec::new();
     reader.by_ref().take(4).read_to_end(&mut length)?;

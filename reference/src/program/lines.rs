@@ -1,6 +1,7 @@
 //! Queries and answers as lines of JSON, those that `eval` reads and writes.
 //!
-//! A query is a line as in [`crate::corpus::jsonl`]; its `id` is a decimal number. An answer is an object:
+//! A query is a line as in [`crate::corpus::jsonl`]; its `id` is a decimal number. An answer is an
+//! object:
 //!
 //! - `hit`: whether there is contact.
 //! - `toi`: for a hit, the time of impact: a number, a hexadecimal float in quotes, or

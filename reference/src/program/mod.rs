@@ -1,12 +1,13 @@
 //! Subjects that are programs: started once for each thread, asked over their standard input, and
 //! judged to the end whatever they do.
 //!
-//! `docs/bring-your-own.md` says what a program has to do. Nothing that it does ends the run: a crash, a
-//! hang or garbage is a [`Lapse`] of the query whose answer was due, the program is started again, and the
-//! queries after it are asked again. So each query is asked until there is an answer or a lapse, once.
+//! `docs/bring-your-own.md` says what a program has to do. Nothing that it does ends the run: a
+//! crash, a hang or garbage is a [`Lapse`] of the query whose answer was due, the program is
+//! started again, and the queries after it are asked again. So each query is asked until there is
+//! an answer or a lapse, once.
 //!
-//! [`wire`] is how queries and answers are written, in [`lines`](mod@lines) or in [`frames`]; `worker` is one
-//! running program.
+//! [`wire`] is how queries and answers are written, in [`lines`](mod@lines) or in [`frames`];
+//! `worker` is one running program.
 
 use std::fmt;
 use std::io;
@@ -81,7 +82,8 @@ pub enum CommandError {
 }
 
 impl Command {
-    /// The command of this text, split into words as a POSIX shell splits them; nothing else of a shell.
+    /// The command of this text, split into words as a POSIX shell splits them; nothing else of a
+    /// shell.
     ///
     /// # Errors
     ///
@@ -140,8 +142,8 @@ impl Program {
         }
     }
 
-    /// Waits until all that was written there is kept; whoever reads it holds the other references. What a
-    /// program started itself may keep it open: that is not waited for.
+    /// Waits until all that was written there is kept; whoever reads it holds the other references.
+    /// What a program started itself may keep it open: that is not waited for.
     fn wait_for_stderr(&self) {
         let start = Instant::now();
         while Arc::strong_count(&self.stderr) > 1 && start.elapsed() < GRACE {
@@ -158,8 +160,8 @@ impl Program {
         Worker::start(&self.command, Arc::clone(&self.stderr))
     }
 
-    /// Answers to the first of these queries, at least one. The last of them may be a lapse that ended the
-    /// program.
+    /// Answers to the first of these queries, at least one. The last of them may be a lapse that
+    /// ended the program.
     fn some_answers(&self, queries: &[Query]) -> Vec<Result<Answer, NoAnswer>> {
         if self.hangs_in_a_row.load(Ordering::Relaxed) >= MOST_HANGS {
             let detail = format!("it hung on {MOST_HANGS} queries in a row");

@@ -60,8 +60,8 @@ impl Wire {
         }
     }
 
-    /// The bytes of the next message; `None` at the end. A message that is longer than any answer has to
-    /// be is cut.
+    /// The bytes of the next message; `None` at the end. A message that is longer than any answer
+    /// has to be is cut.
     pub(super) fn read(self, reader: &mut impl BufRead) -> io::Result<Option<Vec<u8>>> {
         match self {
             Wire::Lines => lines::read(reader),

@@ -1,7 +1,7 @@
 //! One running program.
 //!
-//! A thread writes to it and two read from it, so that it can neither block this side nor be blocked by it
-//! for good: neither side waits for a pipe that the other has to empty.
+//! A thread writes to it and two read from it, so that it can neither block this side nor be
+//! blocked by it for good: neither side waits for a pipe that the other has to empty.
 
 use std::io::{self, BufReader, Write};
 use std::process::{Child, ChildStdin, Command as Process, ExitStatus, Stdio};
@@ -79,8 +79,8 @@ impl Worker {
     ///
     /// # Errors
     ///
-    /// [`Lapse`] of the query after those with answers. The program is then out of step or has ended: it can
-    /// be asked nothing more.
+    /// [`Lapse`] of the query after those with answers. The program is then out of step or has
+    /// ended: it can be asked nothing more.
     pub(super) fn ask(
         &mut self,
         queries: &[Query],

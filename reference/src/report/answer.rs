@@ -19,8 +19,8 @@
 //!
 //! A number that an exact subject may not be able to write as an `f64` (`toi`, `u`, `v`) is
 //! `{"below": B, "above": A}`: the largest `f64` not above it and the smallest not below it, equal
-//! where it is an `f64`. The certified path gives `toi` like that, and `u` and `v` with its stated error
-//! on both sides. An engine's own `f64` stands in both.
+//! where it is an `f64`. The certified path gives `toi` like that, and `u` and `v` with its stated
+//! error on both sides. An engine's own `f64` stands in both.
 
 use serde::Serialize;
 use tunnelproof::contact::{

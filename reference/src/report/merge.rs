@@ -210,7 +210,8 @@ impl Kept {
 ///
 /// # Errors
 ///
-/// What is called so, and [`MergeError`], if one is of another certification, twice there, or missing.
+/// What is called so, and [`MergeError`], if one is of another certification, twice there, or
+/// missing.
 pub fn merge<'a>(
     parts: impl IntoIterator<Item = (&'a str, Kept)>,
 ) -> Result<Kept, (&'a str, MergeError)> {

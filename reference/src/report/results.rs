@@ -15,16 +15,20 @@
 //!
 //! `reference/schema/certificate.json` is its JSON schema.
 //!
-//! A source has `name`, `fingerprint` ([`crate::certify::fingerprint`]), `queries`, `hits`, `crossings`, `joints` (pairs of consecutive segments of a
-//! wire that is passed), `labels`, the findings `wrong_labels`, `agreements` (oracle against each second judge, by its name: how many `queries` it was asked, and the finding
-//! `disagreements`), and `subjects`. A subject has
-//! `subject`, `declared_distance`, `taken` and `refused` (sorts of queries: `kind`, `has_radius`, of those refused how many `queries`), `hits` (that it reports), `lapses` (in which ways it
-//! gives no answer, and how often), `faults`, a finding by name, and `errata`, by the erratum that explains
-//! an answer two findings, `alone` and `with_others`. A finding has `count` and `worst`, its worst witness: `severity`, `rank` (what it was chosen by), `place` (of the query in its source, from 0), `id`,
-//! the `command` that explains it, the `query` with decimal and with hexadecimal numbers
-//! ([`crate::corpus::jsonl`] reads both), `truth` and `answer` ([`super::answer`]; `null` for no
-//! answer), and `lapse`, how the subject failed, if it did: `kind` and `detail`. `severity` is the gap of a false hit in metres, the difference of a late or early time
-//! of impact, and for missed contacts how far time and place are from their ends
+//! A source has `name`, `fingerprint` ([`crate::certify::fingerprint`]), `queries`, `hits`,
+//! `crossings`, `joints` (pairs of consecutive segments of a wire that is passed), `labels`, the
+//! findings `wrong_labels`, `agreements` (oracle against each second judge, by its name: how many
+//! `queries` it was asked, and the finding `disagreements`), and `subjects`. A subject has
+//! `subject`, `declared_distance`, `taken` and `refused` (sorts of queries: `kind`, `has_radius`,
+//! of those refused how many `queries`), `hits` (that it reports), `lapses` (in which ways it gives
+//! no answer, and how often), `faults`, a finding by name, and `errata`, by the erratum that
+//! explains an answer two findings, `alone` and `with_others`. A finding has `count` and `worst`,
+//! its worst witness: `severity`, `rank` (what it was chosen by), `place` (of the query in its
+//! source, from 0), `id`, the `command` that explains it, the `query` with decimal and with
+//! hexadecimal numbers ([`crate::corpus::jsonl`] reads both), `truth` and `answer`
+//! ([`super::answer`]; `null` for no answer), and `lapse`, how the subject failed, if it did:
+//! `kind` and `detail`. `severity` is the gap of a false hit in metres, the difference of a late or
+//! early time of impact, and for missed contacts how far time and place are from their ends
 //! ([`crate::certify::tally`]).
 
 use std::collections::BTreeMap;

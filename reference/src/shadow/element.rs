@@ -1,9 +1,9 @@
 //! Numbers at a root: the field of rational functions of one real algebraic number.
 //!
-//! Where the thesis computes with `t_k`, a root that `Solve` found, every value is a quotient of two
-//! polynomials in `t_k` with integer coefficients. It is kept as that quotient, without a common
-//! divisor taken out: a static test is a few dozen operations long, its degrees stay small, and
-//! divisors cost more than they save.
+//! Where the thesis computes with `t_k`, a root that `Solve` found, every value is a quotient of
+//! two polynomials in `t_k` with integer coefficients. It is kept as that quotient, without a
+//! common divisor taken out: a static test is a few dozen operations long, its degrees stay small,
+//! and divisors cost more than they save.
 
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};

@@ -21,8 +21,8 @@ enum Confinement<Z> {
     /// The four points share a plane for the whole step. Holds, for the four ends `X` of one edge
     /// and the other edge `YZ`, `G = (Y - X) x (Z - X)`.
     Plane(Box<[[Poly<Z>; 3]; 4]>),
-    /// The four points share a line for the whole step. Holds the times in `(0, 1)`, ascending, from
-    /// which on the edges touch.
+    /// The four points share a line for the whole step. Holds the times in `(0, 1)`, ascending,
+    /// from which on the edges touch.
     Line(Vec<Algebraic<Z>>),
 }
 

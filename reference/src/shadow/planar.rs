@@ -44,9 +44,9 @@ pub(super) fn static_point_segment_intersection<F: OrderedField>(
 /// Algorithm 16: whether the segments from `p` in direction `r` and from `q` in direction `s`
 /// intersect.
 ///
-/// "Check third equation" is read as the last of the three (equation 3.22). Which one it is makes no
-/// difference where all four ends are in one plane, as wherever the repaired text comes here: then
-/// the least-squares solution fulfils all three.
+/// "Check third equation" is read as the last of the three (equation 3.22). Which one it is makes
+/// no difference where all four ends are in one plane, as wherever the repaired text comes here:
+/// then the least-squares solution fulfils all three.
 pub(super) fn static_segment_segment_intersection<F: OrderedField>(
     p: &Vector<F>,
     q: &Vector<F>,

@@ -1,4 +1,5 @@
-//! `Solve` of the thesis: the roots of a polynomial in `[0, 1]`, ascending, as real algebraic numbers.
+//! `Solve` of the thesis: the roots of a polynomial in `[0, 1]`, ascending, as real algebraic
+//! numbers.
 
 use crate::algebraic::{Algebraic, isolate_roots};
 use crate::field::Integer;

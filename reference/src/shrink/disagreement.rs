@@ -31,7 +31,8 @@ impl<'a> Disagreement<'a> {
     }
 
     /// What the subject gets wrong, the worst of all that it does, in the order of [`Fault::ALL`];
-    /// `None` if it is right. Times of impact that are off by no more than is permitted do not count.
+    /// `None` if it is right. Times of impact that are off by no more than is permitted do not
+    /// count.
     ///
     /// # Errors
     ///

@@ -1,9 +1,9 @@
 //! From a query that shows something to the smallest one that still shows it.
 //!
-//! [`shrink`] knows nothing of what is shown: a predicate says whether a query is still interesting.
-//! It is greedy. Each step (`steps`) proposes queries, the first one that is simpler by
-//! [`Complexity`] and still interesting takes the place of the query, and so on until no step gets
-//! any further. [`Disagreement`] is the predicate for a subject that is wrong.
+//! [`shrink`] knows nothing of what is shown: a predicate says whether a query is still
+//! interesting. It is greedy. Each step (`steps`) proposes queries, the first one that is simpler
+//! by [`Complexity`] and still interesting takes the place of the query, and so on until no step
+//! gets any further. [`Disagreement`] is the predicate for a subject that is wrong.
 
 use std::collections::HashSet;
 use std::fmt;
@@ -46,9 +46,9 @@ pub struct Shrunk {
 
 /// The smallest query that steps lead to from `query`, all of them interesting.
 ///
-/// `query` itself is taken to be interesting. A result that is minimal is returned as it is if it is
-/// shrunk again. The result depends on nothing but the query, the limit and the predicate, which has
-/// to be the same for equal queries; it is asked at most `most_calls` times.
+/// `query` itself is taken to be interesting. A result that is minimal is returned as it is if it
+/// is shrunk again. The result depends on nothing but the query, the limit and the predicate, which
+/// has to be the same for equal queries; it is asked at most `most_calls` times.
 pub fn shrink(
     query: &Query,
     most_calls: u64,
@@ -174,8 +174,8 @@ impl fmt::Display for Shrunk {
     }
 }
 
-/// For a test that fails on a query: the shrunk query and the command that explains it, to be put into
-/// the message of the failure. `is_failure` is asked a few thousand times.
+/// For a test that fails on a query: the shrunk query and the command that explains it, to be put
+/// into the message of the failure. `is_failure` is asked a few thousand times.
 pub fn failure(query: &Query, is_failure: impl Fn(&Query) -> bool) -> String {
     let shrunk = shrink(query, MOST_CALLS, |query| is_failure(query));
     let (line, command) = (shrunk.line("shrunk"), shrunk.command("shrunk"));

@@ -216,8 +216,8 @@ fn single_numbers(shape: &Shape) -> Box<dyn Iterator<Item = Shape>> {
     }))
 }
 
-/// The same motion seen otherwise: axes exchanged and reversed, time reversed, points renamed as the
-/// kind of query allows.
+/// The same motion seen otherwise: axes exchanged and reversed, time reversed, points renamed as
+/// the kind of query allows.
 fn symmetric(shape: &Shape) -> Box<dyn Iterator<Item = Shape>> {
     const AXES: [[usize; 3]; 6] = [
         [0, 1, 2],

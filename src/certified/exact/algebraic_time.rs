@@ -15,8 +15,8 @@ pub(super) enum AlgebraicTime<'a, const N: usize = 4> {
 }
 
 impl<'a, const N: usize> AlgebraicTime<'a, N> {
-    /// The root in a bracket, narrowed to between two neighbours in `f64`, and these; both the same if
-    /// it is an `f64`.
+    /// The root in a bracket, narrowed to between two neighbours in `f64`, and these; both the same
+    /// if it is an `f64`.
     pub(super) fn settled(mut bracket: Bracket<'a, N>) -> (Self, [f64; 2]) {
         match bracket.settle() {
             Settled::At(at) => {

@@ -10,8 +10,8 @@ use super::poly::Poly;
 
 /// Positive multiples of the Bernstein coefficients on `[0, 1]`, one more than the degree.
 ///
-/// With `n` the degree, `b_j` is the sum of `C(j, i) / C(n, i) c_i`; times `n!`, the factor of `c_i` is
-/// `C(j, i) i! (n - i)! = j! / (j - i)! (n - i)!`.
+/// With `n` the degree, `b_j` is the sum of `C(j, i) / C(n, i) c_i`; times `n!`, the factor of
+/// `c_i` is `C(j, i) i! (n - i)! = j! / (j - i)! (n - i)!`.
 pub(super) fn bernstein<const N: usize>(poly: &Poly<N>) -> SmallVec<[Integer; 4]> {
     let n = poly.degree();
     let product = |from: usize, to: usize| (from as i64 + 1..=to as i64).product::<i64>();

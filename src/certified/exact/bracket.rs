@@ -1,9 +1,9 @@
 //! A simple root between two numbers, narrowed as far as a question about it needs.
 //!
-//! Quadratic interval refinement (Abbott, "Quadratic interval refinement for real roots", 2006): a chord
-//! says in which of `2^bits` cells the root should be, exact signs at the cell's ends say whether it is.
-//! A cell that is right squares the number of cells, one that is wrong takes its root; two cells are
-//! halving, which always goes on.
+//! Quadratic interval refinement (Abbott, "Quadratic interval refinement for real roots", 2006): a
+//! chord says in which of `2^bits` cells the root should be, exact signs at the cell's ends say
+//! whether it is. A cell that is right squares the number of cells, one that is wrong takes its
+//! root; two cells are halving, which always goes on.
 
 use std::cmp::Ordering;
 
@@ -38,16 +38,16 @@ pub(super) enum Settled {
     Between(f64, f64),
 }
 
-/// How many bits the ends may have, and as many more as the other polynomial's coefficients, before that is likely to be 0 at a
-/// root.
+/// How many bits the ends may have, and as many more as the other polynomial's coefficients, before
+/// that is likely to be 0 at a root.
 const LEAST_EXPONENT: u64 = 64;
 
 /// The most bits that a chord is worth, computed in floating point.
 pub(super) const MOST_BITS: u32 = 48;
 
 impl<'a, const N: usize> Bracket<'a, N> {
-    /// The only root of `poly` strictly between `low` and `high`; `before` is the sign between `low`
-    /// and the root.
+    /// The only root of `poly` strictly between `low` and `high`; `before` is the sign between
+    /// `low` and the root.
     pub(super) fn new(poly: &'a Poly<N>, low: Dyadic, high: Dyadic, before: Ordering) -> Self {
         Bracket {
             poly,
@@ -93,15 +93,15 @@ impl<'a, const N: usize> Bracket<'a, N> {
         [&self.low, &self.high]
     }
 
-    /// Compares the root with a number strictly between the ends, if it is that; returns the root if
-    /// that is it.
+    /// Compares the root with a number strictly between the ends, if it is that; returns the root
+    /// if that is it.
     fn meet(&mut self, at: Dyadic) -> Option<Dyadic> {
         let is_inside = at.compare(&self.low).is_gt() && at.compare(&self.high).is_lt();
         (is_inside && self.cut(&at).is_eq()).then_some(at)
     }
 
-    /// Narrows it to one of its cells, or to what lies on one side of that. Returns the root if it is
-    /// met.
+    /// Narrows it to one of its cells, or to what lies on one side of that. Returns the root if it
+    /// is met.
     pub(super) fn refine(&mut self) -> Option<Dyadic> {
         let own = self.low.exponent.max(self.high.exponent);
         let exponent = own + u64::from(self.bits);
@@ -134,7 +134,8 @@ impl<'a, const N: usize> Bracket<'a, N> {
         None
     }
 
-    /// Where between the ends the chord of the polynomial is 0; not a number if it is 0 at both ends.
+    /// Where between the ends the chord of the polynomial is 0; not a number if it is 0 at both
+    /// ends.
     fn chord(&self) -> f64 {
         let value = |at: &Dyadic| {
             let (value, exponent) = self.poly.evaluate(at).approximate();
@@ -195,8 +196,8 @@ impl<'a, const N: usize> Bracket<'a, N> {
 
     /// The sign of a polynomial at the root.
     ///
-    /// One with a factor in common may still not be 0 there: it is narrowed for a while before remainders, whose numbers are
-    /// many times as long, tell.
+    /// One with a factor in common may still not be 0 there: it is narrowed for a while before
+    /// remainders, whose numbers are many times as long, tell.
     pub(super) fn sign_of(&self, q: Poly<N>) -> Ordering {
         self.plain_sign_of(&q).unwrap_or_else(|| {
             let limit = if are_coprime(self.poly, &q) {
@@ -216,8 +217,8 @@ impl<'a, const N: usize> Bracket<'a, N> {
         value.exceeds(&variation).then(|| value.sign())
     }
 
-    /// The sign of a polynomial at the root, if it is shown before the ends have so many bits. If it is not 0, it is shown in
-    /// the end.
+    /// The sign of a polynomial at the root, if it is shown before the ends have so many bits. If
+    /// it is not 0, it is shown in the end.
     fn sign_by_narrowing(&self, q: &Poly<N>, most_bits: u64) -> Option<Ordering> {
         let mut bracket = self.clone();
         while bracket.low.exponent.max(bracket.high.exponent) < most_bits {
@@ -259,13 +260,14 @@ impl<'a, const N: usize> Bracket<'a, N> {
 
     /// `n / d` at the root, which is in `[0, 1]`.
     ///
-    /// The error is at most [`PARAMETER_ERROR`](super::PARAMETER_ERROR), `2^-50`. The exact quotient
-    /// is between two numbers, each known up to 3/2 2^-52; the middle of what is known of them is
-    /// taken once these are not more than 4 2^-52 apart, which adds 2 2^-52, and is rounded.
+    /// The error is at most [`PARAMETER_ERROR`](super::PARAMETER_ERROR), `2^-50`. The exact
+    /// quotient is between two numbers, each known up to 3/2 2^-52; the middle of what is known of
+    /// them is taken once these are not more than 4 2^-52 apart, which adds 2 2^-52, and is
+    /// rounded.
     ///
-    /// It ends: the denominator is not 0 at the root, so that narrowing brings the two numbers together
-    /// as near as one likes. What is known of each then differs by a unit in the last place, 2^-52,
-    /// in numerator, denominator and quotient: by not more than 3 2^-52.
+    /// It ends: the denominator is not 0 at the root, so that narrowing brings the two numbers
+    /// together as near as one likes. What is known of each then differs by a unit in the last
+    /// place, 2^-52, in numerator, denominator and quotient: by not more than 3 2^-52.
     pub(super) fn quotient(&self, n: &Poly<N>, d: &Poly<N>) -> f64 {
         let mut bracket = self.clone();
         loop {

@@ -1,9 +1,9 @@
 //! Motion confined to a plane, which may itself turn, or to a line: `f` is identically 0.
 //!
-//! Let the first contact be at `s > 0`. If no end of an edge were on the other edge at `s`, the lines
-//! would meet at an angle, inside both edges, and so they would shortly before. The candidates are
-//! therefore 0 and the times at which an end comes onto the other edge. Edges that are a point for
-//! the whole step and edges with a common start are among these motions.
+//! Let the first contact be at `s > 0`. If no end of an edge were on the other edge at `s`, the
+//! lines would meet at an angle, inside both edges, and so they would shortly before. The
+//! candidates are therefore 0 and the times at which an end comes onto the other edge. Edges that
+//! are a point for the whole step and edges with a common start are among these motions.
 
 use std::cmp::Ordering;
 
@@ -79,9 +79,9 @@ pub(super) fn passes_any<L: Width>(ends: &[End<L>], time: &Time<L>, overlap: boo
 }
 
 impl<L: Width> End<L> {
-    /// A polynomial that is 0 where the end comes onto the other edge: a component of the turn that is
-    /// not identically 0, else `between`; `None` if that is identically 0 as well, or if plainly the end
-    /// never does.
+    /// A polynomial that is 0 where the end comes onto the other edge: a component of the turn that
+    /// is not identically 0, else `between`; `None` if that is identically 0 as well, or if plainly
+    /// the end never does.
     fn candidates(&self) -> Option<Curve<L>> {
         if self.stays_away() {
             None
@@ -97,8 +97,8 @@ impl<L: Width> End<L> {
         all.find(moves).map(|q| Curve::Quadratic(q.clone()))
     }
 
-    /// Whether Bernstein coefficients of one sign show that the end is never on the other edge: those
-    /// of a component of the turn, or those of `between` if that is above 0.
+    /// Whether Bernstein coefficients of one sign show that the end is never on the other edge:
+    /// those of a component of the turn, or those of `between` if that is above 0.
     fn stays_away(&self) -> bool {
         let keeps = |q: &Quadratic<L>, sign| bernstein_signs::<L>(q) == [sign; 3];
         let is_never_0 = |q| keeps(q, Ordering::Less) || keeps(q, Ordering::Greater);

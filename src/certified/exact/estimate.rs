@@ -51,7 +51,8 @@ pub(super) fn turning_point(c: &[f64; 4], first: Ordering) -> Option<f64> {
     inside.max_by(|s, t| depth(s).total_cmp(&depth(t)))
 }
 
-/// Where a multiple root of a cubic would be: the roots of the derivative, and that of the second one.
+/// Where a multiple root of a cubic would be: the roots of the derivative, and that of the second
+/// one.
 pub(super) fn multiple_roots(c: &[f64; 4]) -> [f64; 3] {
     let [first, second] = turning_points(c);
     [first, second, -c[2] / (3.0 * c[3])]

@@ -1,16 +1,18 @@
 //! A moving vertex and a moving face, decided in integers.
 //!
-//! The four points are taken as the edges `BC` and `AD`: then `K = C - B`, `L = D - A`, `M = A - B`, and
-//! `f = (K x L) . M` is six times the signed volume of the four points, as it is of any order of them.
-//! So everything up to the roots of `f` is that of two edges. With `E = D - B = L + M`, the normal of
-//! the face is `K x E = N - M x K`, and at a root of `f` the weights of B, C and D times the normal are
+//! The four points are taken as the edges `BC` and `AD`: then `K = C - B`, `L = D - A`,
+//! `M = A - B`, and `f = (K x L) . M` is six times the signed volume of the four points, as it is
+//! of any order of them. So everything up to the roots of `f` is that of two edges. With
+//! `E = D - B = L + M`, the normal of the face is `K x E = N - M x K`, and at a root of `f` the
+//! weights of B, C and D times the normal are
 //!
 //! ```text
 //! normal - M x E + M x K = N - M x L        M x E = M x L        K x M = -(M x K)
 //! ```
 //!
-//! The bounds of [`super::width`] hold: the largest of the new coefficients are those of `|D - C|^2`, sums
-//! of at most 27, 54 and 27 products, together at most `108 2^(2b)`; that is below `2^(2b + 7)`.
+//! The bounds of [`super::width`] hold: the largest of the new coefficients are those of
+//! `|D - C|^2`, sums of at most 27, 54 and 27 products, together at most `108 2^(2b)`; that is
+//! below `2^(2b + 7)`.
 
 use std::cmp::Ordering;
 
@@ -111,9 +113,9 @@ impl<L: Width> Face<L> {
         })
     }
 
-    /// `f` is identically 0. If the vertex were off all edges at a first contact after the start, it
-    /// would be inside a face that is not a segment or a point, and so shortly before. The candidates are
-    /// therefore 0 and the times at which it comes onto an edge.
+    /// `f` is identically 0. If the vertex were off all edges at a first contact after the start,
+    /// it would be inside a face that is not a segment or a point, and so shortly before. The
+    /// candidates are therefore 0 and the times at which it comes onto an edge.
     fn decide_confined(&self) -> Option<Hit<FacePlace>> {
         let start = Time::start();
         if let Some(place) = self.place(&start) {
@@ -178,8 +180,8 @@ impl<L: Width> Face<L> {
         Some(Place { weights, flags })
     }
 
-    /// The face is a segment or a point, and so its edges: the place at the first corner, else on the
-    /// first edge, that the vertex is on.
+    /// The face is a segment or a point, and so its edges: the place at the first corner, else on
+    /// the first edge, that the vertex is on.
     fn place_on_edge(&self, time: &Time<L>) -> Option<Place<L>> {
         let is_zero = |square: Quadratic<L>| time.sign_of(&square).is_eq();
         let [to_b, to_c, to_d] = self.distances();

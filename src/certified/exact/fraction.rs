@@ -1,4 +1,5 @@
-//! Times that are fractions of small numbers: those of contact between points with small coordinates.
+//! Times that are fractions of small numbers: those of contact between points with small
+//! coordinates.
 
 use std::cmp::Ordering;
 
@@ -47,8 +48,8 @@ impl Fraction {
         }
     }
 
-    /// Its neighbours in `f64`: the largest one that is not above it and the smallest one that is not
-    /// below it.
+    /// Its neighbours in `f64`: the largest one that is not above it and the smallest one that is
+    /// not below it.
     pub(super) fn neighbours(self) -> (f64, f64) {
         let nearest = self.numerator as f64 / self.denominator as f64;
         // The quotient is above 2^-12, so that its last bit is above 2^-66.

@@ -180,10 +180,11 @@ impl Integer {
         product
     }
 
-    /// Divides it by a divisor, which is above 0 (Jebelean, "An algorithm for exact division", 1993).
+    /// Divides it by a divisor, which is above 0 (Jebelean, "An algorithm for exact division",
+    /// 1993).
     ///
-    /// Modulo `2^64` a limb of the quotient is the lowest limb of what is left times the inverse of the
-    /// lowest one of the divisor, which is made odd.
+    /// Modulo `2^64` a limb of the quotient is the lowest limb of what is left times the inverse of
+    /// the lowest one of the divisor, which is made odd.
     pub(super) fn divide_exactly(&mut self, divisor: &Integer) {
         let zeros = divisor.trailing_zeros();
         let (mut rest, divisor) = (self.shifted_down(zeros), divisor.shifted_down(zeros));
@@ -344,8 +345,8 @@ impl Number for Integer {
     }
 }
 
-/// `n / d` for `0 <= n <= d` and `d > 0`, with a relative error of about 3/2 2^-52: 2^-53 for each of
-/// the two and for their quotient.
+/// `n / d` for `0 <= n <= d` and `d > 0`, with a relative error of about 3/2 2^-52: 2^-53 for each
+/// of the two and for their quotient.
 pub(super) fn ratio(n: &Integer, d: &Integer) -> f64 {
     let ((n, n_exponent), (d, d_exponent)) = (n.approximate(), d.approximate());
     scale(n / d, n_exponent - d_exponent)
@@ -381,8 +382,8 @@ pub(super) fn subtract_limbs(a: u64, b: u64, borrow: bool) -> (u64, bool) {
     (difference, first | second)
 }
 
-/// Applies a step to every limb of `to` with the limbs of `from 2^(64 whole + bits)`; what remains is
-/// the last carry.
+/// Applies a step to every limb of `to` with the limbs of `from 2^(64 whole + bits)`; what remains
+/// is the last carry.
 fn for_shifted(
     to: &mut [u64],
     from: &[u64],

@@ -4,10 +4,10 @@
 //! sign changes of the Bernstein coefficients or less by an even number. With more than one sign
 //! change the discriminant says what follows:
 //!
-//! - 0: there is a double or a triple root. Then all roots are rational, and their linear factors are
-//!   written down from the coefficients.
-//! - below 0: there is one real root of a cubic, none of a quadratic; the parity of the sign changes
-//!   tells whether it is in `(0, 1)`.
+//! - 0: there is a double or a triple root. Then all roots are rational, and their linear factors
+//!   are written down from the coefficients.
+//! - below 0: there is one real root of a cubic, none of a quadratic; the parity of the sign
+//!   changes tells whether it is in `(0, 1)`.
 //! - above 0: all roots are real and simple, and halving the interval parts them in the end (two
 //!   circles theorem). The sign changes of both halves together are not more than those of the
 //!   whole, so that only one half at a time can still have more than one.
@@ -117,8 +117,8 @@ impl Isolated {
         });
     }
 
-    /// Adds the roots strictly between 0 and 1. `sign` is the polynomial's sign just before them and
-    /// becomes the one just after them.
+    /// Adds the roots strictly between 0 and 1. `sign` is the polynomial's sign just before them
+    /// and becomes the one just after them.
     fn add_inside(&mut self, bernstein: &[Integer], sign: &mut Ordering) {
         let changes = changes(bernstein);
         if changes == 0 {
@@ -166,8 +166,8 @@ impl Isolated {
         }
     }
 
-    /// Adds the root of a linear factor, if it is strictly between 0 and 1. `is_odd` says whether the
-    /// polynomial changes its sign there.
+    /// Adds the root of a linear factor, if it is strictly between 0 and 1. `is_odd` says whether
+    /// the polynomial changes its sign there.
     fn add_linear(&mut self, linear: Poly, is_odd: bool, sign: &mut Ordering) {
         let (at_start, at_end) = (
             linear.coefficient(0),
@@ -245,9 +245,9 @@ fn unit() -> (Dyadic, Dyadic) {
 }
 
 /// The Hessian covariant of `a t^3 + b t^2 + c t + d`: the quadratic `p t^2 + q t + r` with
-/// `p = b^2 - 3ac`, `q = bc - 9ad`, `r = c^2 - 3bd`. Its discriminant is -3 times that of the cubic,
-/// and a double root of the cubic is a double root of it. With `a = 0` it still says all of this of
-/// the quadratic, times `b^2`.
+/// `p = b^2 - 3ac`, `q = bc - 9ad`, `r = c^2 - 3bd`. Its discriminant is -3 times that of the
+/// cubic, and a double root of the cubic is a double root of it. With `a = 0` it still says all of
+/// this of the quadratic, times `b^2`.
 struct Hessian {
     p: Integer,
     q: Integer,

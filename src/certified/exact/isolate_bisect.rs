@@ -1,8 +1,8 @@
 //! The roots of a cubic parted by halving, exactly and with numbers of fixed width.
 //!
-//! As in [`super::isolate_f64`], a piece whose Bernstein coefficients change their sign once has one root, a
-//! simple one. The sign changes of both halves together are not more than those of the whole, so that
-//! only one half at a time can still have more than one.
+//! As in [`super::isolate_f64`], a piece whose Bernstein coefficients change their sign once has
+//! one root, a simple one. The sign changes of both halves together are not more than those of the
+//! whole, so that only one half at a time can still have more than one.
 
 use std::cmp::Ordering;
 
@@ -20,8 +20,8 @@ const _: () = assert!(3 * DEPTH <= DOUBLINGS);
 /// Bernstein coefficients of a cubic on an interval, times a power of two.
 type Bernstein<L> = [<L as Width>::CubicValue; 4];
 
-/// Intervals around each of the roots in `(0, 1)`, which are simple, in ascending order; `None` where
-/// they are too near each other, or one of them is where the interval was halved.
+/// Intervals around each of the roots in `(0, 1)`, which are simple, in ascending order; `None`
+/// where they are too near each other, or one of them is where the interval was halved.
 pub(super) fn isolate_bisect<L: Width>(c: &Cubic<L>) -> Option<SmallVec<[Interval; 3]>> {
     let [c0, c1, c2, c3] = c.each_ref().map(L::widened);
     // 3 c0, 3 c0 + c1, 3 c0 + 2 c1 + c2, 3 (c0 + c1 + c2 + c3)

@@ -1,7 +1,8 @@
 //! The roots of a polynomial isolated in floating point, where its error bound allows.
 //!
-//! The interval is halved a few times; a piece whose Bernstein coefficients are all beyond their error
-//! bound has no root where they have one sign, and one, a simple one, where their signs change once.
+//! The interval is halved a few times; a piece whose Bernstein coefficients are all beyond their
+//! error bound has no root where they have one sign, and one, a simple one, where their signs
+//! change once.
 
 use smallvec::SmallVec;
 
@@ -16,11 +17,12 @@ const DEPTH: u32 = 4;
 /// Intervals around each of the roots in `(0, 1)`, which are simple and not at the ends of these;
 /// `None` where floating point does not show that.
 ///
-/// With `S` the sum of the magnitudes of the coefficients `c`, which have a relative error of 2^-52:
-/// a Bernstein coefficient, such as `c0 + 2/3 c1 + 1/3 c2`, is a weighted sum of them with weights up
-/// to 1 and takes at most 8 operations, and a halving averages three times for each of the [`DEPTH`]
-/// levels. All values stay within `S`, so that their errors are at most `(2 + 8 + 3 DEPTH) 2^-53 S`,
-/// below `2^-48 S`. Nothing underflows beside that: the coefficients are integers.
+/// With `S` the sum of the magnitudes of the coefficients `c`, which have a relative error of
+/// 2^-52: a Bernstein coefficient, such as `c0 + 2/3 c1 + 1/3 c2`, is a weighted sum of them with
+/// weights up to 1 and takes at most 8 operations, and a halving averages three times for each of
+/// the [`DEPTH`] levels. All values stay within `S`, so that their errors are at most
+/// `(2 + 8 + 3 DEPTH) 2^-53 S`, below `2^-48 S`. Nothing underflows beside that: the coefficients
+/// are integers.
 pub(super) fn isolate_f64(c: &[f64; 4]) -> Option<SmallVec<[Interval; 3]>> {
     let error = c.iter().map(|c| c.abs()).sum::<f64>() / (1u64 << 48) as f64;
     let bernstein = [

@@ -84,8 +84,8 @@ impl<L: Width> Motion<L> {
         }
     }
 
-    /// The lines meet in one point. From `A + u K = C + v L`: `M x L = u N` and `M x K = v N`, which
-    /// one component of `N` that is not 0 solves.
+    /// The lines meet in one point. From `A + u K = C + v L`: `M x L = u N` and `M x K = v N`,
+    /// which one component of `N` that is not 0 solves.
     fn locus_transversal(&self, time: &Time<L>, axis: usize, sign: Ordering) -> Option<Locus<L>> {
         let n = &self.n[axis];
         let u = Parameter::new(time, self.m.cross_component(&self.l, axis), n.clone(), sign)?;
@@ -159,10 +159,10 @@ impl<L: Width> Motion<L> {
         self.n.iter().flatten().all(Number::is_zero)
     }
 
-    /// Both edges are on one line and neither is a point: the ends of what they share are ends of the
-    /// edges that are on the other edge. Whether it is more than a point follows from the signs of
-    /// [`between`](super::motion::End::between): an end is strictly inside the other edge, or A and B are both
-    /// ends of the other edge.
+    /// Both edges are on one line and neither is a point: the ends of what they share are ends of
+    /// the edges that are on the other edge. Whether it is more than a point follows from the signs
+    /// of [`between`](super::motion::End::between): an end is strictly inside the other edge, or A
+    /// and B are both ends of the other edge.
     fn overlap(
         &self,
         time: &Time<L>,

@@ -1,27 +1,27 @@
-//! The exact stage: every query, decided in integers. With a radius above 0 see [`thick`]; what follows is of
-//! edges without, and [`face`] says what is different there.
+//! The exact stage: every query, decided in integers. With a radius above 0 see [`thick`]; what
+//! follows is of edges without, and [`face`] says what is different there.
 //!
 //! All coordinates are dyadic rationals, so that every predicate of contact is the sign of a
 //! polynomial with integer coefficients at a time that is itself a root of one. With
 //! `K = B - A`, `L = D - C`, `M = C - A`, `N = K x L` and `f = M . N`:
 //!
-//! 1. [`scaled`] makes the coordinate differences integers; their width chooses a [`width`], integers
-//!    of fixed widths that cannot overflow, or integers of any size where it is too large.
+//! 1. [`scaled`] makes the coordinate differences integers; their width chooses a [`width`],
+//!    integers of fixed widths that cannot overflow, or integers of any size where it is too large.
 //! 2. [`motion`] computes the coefficients.
-//! 3. Edges that touch are coplanar, so that a contact time is a root of `f` ([`general`]). Where `f`
-//!    is identically 0, it is the start or a time at which an end comes onto the other edge
+//! 3. Edges that touch are coplanar, so that a contact time is a root of `f` ([`general`]). Where
+//!    `f` is identically 0, it is the start or a time at which an end comes onto the other edge
 //!    ([`confined`]).
-//! 4. [`roots`] finds the roots: isolated in floating point where its error bound allows ([`isolate_f64`]), else
-//!    exactly ([`isolate_bisect`], [`isolate`]), recognised as fractions of small numbers ([`fraction`]) or
-//!    narrowed to the last bit ([`refine_root`], [`bracket`]). [`time`] tells the
-//!    signs of other polynomials there: by floating point where its error bound shows them, else
-//!    exactly ([`sturm`]).
+//! 4. [`roots`] finds the roots: isolated in floating point where its error bound allows
+//!    ([`isolate_f64`]), else exactly ([`isolate_bisect`], [`isolate`]), recognised as fractions of
+//!    small numbers ([`fraction`]) or narrowed to the last bit ([`refine_root`], [`bracket`]).
+//!    [`time`] tells the signs of other polynomials there: by floating point where its error bound
+//!    shows them, else exactly ([`sturm`]).
 //! 5. [`locus`] is where the edges touch at such a time, if they do.
 //!
 //! Nothing is allocated as long as the numbers fit into [`integer`]'s inline buffer, which they do
 //! for coordinates between 1e-6 and 1e6 with times of impact above 1e-12; beyond that the heap is
-//! used. There is no tolerance and no limit on iterations: every loop ends by a reason that is stated
-//! beside it.
+//! used. There is no tolerance and no limit on iterations: every loop ends by a reason that is
+//! stated beside it.
 
 #![allow(
     clippy::large_enum_variant,

@@ -11,10 +11,11 @@ const PRIME: u64 = (1 << 61) - 1;
 /// Coefficients modulo the prime, the constant one first; of degree up to 7 without allocation.
 type Residues = SmallVec<[u64; 8]>;
 
-/// Whether two polynomials that are not 0 have no common factor; `false` where the prime does not tell.
+/// Whether two polynomials that are not 0 have no common factor; `false` where the prime does not
+/// tell.
 ///
-/// If the prime divides neither leading coefficient, a common factor has the same degree modulo the prime, and
-/// divides both there too.
+/// If the prime divides neither leading coefficient, a common factor has the same degree modulo the
+/// prime, and divides both there too.
 pub(super) fn are_coprime<const N: usize>(p: &Poly<N>, q: &Poly<N>) -> bool {
     let (mut p, mut q) = (residues(p), residues(q));
     let keep_degree = |r: &[u64]| r.last().is_some_and(|leading| *leading != 0);

@@ -1,8 +1,8 @@
 //! Whether two segments come within a radius of each other at one instant, in integers.
 //!
-//! With `K = B - A`, `L = D - C`, `M = C - A`, `N = K x L`, `n2 = N . N`, `f = M . N`, `U = (M x L) . N` and
-//! `W = (M x K) . N`: where `n2 > 0`, the lines are `|f| / |N|` apart, in the points `U / n2` and `W / n2`. So the
-//! segments are within `R` if
+//! With `K = B - A`, `L = D - C`, `M = C - A`, `N = K x L`, `n2 = N . N`, `f = M . N`,
+//! `U = (M x L) . N` and `W = (M x K) . N`: where `n2 > 0`, the lines are `|f| / |N|` apart, in the
+//! points `U / n2` and `W / n2`. So the segments are within `R` if
 //!
 //! ```text
 //! n2 > 0 and f^2 <= R^2 n2 and 0 <= U <= n2 and 0 <= W <= n2
@@ -14,8 +14,8 @@
 //! |X - Y|^2 <= R^2  or  |X - Z|^2 <= R^2  or  0 <= w . E <= E . E and |w x E|^2 <= R^2 E . E
 //! ```
 //!
-//! where the last one may have `E = 0`: then it is the first one or says nothing. The nearest points of two
-//! segments are inner points of both or one of them is an end.
+//! where the last one may have `E = 0`: then it is the first one or says nothing. The nearest
+//! points of two segments are inner points of both or one of them is an end.
 
 use super::dyadic::decompose;
 use super::integer::Integer;
@@ -65,7 +65,8 @@ fn scaled(points: &[Vector; 4], radii: [f64; 2]) -> ([Point; 4], Integer) {
     (in_unit(points, unit), radius_in_unit(radii, unit))
 }
 
-/// The exponent of the largest power of two of which all these numbers are multiples; 0 if all are 0.
+/// The exponent of the largest power of two of which all these numbers are multiples; 0 if all are
+/// 0.
 pub(super) fn unit<'a>(numbers: impl Iterator<Item = &'a f64>) -> i32 {
     let parts = numbers.map(|x| decompose(*x));
     let used = parts.filter(|(mantissa, _)| *mantissa != 0);

@@ -1,8 +1,8 @@
-//! Whether midlines cross at any time of the step, and the case of the motion: what a radius does not
-//! change.
+//! Whether midlines cross at any time of the step, and the case of the motion: what a radius does
+//! not change.
 //!
-//! The definition of [`Hit::kind`](crate::contact::Hit::kind), asked at every time at which there can be a
-//! crossing, and not at the first contact alone.
+//! The definition of [`Hit::kind`](crate::contact::Hit::kind), asked at every time at which there
+//! can be a crossing, and not at the first contact alone.
 
 use std::cmp::Ordering;
 
@@ -83,7 +83,8 @@ fn kind(crosses: bool) -> ContactKind {
     }
 }
 
-/// Whether `f`, which is not identically 0, changes its sign inside the step where they meet inside.
+/// Whether `f`, which is not identically 0, changes its sign inside the step where they meet
+/// inside.
 fn crosses_in_space<L: Width>(motion: &Motion<L>, meet: impl Fn(&Time<L>) -> bool) -> bool {
     let mut roots = Roots::none();
     roots.find(Curve::Cubic(motion.f.clone()));
@@ -92,7 +93,8 @@ fn crosses_in_space<L: Width>(motion: &Motion<L>, meet: impl Fn(&Time<L>) -> boo
         .any(|(time, before, after)| before != after && time.is_inside() && meet(&time))
 }
 
-/// The same where `f` is identically 0. `overlap` says where they touch, and whether in more than a point.
+/// The same where `f` is identically 0. `overlap` says where they touch, and whether in more than a
+/// point.
 fn crosses_confined<L: Width>(ends: &[End<L>], overlap: impl Fn(&Time<L>) -> Option<bool>) -> bool {
     let is_line = ends.iter().all(End::is_on_line);
     let crosses_at = |time: &Time<L>| match overlap(time) {

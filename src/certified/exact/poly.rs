@@ -8,7 +8,8 @@ use super::dyadic::Dyadic;
 use super::integer::Integer;
 use super::width::Number;
 
-/// A polynomial, of which `N` coefficients are held in place; 0 where moving it costs more than finding it on the heap.
+/// A polynomial, of which `N` coefficients are held in place; 0 where moving it costs more than
+/// finding it on the heap.
 #[derive(Clone, Debug)]
 pub(super) struct Poly<const N: usize = 4> {
     /// Up to the leading one, which is not 0.
@@ -118,10 +119,11 @@ impl<const N: usize> Poly<N> {
         self
     }
 
-    /// A multiple of the quotient of a division by `divisor`, which is a divisor over the rationals.
+    /// A multiple of the quotient of a division by `divisor`, which is a divisor over the
+    /// rationals.
     ///
-    /// Times its leading coefficient `l`, the polynomial is a multiple over the integers of that multiple of the divisor whose
-    /// leading coefficient is `l` too (Gauss's lemma).
+    /// Times its leading coefficient `l`, the polynomial is a multiple over the integers of that
+    /// multiple of the divisor whose leading coefficient is `l` too (Gauss's lemma).
     pub(super) fn quotient(mut self, divisor: &Self) -> Self {
         let (Some(leading), Some(other)) = (self.coefficients.last(), divisor.coefficients.last())
         else {

@@ -13,8 +13,8 @@ use super::fraction::Fraction;
 use super::grid_time::GridTime;
 use super::width::Width;
 
-/// A root that is a fraction of small numbers, or on the grid, or between two numbers of it that are
-/// between neighbours in `f64`.
+/// A root that is a fraction of small numbers, or on the grid, or between two numbers of it that
+/// are between neighbours in `f64`.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum RefinedRoot {
     Fraction(Fraction),
@@ -102,8 +102,8 @@ impl<L: Width> Sides<'_, L> {
         self.low.is_none_or(|low| low < at) && self.high.is_none_or(|high| at < high)
     }
 
-    /// The root compared with a number strictly between the sides, given the sign there; moves a side
-    /// unless it is the root.
+    /// The root compared with a number strictly between the sides, given the sign there; moves a
+    /// side unless it is the root.
     fn move_to(&mut self, at: GridTime, sign: Ordering) -> Ordering {
         if sign.is_eq() {
             Ordering::Equal
@@ -121,8 +121,8 @@ impl<L: Width> Sides<'_, L> {
         self.move_to(at, sign)
     }
 
-    /// Moves both sides near `at + step`: by a fraction of the step or `floor`, or more where that is
-    /// too near.
+    /// Moves both sides near `at + step`: by a fraction of the step or `floor`, or more where that
+    /// is too near.
     fn approach(&mut self, at: GridTime, step: f64, floor: u128) -> Option<()> {
         let offset = step * 2f64.powi(128);
         // False for NaN as well.
@@ -149,9 +149,9 @@ impl<L: Width> Sides<'_, L> {
         None
     }
 
-    /// Moves both sides to the root as [`Bracket`](super::bracket::Bracket) does, as far as the grid
-    /// goes, without the help of the slope, which floating point does not know near another root.
-    /// Returns the root if it is met.
+    /// Moves both sides to the root as [`Bracket`](super::bracket::Bracket) does, as far as the
+    /// grid goes, without the help of the slope, which floating point does not know near another
+    /// root. Returns the root if it is met.
     fn refine(&mut self) -> Option<GridTime> {
         let value = |side: Option<GridTime>, at_end: f64| {
             let inside = side.map(|at| self.curve.sample(at).1);

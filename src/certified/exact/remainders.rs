@@ -1,10 +1,11 @@
 //! Signed remainder sequences in integers.
 //!
-//! `p, q, -rem(p, q), ...`: each is minus the remainder of the two before it, up to a positive factor. Without
-//! division the coefficients would grow exponentially. What one remainder was multiplied by is a factor
-//! of the next but one (Collins, "Subresultants and reduced polynomial remainder sequences", 1967), so that it
-//! is divided out; then they grow linearly. Where only the sign is left, it is not. Powers of two that divide a remainder
-//! are divided out as well, and so the factor loses its own.
+//! `p, q, -rem(p, q), ...`: each is minus the remainder of the two before it, up to a positive
+//! factor. Without division the coefficients would grow exponentially. What one remainder was
+//! multiplied by is a factor of the next but one (Collins, "Subresultants and reduced polynomial
+//! remainder sequences", 1967), so that it is divided out; then they grow linearly. Where only the
+//! sign is left, it is not. Powers of two that divide a remainder are divided out as well, and so
+//! the factor loses its own.
 
 use super::integer::Integer;
 use super::poly::Poly;

@@ -1,8 +1,8 @@
 //! The times at which a polynomial of the motion is 0.
 //!
 //! One sign change of the Bernstein coefficients means one root, a simple one. More of them are
-//! isolated in floating point ([`super::isolate_f64`]), or exactly: by values of alternating signs between them, or
-//! by halving ([`super::isolate_bisect`]). The rest is left to [`super::isolate`].
+//! isolated in floating point ([`super::isolate_f64`]), or exactly: by values of alternating signs
+//! between them, or by halving ([`super::isolate_bisect`]). The rest is left to [`super::isolate`].
 
 use std::cell::OnceCell;
 use std::cmp::Ordering;
@@ -138,8 +138,8 @@ impl<L: Width> Roots<L> {
         });
     }
 
-    /// The roots, each with the sign of the polynomial just before it (equal to 0 at the start of the
-    /// step) and just after it (equal to 0 at the end).
+    /// The roots, each with the sign of the polynomial just before it (equal to 0 at the start of
+    /// the step) and just after it (equal to 0 at the end).
     pub(super) fn iter(&self) -> impl Iterator<Item = (Time<'_, L>, Ordering, Ordering)> {
         self.cells.iter().filter_map(|cell| {
             let time = match cell.place {
@@ -239,9 +239,9 @@ fn intervals<L: Width>(
     })
 }
 
-/// Intervals around as many roots as there are sign changes, two or three, cut at the turning points
-/// between them, if a estimate finds these: with alternating signs there, every interval has a root, and
-/// there are no more.
+/// Intervals around as many roots as there are sign changes, two or three, cut at the turning
+/// points between them, if a estimate finds these: with alternating signs there, every interval has
+/// a root, and there are no more.
 fn cut_between<L: Width>(
     curve: &Curve<L>,
     first: Ordering,

@@ -57,8 +57,8 @@ impl Scaled {
         }
     }
 
-    /// From coordinates below `2^61` after division by `2^lowest`, which is exact: their differences
-    /// are below `2^62` and the changes of those below `2^63`.
+    /// From coordinates below `2^61` after division by `2^lowest`, which is exact: their
+    /// differences are below `2^62` and the changes of those below `2^63`.
     fn short(coordinates: &[f64; 24], lowest: i32) -> Self {
         let factor = f64::from_bits(((1023 - lowest) as u64) << 52);
         let integers = coordinates.map(|value| (value * factor) as i64);
@@ -116,8 +116,8 @@ impl Scaled {
     }
 }
 
-/// The least exponent of the coordinates' mantissas as integers of 53 bits, and the number of bits from
-/// there to the highest one.
+/// The least exponent of the coordinates' mantissas as integers of 53 bits, and the number of bits
+/// from there to the highest one.
 fn span(coordinates: &[f64; 24]) -> (i32, i32) {
     let magnitudes = coordinates.map(f64::abs);
     let largest = magnitudes

@@ -1,16 +1,17 @@
 //! The sign of a polynomial at a root of another one, exactly and without iteration.
 //!
 //! By Sturm's theorem for rational functions (Basu, Pollack, Roy, "Algorithms in Real Algebraic
-//! Geometry", theorem 2.58): let `p, q, -rem(p, q), ...` be the signed remainder sequence, and `V(t)`
-//! the number of sign changes in it at `t`, zeros left out. If `p(a)` and `p(b)` are not 0,
+//! Geometry", theorem 2.58): let `p, q, -rem(p, q), ...` be the signed remainder sequence, and
+//! `V(t)` the number of sign changes in it at `t`, zeros left out. If `p(a)` and `p(b)` are not 0,
 //! `V(a) - V(b)` is the Cauchy index of `q / p` on `(a, b)`: the number of its jumps from minus to
-//! plus infinity less the number of jumps the other way. If `p` has one root in `(a, b)` and that is
-//! simple, there is one jump, of the sign of `p'(root) q(root)`, or none if `q(root) = 0`. The sign
-//! of `p'(root)` is that of `p(b)`, so that the index tells the sign of `q(root)`, 0 included.
+//! plus infinity less the number of jumps the other way. If `p` has one root in `(a, b)` and that
+//! is simple, there is one jump, of the sign of `p'(root) q(root)`, or none if `q(root) = 0`. The
+//! sign of `p'(root)` is that of `p(b)`, so that the index tells the sign of `q(root)`, 0 included.
 //!
-//! Remainders may be multiplied by positive numbers, so that they stay integers ([`super::remainders`]). With `p` a cubic of
-//! `3b + 8` bits and `q` a quadratic of `2b + 6` bits, the first remainder has
-//! `3b + 8 + 2 (2b + 7)` = `7b + 22` bits and the second `2b + 6 + 2 (7b + 23)` = `16b + 52` bits.
+//! Remainders may be multiplied by positive numbers, so that they stay integers
+//! ([`super::remainders`]). With `p` a cubic of `3b + 8` bits and `q` a quadratic of `2b + 6` bits,
+//! the first remainder has `3b + 8 + 2 (2b + 7)` = `7b + 22` bits and the second
+//! `2b + 6 + 2 (7b + 23)` = `16b + 52` bits.
 
 use std::cmp::Ordering;
 

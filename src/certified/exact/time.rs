@@ -187,8 +187,8 @@ impl<'a, L: Width> Time<'a, L> {
         }
     }
 
-    /// About the value of a polynomial, with the right sign, where floating point shows that; 0 for the
-    /// polynomial that is identically 0.
+    /// About the value of a polynomial, with the right sign, where floating point shows that; 0 for
+    /// the polynomial that is identically 0.
     ///
     /// With coefficients of a relative error of 2^-52, and `t` off by at most one unit in the last
     /// place, which is `2^-52 t`: each term is off by 2^-52 of itself for its coefficient, 2 2^-52
@@ -251,8 +251,8 @@ impl<'a, L: Width> Time<'a, L> {
     /// The same, where numbers of fixed width show it.
     ///
     /// Numerator and denominator at a time that is near enough are known with a relative error of
-    /// 2^-53 each, as is their quotient, and each may vary up to the time by `2^-53 d`: not more than
-    /// 5 times 2^-53 together, as the quotient is at most 1.
+    /// 2^-53 each, as is their quotient, and each may vary up to the time by `2^-53 d`: not more
+    /// than 5 times 2^-53 together, as the quotient is at most 1.
     fn quick_quotient(&self, n: &Quadratic<L>, d: &Quadratic<L>) -> Option<f64> {
         let exactly = |value: f64| (value, 0.0);
         let both = |of: &dyn Fn(&Quadratic<L>) -> (f64, f64)| (of(n), of(d));
@@ -383,8 +383,8 @@ pub(super) fn sign(value: f64) -> Option<Ordering> {
 }
 
 /// `2^256` times the value of a polynomial at `low`, with a relative error of 2^-53, and a bound of
-/// how much that changes up to `high`: on `[0, 1]` the derivative of `c0 + c1 t + c2 t^2` is at most
-/// `|c1| + 2 |c2|`.
+/// how much that changes up to `high`: on `[0, 1]` the derivative of `c0 + c1 t + c2 t^2` is at
+/// most `|c1| + 2 |c2|`.
 fn range<L: Width>(q: &Quadratic<L>, low: GridTime, high: GridTime) -> (f64, f64) {
     let slope = q[1].to_f64().abs() + 2.0 * q[2].to_f64().abs();
     let value = L::quadratic_at(q, low.0).to_f64();

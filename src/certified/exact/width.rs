@@ -4,17 +4,18 @@
 //! that is computed are known beforehand, so that nothing can overflow:
 //!
 //! - *linear*: the differences themselves, `b` bits.
-//! - *quadratic*: `c0 + c1 t + c2 t^2` whose coefficients are sums of at most 18, 36 and 18 products
-//!   of two of them (the largest is [`super::motion`]'s `between` of an end). Any sum of these for `t`
-//!   in `[0, 1]` and the Bernstein coefficients times 2 are at most `72 2^(2b)`, below `2^(2b + 7)`.
-//! - *cubic*: the coefficients of `f = M . N` are sums of at most 6, 18, 18 and 6 products of three,
-//!   together at most `48 2^(3b)`; its Bernstein coefficients times 3 are at most three times that,
-//!   below `2^(3b + 8)`.
+//! - *quadratic*: `c0 + c1 t + c2 t^2` whose coefficients are sums of at most 18, 36 and 18
+//!   products of two of them (the largest is [`super::motion`]'s `between` of an end). Any sum of
+//!   these for `t` in `[0, 1]` and the Bernstein coefficients times 2 are at most `72 2^(2b)`,
+//!   below `2^(2b + 7)`.
+//! - *cubic*: the coefficients of `f = M . N` are sums of at most 6, 18, 18 and 6 products of
+//!   three, together at most `48 2^(3b)`; its Bernstein coefficients times 3 are at most three
+//!   times that, below `2^(3b + 8)`.
 //!
-//! With a bit for the sign: `b + 1`, `2b + 8` and `3b + 9` bits. Values at a multiple of `2^-128` are
-//! `2^256` and `2^384` times as large. The discriminant of a quadratic is at most
-//! `(36^2 + 4 18^2) 2^(4b)`, with its sign `4b + 13` bits; that fits into the `2b + 8 + 256` bits of a
-//! value as `b` is at most 124.
+//! With a bit for the sign: `b + 1`, `2b + 8` and `3b + 9` bits. Values at a multiple of `2^-128`
+//! are `2^256` and `2^384` times as large. The discriminant of a quadratic is at most
+//! `(36^2 + 4 18^2) 2^(4b)`, with its sign `4b + 13` bits; that fits into the `2b + 8 + 256` bits
+//! of a value as `b` is at most 124.
 
 use std::cmp::Ordering;
 
@@ -29,7 +30,8 @@ pub(super) trait Number: Clone {
     fn sub(&self, other: &Self) -> Self;
     /// Compared with 0.
     fn sign(&self) -> Ordering;
-    /// An approximation with a relative error below `2^-53 + 2^-63`; infinite where it is too large.
+    /// An approximation with a relative error below `2^-53 + 2^-63`; infinite where it is too
+    /// large.
     fn to_f64(&self) -> f64;
     /// The same number.
     fn to_integer(&self) -> Integer;
@@ -326,7 +328,8 @@ fn product<const A: usize, const B: usize, const C: usize>(a: &Wide<A>, b: &Wide
 }
 
 /// Horner's rule for a polynomial of degree `D - 1` at `grid_time / 2^128`: the value times
-/// `2^(128 (D - 1))`, with the product modulo `2^(64 V)`, which is exact because it is known to fit.
+/// `2^(128 (D - 1))`, with the product modulo `2^(64 V)`, which is exact because it is known to
+/// fit.
 #[inline]
 fn horner<const N: usize, const V: usize, const D: usize>(
     coefficients: &[Wide<N>; D],
@@ -352,8 +355,8 @@ fn horner<const N: usize, const V: usize, const D: usize>(
 
 /// Horner's rule for a polynomial of degree `D - 1` at `n / d`: the value times `d^(D - 1)`.
 ///
-/// The values are below the sum of the coefficients times `d^3`, which is below `2^36`: one limb more
-/// is enough, and the others hold the sign.
+/// The values are below the sum of the coefficients times `d^3`, which is below `2^36`: one limb
+/// more is enough, and the others hold the sign.
 #[inline]
 fn horner_fraction<const N: usize, const V: usize, const D: usize>(
     coefficients: &[Wide<N>; D],

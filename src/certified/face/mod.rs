@@ -1,11 +1,13 @@
 //! The certified path for a vertex and a face: the same cascade as for two edges.
 //!
-//! A vertex that touches a face is in its plane: with `K = C - B`, `L = D - B` and `M = A - B` the cubic
-//! `f = (K x L) . M` is 0, so everything up to its roots is what edges need (`cubic`, `root`). What is
-//! its own: the boxes and the direction (`separate`), and where the vertex is at a root (`place`).
+//! A vertex that touches a face is in its plane: with `K = C - B`, `L = D - B` and `M = A - B` the
+//! cubic `f = (K x L) . M` is 0, so everything up to its roots is what edges need (`cubic`,
+//! `root`). What is its own: the boxes and the direction (`separate`), and where the vertex is at a
+//! root (`place`).
 //!
-//! Up to its sign `f` is that of any order of the four points. For the last bits of a root, and in the exact
-//! stage, they are taken as the edges BC and AD, so that `refine` and `exact` are shared as well.
+//! Up to its sign `f` is that of any order of the four points. For the last bits of a root, and in
+//! the exact stage, they are taken as the edges BC and AD, so that `refine` and `exact` are shared
+//! as well.
 
 mod place;
 mod separate;
@@ -153,8 +155,8 @@ fn as_edges(Positions { start, end }: &Positions) -> Positions {
     }
 }
 
-/// A vertex in the face is in its plane: the first root of the cubic at which it is inside the face is
-/// the contact. Undecided as soon as one root is not certain.
+/// A vertex in the face is in its plane: the first root of the cubic at which it is inside the face
+/// is the contact. Undecided as soon as one root is not certain.
 fn decide_by_cubic<E: Ends>(
     positions: &impl Fn() -> Positions,
     motion: &Motion<E>,

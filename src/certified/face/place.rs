@@ -26,13 +26,14 @@ pub(super) enum Place {
 /// Numbers in proportion to the weights of B, C and D, each up to an error.
 ///
 /// At a root of `f` let `N = (C - B) x (D - B)`. If `N` is not 0, `A` is the sum of the corners by
-/// weights that sum up to 1, and the cross products that [`raw_weights`] and [`of_edges`] take are the weights
-/// times `N`; the values here are their products with some vector `w`. If `N` is 0, the face is a segment
-/// or a point, and if A is on that the cross products are 0.
+/// weights that sum up to 1, and the cross products that [`raw_weights`] and [`of_edges`] take are
+/// the weights times `N`; the values here are their products with some vector `w`. If `N` is 0, the
+/// face is a segment or a point, and if A is on that the cross products are 0.
 ///
-/// So if any of the values is not 0 and A is in the face, `N . w` is not 0 and they have its sign or are 0:
-/// two of opposite signs prove that A is outside. Three of the same sign prove that it is
-/// strictly inside: their sum is `N . w`, so that `N` is not 0 and the weights are their ratios to it.
+/// So if any of the values is not 0 and A is in the face, `N . w` is not 0 and they have its sign
+/// or are 0: two of opposite signs prove that A is outside. Three of the same sign prove that it is
+/// strictly inside: their sum is `N . w`, so that `N` is not 0 and the weights are their ratios to
+/// it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RawWeights {
     pub(super) values: [f64; 3],
@@ -41,9 +42,10 @@ pub(super) struct RawWeights {
 
 /// The raw weights at a root, from the motion of [`super::separate::star`].
 ///
-/// With `K = C - B`, `L = D - B` and `M = A - B`: `M x L` is that of C, `K x M` that of D, and `K x L` less
-/// both that of B. Their products with `w`, the computed `K x L`, are those of [`Motion::meeting`]; the
-/// two sums add less than `2 u` of what they sum up, which is less than an eighth of the bounds.
+/// With `K = C - B`, `L = D - B` and `M = A - B`: `M x L` is that of C, `K x M` that of D, and
+/// `K x L` less both that of B. Their products with `w`, the computed `K x L`, are those of
+/// [`Motion::meeting`]; the two sums add less than `2 u` of what they sum up, which is less than an
+/// eighth of the bounds.
 #[inline(always)]
 pub(super) fn raw_weights<E: Ends>(
     motion: &Motion<E>,
@@ -63,8 +65,9 @@ pub(super) fn raw_weights<E: Ends>(
     }
 }
 
-/// The raw weights from the lines of the edges BC and AD: with `K = C - B`, `L = D - A` and `M = A - B`, `M x L`
-/// is that of C, `K x M` that of D, and `K x L - M x L` that of B (see the exact stage).
+/// The raw weights from the lines of the edges BC and AD: with `K = C - B`, `L = D - A` and
+/// `M = A - B`, `M x L` is that of C, `K x M` that of D, and `K x L - M x L` that of B (see the
+/// exact stage).
 ///
 /// The difference is rounded once: less than an eighth of the bound, as [`Meeting`] says.
 pub(super) fn of_edges(meeting: &Meeting) -> RawWeights {

@@ -21,16 +21,17 @@ pub(in crate::certified) fn is_separated_by_centres<E: Ends>(
     boxes: &SweptBoxes,
 ) -> bool {
     let Motion { k, l, m } = star;
-    // B + C + D - 3 A at both ends of the step, up to rounding that does no harm: any direction will do.
+    // B + C + D - 3 A at both ends of the step, up to rounding that does no harm: any direction
+    // will do.
     let [x, y, z] = sub(&sub(&add(k, l), m), &add(m, m));
     is_separated_by(star, [x.sum(), y.sum(), z.sum()], boxes)
 }
 
-/// Whether `d` separates them for the whole step: `X . d` is larger for each corner than for the vertex,
-/// at `t = 0` and at `t = 1`. It is linear in `t`, so larger in between too.
+/// Whether `d` separates them for the whole step: `X . d` is larger for each corner than for the
+/// vertex, at `t = 0` and at `t = 1`. It is linear in `t`, so larger in between too.
 ///
-/// Relative to B, the least corner is at `min(0, K . d, L . d)`, the vertex at `M . d`: two products, the
-/// error bound of [`SweptBoxes::is_certain`].
+/// Relative to B, the least corner is at `min(0, K . d, L . d)`, the vertex at `M . d`: two
+/// products, the error bound of [`SweptBoxes::is_certain`].
 #[inline(always)]
 fn is_separated_by<E: Ends>(star: &Motion<E>, d: Vector, boxes: &SweptBoxes) -> bool {
     let along = both(&d);

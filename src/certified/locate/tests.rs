@@ -66,8 +66,8 @@ impl Case {
         }
     }
 
-    /// The errors of the three products and of the parameters of a contact, and how far on the wrong
-    /// side of an end of an edge the lines seem to meet.
+    /// The errors of the three products and of the parameters of a contact, and how far on the
+    /// wrong side of an end of an edge the lines seem to meet.
     fn claims(&self) -> [Claim; 5] {
         let Meeting {
             n,
@@ -166,7 +166,8 @@ fn stretched(bracket: &Bracket, x: &Input) -> Option<Bracket> {
     })
 }
 
-/// Edges that touch at a time of few bits, at an end of one of them as often as not, up to rounding.
+/// Edges that touch at a time of few bits, at an end of one of them as often as not, up to
+/// rounding.
 fn touching(random: &mut Random) -> [f64; 24] {
     let mut x = points(random, (0, 0));
     let t = f64::from(random.whole(1, 7)) / 8.0;

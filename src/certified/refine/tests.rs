@@ -46,8 +46,8 @@ fn refine_evaluate_is_within_its_bound() {
     assert!(worst > 0.005);
 }
 
-/// Edges of small whole coordinates that may touch at a multiple of 1/8 of the step, at times an ulp
-/// or a few changed: their roots are `f64`s, or next to one.
+/// Edges of small whole coordinates that may touch at a multiple of 1/8 of the step, at times an
+/// ulp or a few changed: their roots are `f64`s, or next to one.
 fn on_grid(random: &mut Random) -> [f64; 24] {
     let mut x = [0.0; 24].map(|_| f64::from(random.whole(-8, 8)));
     for _ in 0..random.below(3) {

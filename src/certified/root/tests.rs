@@ -1,8 +1,8 @@
 use super::super::testing::{Claim, Number, Polynomial, Random, Search};
 use super::*;
 
-/// Four coefficients, the exponent of the error in units of the least one, an argument, and for each
-/// coefficient where in its error the exact one is, from -1 to 1.
+/// Four coefficients, the exponent of the error in units of the least one, an argument, and for
+/// each coefficient where in its error the exact one is, from -1 to 1.
 type Input = [f64; 10];
 
 /// A cubic, and one of those that it may stand for.

@@ -4,8 +4,8 @@ use super::super::exact;
 use super::super::testing::Random;
 use super::*;
 
-/// Points with a common end at the start as often as not, also for the whole step; confined or not; of
-/// small integers or up to rounding.
+/// Points with a common end at the start as often as not, also for the whole step; confined or not;
+/// of small integers or up to rounding.
 fn layout(random: &mut Random) -> Positions {
     let is_small = random.coin();
     let mut point = || {

@@ -115,8 +115,8 @@ pub(in super::super) fn points(random: &mut Random, (low, high): (i32, i32)) -> 
     }
 }
 
-/// Coordinates for [`layout`], then a direction, along which the points of one side are apart from the
-/// others as often as not.
+/// Coordinates for [`layout`], then a direction, along which the points of one side are apart from
+/// the others as often as not.
 pub(in super::super) fn points_and_direction(random: &mut Random, side: &[usize]) -> [f64; 27] {
     let mut x = [0.0; 27];
     x[..24].copy_from_slice(&points(random, (-1074, 1020)));

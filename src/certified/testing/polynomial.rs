@@ -44,8 +44,8 @@ impl Polynomial {
         Polynomial(terms.map(|(i, c)| c.times(i as i64)).collect())
     }
 
-    /// The least magnitude of a quadratic in an interval, or slightly more: without a root it is at an
-    /// end or at the vertex, which is found by halving.
+    /// The least magnitude of a quadratic in an interval, or slightly more: without a root it is at
+    /// an end or at the vertex, which is found by halving.
     pub(in super::super) fn least_magnitude(&self, low: &Number, high: &Number) -> Number {
         if self.roots_in_closed(low, high) > 0 {
             return Number::zero();

@@ -12,8 +12,8 @@ use crate::certified::root::Bracket;
 pub(in super::super) struct Rooted {
     pub(in super::super) motion: Motion<f64x2>,
     pub(in super::super) bracket: Bracket,
-    /// `K x L`, `M x L` and `M x K` at both ends of an interval around the root, `2^120` times shorter
-    /// than the shortest bracket.
+    /// `K x L`, `M x L` and `M x K` at both ends of an interval around the root, `2^120` times
+    /// shorter than the shortest bracket.
     pub(in super::super) normals: [[[Number; 3]; 3]; 2],
 }
 

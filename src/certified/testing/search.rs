@@ -48,10 +48,11 @@ pub(in super::super) struct Search {
 }
 
 impl Search {
-    /// The largest ratios of error to bound found, for each claim by itself. Panics where a bound does
-    /// not hold, for whichever claim.
+    /// The largest ratios of error to bound found, for each claim by itself. Panics where a bound
+    /// does not hold, for whichever claim.
     ///
-    /// A ratio `r` also means that this search refutes a bound of less than `r` times the present one.
+    /// A ratio `r` also means that this search refutes a bound of less than `r` times the present
+    /// one.
     pub(in super::super) fn worst<const N: usize, const CLAIMS: usize>(
         &self,
         start: impl Fn(&mut Random) -> [f64; N],

@@ -1,10 +1,12 @@
-//! Conservative advancement: planes that keep the two sides more than the radius apart, each for a part of the
-//! step, until the step ends or they are no farther apart than rounding can tell.
+//! Conservative advancement: planes that keep the two sides more than the radius apart, each for a
+//! part of the step, until the step ends or they are no farther apart than rounding can tell.
 //!
-//! The first plane's normal is the direction from middle to middle of the motion, the second one's that between the points that are
-//! nearest where the first one fails; both stay ([`Moving::stays_apart_by`]). Then they turn ([`Turning`]): taken from the nearest points at the time reached, such a plane is the best there
-//! is up to the second order, and so is the next time: it is Newton's method from the safe side (after Mirtich, "Impulse-based
-//! dynamic simulation of rigid body systems", 1996, who advances by bounds on speeds).
+//! The first plane's normal is the direction from middle to middle of the motion, the second one's
+//! that between the points that are nearest where the first one fails; both stay
+//! ([`Moving::stays_apart_by`]). Then they turn ([`Turning`]): taken from the nearest points at the
+//! time reached, such a plane is the best there is up to the second order, and so is the next time:
+//! it is Newton's method from the safe side (after Mirtich, "Impulse-based dynamic simulation of
+//! rigid body systems", 1996, who advances by bounds on speeds).
 
 use super::instant::Instant;
 use super::turning::Turning;
@@ -52,14 +54,14 @@ impl<E: Ends> Moving<E> {
         }
     }
 
-    /// How far certainly beyond the radius, times the length of the normal, all corners are on a plane's side, at the
-    /// start and at the end; neither is above 0 unless that is a proof.
+    /// How far certainly beyond the radius, times the length of the normal, all corners are on a
+    /// plane's side, at the start and at the end; neither is above 0 unless that is a proof.
     ///
-    /// The least product of a corner with `n` is a concave function of time, not below the line from its value at the
-    /// start to that at the end.
+    /// The least product of a corner with `n` is a concave function of time, not below the line
+    /// from its value at the start to that at the end.
     ///
-    /// Error bound: the products with `n` at both ends are within [`SweptBoxes::bound`] of the exact ones,
-    /// `|n|` within `4 u`. NaN and infinities prove nothing, nor does what underflows.
+    /// Error bound: the products with `n` at both ends are within [`SweptBoxes::bound`] of the
+    /// exact ones, `|n|` within `4 u`. NaN and infinities prove nothing, nor does what underflows.
     #[inline(always)]
     fn margins<K: Kind>(&self, n: &Vector) -> [f64; 2] {
         let square = dot(n, n);
@@ -72,8 +74,8 @@ impl<E: Ends> Moving<E> {
         [corner.start() - least, corner.end() - least]
     }
 
-    /// Up to when a plane with this normal certainly keeps them more than the radius apart, if not for the whole
-    /// step: then 1 or more; 0 if not even at the start.
+    /// Up to when a plane with this normal certainly keeps them more than the radius apart, if not
+    /// for the whole step: then 1 or more; 0 if not even at the start.
     ///
     /// What is computed from the margins passes three roundings, which `8 u` outweigh.
     #[inline(always)]
@@ -93,8 +95,8 @@ impl<E: Ends> Moving<E> {
         (start > 0.0) & (end > 0.0)
     }
 
-    /// The same as [`stays_apart_by`](Self::stays_apart_by) for the direction from the middle of one side's motion to
-    /// that of the other.
+    /// The same as [`stays_apart_by`](Self::stays_apart_by) for the direction from the middle of
+    /// one side's motion to that of the other.
     #[inline(always)]
     pub(super) fn stays_apart_by_centres<K: Kind>(&self) -> f64 {
         let Motion { k, l, m } = &self.motion;
@@ -148,7 +150,8 @@ pub(super) fn difference([k, l, m]: &[Vector; 3], u: f64, v: f64) -> Vector {
     sub(&add(m, &scaled(v, l)), &scaled(u, k))
 }
 
-/// A step so short that the next one, of its square, is as short as what is left to [`refine_toi`](super::refine_toi).
+/// A step so short that the next one, of its square, is as short as what is left to
+/// [`refine_toi`](super::refine_toi).
 const SHORT: f64 = 1.0 / (1u64 << 20) as f64;
 
 /// 2^-900: squares above it lose nothing to underflow.

@@ -1,5 +1,5 @@
-//! What else is said of a contact whose time and place are certain: the side the two come from, and whether the midlines
-//! cross.
+//! What else is said of a contact whose time and place are certain: the side the two come from, and
+//! whether the midlines cross.
 
 use wide::f64x2;
 
@@ -67,8 +67,8 @@ fn passage<K: Kind>(positions: &Positions, cubic: Option<&Cubic>) -> Passage {
 
 /// The sign of `f` just before a time of impact up to `2 u` from `t`, if it is certain.
 ///
-/// The value is within twice the error of the cubic of that at `t`, and changes by at most 2 u times three
-/// differences of coefficients: `12 u P`, less than its error.
+/// The value is within twice the error of the cubic of that at `t`, and changes by at most 2 u
+/// times three differences of coefficients: `12 u P`, less than its error.
 fn side(cubic: &Cubic, t: f64) -> Option<i8> {
     let (value, _) = cubic.evaluate(t);
     let error = 3.0 * cubic.error;

@@ -1,18 +1,19 @@
 //! The certified path for a radius above 0: the distance of two edges, or of a vertex and a face.
 //!
 //! 1. The swept boxes are farther apart than the radius (`separate`).
-//! 2. The direction from middle to middle separates them by more than the radius for the whole step (`advance`).
-//! 3. A plane that stays does so, between the points that are nearest where that direction fails; or others, which turn with the
-//!    two (`turning`), do so for one part of the step after the other, up to its end
-//!    or to the contact (`advance`). There the squared distance of the points that are nearest, in double-double
-//!    arithmetic, and a bound on how far these move (`nearness`) hold the time of impact between neighbours in `f64`
-//!    (`refine_toi`). Points that are near at the start are a contact there. The rest of the answer is bounded in
-//!    `f64` too (`contact`).
-//! 4. Integers decide what is left (`exact::thick`): edges that are or may be parallel where they touch, a time of impact that
-//!    is a number in `f64`, grazes.
+//! 2. The direction from middle to middle separates them by more than the radius for the whole step
+//!    (`advance`).
+//! 3. A plane that stays does so, between the points that are nearest where that direction fails;
+//!    or others, which turn with the two (`turning`), do so for one part of the step after the
+//!    other, up to its end or to the contact (`advance`). There the squared distance of the points
+//!    that are nearest, in double-double arithmetic, and a bound on how far these move (`nearness`)
+//!    hold the time of impact between neighbours in `f64` (`refine_toi`). Points that are near at
+//!    the start are a contact there. The rest of the answer is bounded in `f64` too (`contact`).
+//! 4. Integers decide what is left (`exact::thick`): edges that are or may be parallel where they
+//!    touch, a time of impact that is a number in `f64`, grazes.
 //!
-//! The proofs need no case distinction: a plane between two sides bounds their distance from below, two points
-//! bound it from above, wherever they come from.
+//! The proofs need no case distinction: a plane between two sides bounds their distance from below,
+//! two points bound it from above, wherever they come from.
 
 mod advance;
 mod contact;
@@ -105,10 +106,12 @@ impl Moving<f64x2> {
         self.radius > SMALLEST && self.radius < LARGEST && self.boxes.size() < LARGEST
     }
 
-    /// The nearest place at the start, if two points are certainly within the radius of each other there.
+    /// The nearest place at the start, if two points are certainly within the radius of each other
+    /// there.
     ///
-    /// With the size `e` of the box around all points, a component of the difference is within `12 u e` of the exact one;
-    /// its length then within `12 u |e|`, and computed with a relative error below `4 u`.
+    /// With the size `e` of the box around all points, a component of the difference is within
+    /// `12 u e` of the exact one; its length then within `12 u |e|`, and computed with a relative
+    /// error below `4 u`.
     fn near_start<K: Kind>(&self, radius: Radius) -> Option<RefinedToi> {
         let start = Instant::new::<K, _>(self, 0.0);
         let length = dot(&start.difference, &start.difference).sqrt();

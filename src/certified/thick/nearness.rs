@@ -1,8 +1,9 @@
 //! How far the nearest place can be from where it was shortly before.
 //!
-//! With `w` the difference at a place, the squared distance from it along its directions `V1` and `V2` is
-//! `w^2 + 2 g . s + s . Q s` with `g = (V1 . w, V2 . w)` and the Gram matrix `Q` of the directions. At the nearest place `g` is 0, or
-//! leads away from 0 along a direction that is not free.
+//! With `w` the difference at a place, the squared distance from it along its directions `V1` and
+//! `V2` is `w^2 + 2 g . s + s . Q s` with `g = (V1 . w, V2 . w)` and the Gram matrix `Q` of the
+//! directions. At the nearest place `g` is 0, or leads away from 0 along a direction that is not
+//! free.
 
 use super::advance::{LARGEST, Moving, SMALLEST};
 use super::instant::Instant;
@@ -49,29 +50,33 @@ impl<E: Ends> Moving<E> {
         ([k, l], add(&add(&k, &l), &m))
     }
 
-    /// What is certain about the nearest place at a time, up to a time at most `while_` later. `None` unless
-    /// `N = K x L` is certainly not 0 all the while.
+    /// What is certain about the nearest place at a time, up to a time at most `while_` later.
+    /// `None` unless `N = K x L` is certainly not 0 all the while.
     ///
     /// # Proof
     ///
     /// The set is convex and in that which the directions span. Let `s` be the nearest place.
     ///
-    /// - Both `g` are above 0 and their directions not free: the product of `g` and `s` is at least 0, so it is not nearer
-    ///   anywhere, and as near only where `s` is 0.
-    /// - One is, `g2`, with `m = g2 - |V1 . V2| |g1| / V1^2 > 0`. With `e = s1 + s2 V1 . V2 / V1^2` the squared distance
-    ///   grows by at least `V1^2 e^2 - 2 |g1 e| + 2 m s2`: it falls by at most `g1^2 / V1^2`. At the nearest place
-    ///   its gradient leads away from 0, so that `V1^2 e^2 + m s2 <= |g1 e|`: `|e| <= |g1| / V1^2` and `s2 <= g1^2 / 4 V1^2 m`.
-    /// - Else it falls by no more than where no boundary is in the way, by `g . Q^-1 g`, at most `(|g1| |V2| + |g2| |V1|)^2 / N^2`.
-    ///   To go to the nearest point of a convex set makes no distance larger, in the norm of `Q`: `s . Q s` is at most
-    ///   that too, and `|s1| <= |V2| / |N|` times its root, `|s2|` likewise.
+    /// - Both `g` are above 0 and their directions not free: the product of `g` and `s` is at least
+    ///   0, so it is not nearer anywhere, and as near only where `s` is 0.
+    /// - One is, `g2`, with `m = g2 - |V1 . V2| |g1| / V1^2 > 0`. With `e = s1 + s2 V1 . V2 / V1^2`
+    ///   the squared distance grows by at least `V1^2 e^2 - 2 |g1 e| + 2 m s2`: it falls by at most
+    ///   `g1^2 / V1^2`. At the nearest place its gradient leads away from 0, so that
+    ///   `V1^2 e^2 + m s2 <= |g1 e|`: `|e| <= |g1| / V1^2` and `s2 <= g1^2 / 4 V1^2 m`.
+    /// - Else it falls by no more than where no boundary is in the way, by `g . Q^-1 g`, at most
+    ///   `(|g1| |V2| + |g2| |V1|)^2 / N^2`. To go to the nearest point of a convex set makes no
+    ///   distance larger, in the norm of `Q`: `s . Q s` is at most that too, and
+    ///   `|s1| <= |V2| / |N|` times its root, `|s2|` likewise.
     ///
     /// # Error bounds
     ///
-    /// With the larger magnitudes `v` of a direction at both ends, their sum `s` for `K`, `L` and `M`, and the while `T < 1/8`: a
-    /// component of a direction is within `6 u v` of the exact one and changes by up to `2 T v`, one of the difference is within `12 u s`
-    /// and changes by `2 T s`. The product adds `3.1 u`: below `(32 u + 6 T) v . s`. Lengths are within `(8 u + 3 T) |v|`
-    /// and `8 u` of themselves; `N`, up to its sign the product of the directions, within `(16 u + 5 T)` of the permanents of their `v`. Everything here passes fewer than
-    /// 30 roundings.
+    /// With the larger magnitudes `v` of a direction at both ends, their sum `s` for `K`, `L` and
+    /// `M`, and the while `T < 1/8`: a component of a direction is within `6 u v` of the exact one
+    /// and changes by up to `2 T v`, one of the difference is within `12 u s` and changes by
+    /// `2 T s`. The product adds `3.1 u`: below `(32 u + 6 T) v . s`. Lengths are within
+    /// `(8 u + 3 T) |v|` and `8 u` of themselves; `N`, up to its sign the product of the
+    /// directions, within `(16 u + 5 T)` of the permanents of their `v`. Everything here passes
+    /// fewer than 30 roundings.
     pub(super) fn nearness(&self, here: &Instant, while_: f64) -> Option<Nearness> {
         let ([k, l], size) = self.reaches();
         let directions = here.spot.directions;
@@ -124,7 +129,8 @@ impl<E: Ends> Moving<E> {
     }
 }
 
-/// Bounds on the fall of the squared distance and on `|s1| + |s2|`, where it is farther along the second direction.
+/// Bounds on the fall of the squared distance and on `|s1| + |s2|`, where it is farther along the
+/// second direction.
 fn beside(first: Slope, second: Slope) -> Option<(f64, f64)> {
     let Slope { least, .. } = first;
     let turn = second.most / least;

@@ -1,8 +1,9 @@
 //! The time of impact to its last bit.
 //!
-//! Shortly before it the squared distance of the points that are nearest then is computed in double-double arithmetic. With
-//! these points kept it is a polynomial of degree 2 in time, above the squared distance of the two sides, and
-//! so little above it ([`nearness`](super::nearness)) that its root is the time of impact up to far below the last bit.
+//! Shortly before it the squared distance of the points that are nearest then is computed in
+//! double-double arithmetic. With these points kept it is a polynomial of degree 2 in time, above
+//! the squared distance of the two sides, and so little above it ([`nearness`](super::nearness))
+//! that its root is the time of impact up to far below the last bit.
 
 use wide::f64x2;
 
@@ -32,7 +33,8 @@ pub(super) struct RefinedToi {
 }
 
 impl RefinedToi {
-    /// A contact, if its place is known so well that what is computed from it is within what is promised.
+    /// A contact, if its place is known so well that what is computed from it is within what is
+    /// promised.
     pub(super) fn new(below: f64, spot: Spot, nearness: &Nearness) -> Option<Self> {
         let error = nearness.error;
         (error <= PLACE_ERROR / 4.0).then_some(RefinedToi { below, spot, error })
@@ -49,18 +51,21 @@ const H: f64 = U * U;
 ///
 /// # Proof
 ///
-/// Let `w` be the difference at the place that is nearest at `t`, `w'` its velocity, both with the place kept, `x = w^2 - R^2`
-/// at `t` and `p(s) = x + 2 s w . w' + s^2 w'^2`, so that the place is at the radius where `p` is 0. For `0 <= s <= T` the squared distance
-/// of the two sides, less `R^2`, is between `p - e` and `p`, with `e` the excess of [`nearness`](Moving::nearness). If
-/// `p' <= -2 m < 0` up to `T`, and its root `r` is there, then the time of impact is between `t + r - e / 2 m` and `t + r`, and
-/// there is no contact before.
+/// Let `w` be the difference at the place that is nearest at `t`, `w'` its velocity, both with the
+/// place kept, `x = w^2 - R^2` at `t` and `p(s) = x + 2 s w . w' + s^2 w'^2`, so that the place is
+/// at the radius where `p` is 0. For `0 <= s <= T` the squared distance of the two sides, less
+/// `R^2`, is between `p - e` and `p`, with `e` the excess of [`nearness`](Moving::nearness). If
+/// `p' <= -2 m < 0` up to `T`, and its root `r` is there, then the time of impact is between
+/// `t + r - e / 2 m` and `t + r`, and there is no contact before.
 ///
 /// # Error bounds
 ///
-/// With `s` the sum of the larger magnitudes of `K`, `L` and `M`: components of `w` and `w'` are within `12 u s` of the exact ones, and
-/// at most `s` and `2 s` in magnitude: `w . w'` is within `64 u s . s`, and so is half of `w'^2`. With `q = x / 2 m` and `b = q w'^2 / 2 m`, now `m = -w . w'`, the root is `q (1 + b)`
-/// up to `3 b^2 q`, for `b < 1/16`. That is computed with the relative errors of `m` in `q`, once more in `b`, and fewer than 16 roundings; the
-/// error of `x` counts by `1 / 2 m`.
+/// With `s` the sum of the larger magnitudes of `K`, `L` and `M`: components of `w` and `w'` are
+/// within `12 u s` of the exact ones, and at most `s` and `2 s` in magnitude: `w . w'` is within
+/// `64 u s . s`, and so is half of `w'^2`. With `q = x / 2 m` and `b = q w'^2 / 2 m`, now
+/// `m = -w . w'`, the root is `q (1 + b)` up to `3 b^2 q`, for `b < 1/16`. That is computed with
+/// the relative errors of `m` in `q`, once more in `b`, and fewer than 16 roundings; the error of
+/// `x` counts by `1 / 2 m`.
 pub(super) fn refine_toi<K: Kind>(
     positions: &Positions,
     moving: &Moving<f64x2>,
@@ -82,7 +87,8 @@ pub(super) fn refine_toi<K: Kind>(
         let while_ = 2.0 * delta + 8.0 * U;
         // The velocity is at most twice the size.
         let least = slope - slope_error - 4.5 * size2 * while_;
-        // The root is ahead, so that `least` is below the slope. Where rounding outweighs the slope it may have any sign.
+        // The root is ahead, so that `least` is below the slope. Where rounding outweighs the slope
+        // it may have any sign.
         if !(x > 0.0 && slope > 0.0 && least > 0.0 && bend < 0.0625) {
             return Finding::Undecided;
         }
@@ -112,13 +118,15 @@ pub(super) fn refine_toi<K: Kind>(
     Finding::Undecided
 }
 
-/// The squared distance less `R^2` of the points of a place at a time, in double-double arithmetic, and a bound on its error
-/// but for the rounding to `f64`.
+/// The squared distance less `R^2` of the points of a place at a time, in double-double arithmetic,
+/// and a bound on its error but for the rounding to `f64`.
 ///
-/// Error bound, with `h = 2^-106` and `s` the sum of the larger magnitudes at both ends: the differences are exact, their products with `u` and `v` add `16 h s`, two
-/// sums `16 h s`: below `32 h s` at each end of the step. The change is within `(64 + 24) h s`, the product with the time adds `16 h s`, the sum `24 h s`: below
-/// `160 h s`. So `w^2` is off by `320 h |w| s` and the square of that error; products, sums and the radius add `64 h` of both sides. What
-/// underflows is far below that of the radius.
+/// Error bound, with `h = 2^-106` and `s` the sum of the larger magnitudes at both ends: the
+/// differences are exact, their products with `u` and `v` add `16 h s`, two sums `16 h s`: below
+/// `32 h s` at each end of the step. The change is within `(64 + 24) h s`, the product with the
+/// time adds `16 h s`, the sum `24 h s`: below `160 h s`. So `w^2` is off by `320 h |w| s` and the
+/// square of that error; products, sums and the radius add `64 h` of both sides. What underflows is
+/// far below that of the radius.
 fn excess<K: Kind>(
     positions: &Positions,
     radius: Radius,

@@ -1,8 +1,9 @@
 //! Two edges or a vertex and a face as a set of differences.
 //!
-//! The vectors from a point of one side to a point of the other are `M + v L - u K`, with `(u, v)` in the unit
-//! square for edges and in the triangle `u, v >= 0`, `u + v <= 1` for a face. They fill a parallelogram or a
-//! triangle whose corners move linearly; the distance of the two sides is its distance from 0.
+//! The vectors from a point of one side to a point of the other are `M + v L - u K`, with `(u, v)`
+//! in the unit square for edges and in the triangle `u, v >= 0`, `u + v <= 1` for a face. They fill
+//! a parallelogram or a triangle whose corners move linearly; the distance of the two sides is its
+//! distance from 0.
 
 use crate::certified::motion::{Vector, dot, larger, smaller};
 
@@ -15,8 +16,9 @@ pub(in crate::certified) struct Gram {
     ml: f64,
 }
 
-/// A place, and two directions from it: the whole set is in `(u, v) + s directions[0] + r directions[1]`, with a number of at
-/// least 0 for a direction that is not free.
+/// A place, and two directions from it: the whole set is in
+/// `(u, v) + s directions[0] + r directions[1]`, with a number of at least 0 for a direction that
+/// is not free.
 ///
 /// The determinant of the directions is 1 or -1, and their numbers are 0, 1 or -1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,8 +61,8 @@ impl Gram {
     }
 }
 
-/// The nearest `v` for the `u` of the lines' nearest points, then the nearest `u` for that (Ericson,
-/// Real-Time Collision Detection, 5.1.9).
+/// The nearest `v` for the `u` of the lines' nearest points, then the nearest `u` for that
+/// (Ericson, Real-Time Collision Detection, 5.1.9).
 #[inline(always)]
 pub(in crate::certified) fn nearest_on_edges(gram: &Gram) -> Spot {
     // Divisions that do not wait for each other.

@@ -1,8 +1,9 @@
 //! Planes that turn.
 //!
-//! Where edges turn against each other, a plane that touches both at their nearest points cuts them a moment
-//! later, though they are no nearer then. One that turns with them does not: all corners that are as near as the nearest points
-//! come nearer to it at the same speed, that of the distance.
+//! Where edges turn against each other, a plane that touches both at their nearest points cuts them
+//! a moment later, though they are no nearer then. One that turns with them does not: all corners
+//! that are as near as the nearest points come nearer to it at the same speed, that of the
+//! distance.
 
 use super::advance::{LARGEST, Moving, SMALLEST, difference};
 use super::instant::Instant;
@@ -12,15 +13,16 @@ use crate::certified::kind::Kind;
 use crate::certified::motion::{Vector, both, dot, scaled, smaller, sub};
 use crate::certified::separate::U;
 
-/// A normal that changes linearly: `normal + s turn` for the time `s` that passes. Any two vectors will do for a proof.
+/// A normal that changes linearly: `normal + s turn` for the time `s` that passes. Any two vectors
+/// will do for a proof.
 pub(super) struct Turning {
     normal: Vector,
     turn: Vector,
 }
 
 impl Turning {
-    /// The plane between the nearest points: the directions `V` that are free there stay in it, `V . n = 0`, up to the
-    /// second order, for a turn within what they span.
+    /// The plane between the nearest points: the directions `V` that are free there stay in it,
+    /// `V . n = 0`, up to the second order, for a turn within what they span.
     #[inline(always)]
     pub(super) fn new(here: &Instant) -> Self {
         let normal = here.difference;
@@ -67,7 +69,8 @@ impl Turning {
 }
 
 impl<E: Ends> Moving<E> {
-    /// How long after a time the plane certainly keeps them more than the radius apart, if not for `longest`.
+    /// How long after a time the plane certainly keeps them more than the radius apart, if not for
+    /// `longest`.
     ///
     /// With `n` the normal, `d` its turn and a corner `X + s X'` it does as long as
     ///
@@ -75,14 +78,16 @@ impl<E: Ends> Moving<E> {
     /// (X + s X') . (n + s d) > R |n + s d|
     /// ```
     ///
-    /// and `|n + s d| <= |n| + (2 s n . d + s^2 d . d) / 2 |n|`, as a square root is concave. So it does while a
-    /// polynomial of degree 2 is above 0.
+    /// and `|n + s d| <= |n| + (2 s n . d + s^2 d . d) / 2 |n|`, as a square root is concave. So it
+    /// does while a polynomial of degree 2 is above 0.
     ///
-    /// Error bound, with `S` the sum of `e_i |n_i|` of [`SweptBoxes::is_certain`], `T` that of `e_i |d_i|`: a component
-    /// of a vector at a time is within `4 u e`, its product with `n` within `7.1 u S`, that of a corner, of three of these and
-    /// with two sums, within `27 u S`. A change, of magnitude up to `2 e`, is within `4 u e`; its product within `10.4 u S`, that of
-    /// a corner within `44 u S`. What is taken from them below adds up to `10 u S` for each. [`SweptBoxes::bound`] is `24 u S` or `24 u T`: once and
-    /// a half, and three times that. The terms with the radius pass at most ten roundings.
+    /// Error bound, with `S` the sum of `e_i |n_i|` of [`SweptBoxes::is_certain`], `T` that of
+    /// `e_i |d_i|`: a component of a vector at a time is within `4 u e`, its product with `n`
+    /// within `7.1 u S`, that of a corner, of three of these and with two sums, within `27 u S`. A
+    /// change, of magnitude up to `2 e`, is within `4 u e`; its product within `10.4 u S`, that of
+    /// a corner within `44 u S`. What is taken from them below adds up to `10 u S` for each.
+    /// [`SweptBoxes::bound`] is `24 u S` or `24 u T`: once and a half, and three times that. The
+    /// terms with the radius pass at most ten roundings.
     ///
     /// [`SweptBoxes::is_certain`]: crate::certified::separate::SweptBoxes::is_certain
     /// [`SweptBoxes::bound`]: crate::certified::separate::SweptBoxes::bound
@@ -129,9 +134,9 @@ impl<E: Ends> Moving<E> {
 
 /// How long `a + b s + c s^2` is certainly above 0 from `s = 0` on; 0 if nothing is certain.
 ///
-/// The first root above 0 is `2 a / (sqrt(b^2 - 4 a c) - b)`; there is none if that is not a number above 0. The
-/// error of the discriminant is below `8 u` of what is added, so that below it is too large, as the divisor then is: by more than its own
-/// rounding, even where it cancels.
+/// The first root above 0 is `2 a / (sqrt(b^2 - 4 a c) - b)`; there is none if that is not a number
+/// above 0. The error of the discriminant is below `8 u` of what is added, so that below it is too
+/// large, as the divisor then is: by more than its own rounding, even where it cancels.
 #[inline(always)]
 fn stays_positive(&[a, b, c]: &[f64; 3]) -> f64 {
     let (square, product) = (b * b, 4.0 * a * c);

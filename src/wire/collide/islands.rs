@@ -14,12 +14,12 @@ const ATTEMPTS: usize = 20;
 /// Motion goes up to this fraction of the time to a crossing.
 const SAFETY: f64 = 0.9;
 
-/// Islands, the things that are tied to each other by eyes and contacts, and the scale of its
-/// motion that each makes.
+/// Islands: wires and bodies that eyes and contacts tie together, and the factor on the motion of
+/// each island.
 ///
-/// All that meets motion_scales a fate: a hit joins its islands and shortens them. Within one
-/// island a shorter motion is a part of the longer one; that islands of different motion_scales do
-/// not meet is tested again. After some attempts nothing moves, and where nothing moves nothing new
+/// A hit joins the islands of both wires and scales their motion down. Within an island a scaled
+/// motion is the first part of the whole one. Islands of different factors may meet, so the scaled
+/// motion is tested again. After [`ATTEMPTS`] nothing moves, and where nothing moves nothing new
 /// meets.
 pub(super) struct Islands {
     /// Wires, then bodies: the parent of each in the union-find forest of islands.
@@ -84,7 +84,7 @@ impl Islands {
         self.scale.iter().all(|scale| *scale == 0.0)
     }
 
-    /// Shortens the islands of what meets.
+    /// Joins the islands of each hit and scales their motion down.
     pub(super) fn shorten(&mut self, hits: &[MidlineHit]) {
         self.attempts += 1;
         if self.attempts > ATTEMPTS {
@@ -115,7 +115,7 @@ impl Islands {
         }
     }
 
-    /// The islands that were shortened.
+    /// The islands whose motion was scaled down.
     pub(super) fn scaled(&self, world: &World) -> Vec<ScaledIsland> {
         let roots = (0..self.parent.len()).filter(|&member| self.parent[member] == member);
         let short = roots.filter(|&root| self.scale[root] < 1.0);

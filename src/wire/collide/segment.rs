@@ -24,8 +24,8 @@ impl SegmentId {
         self.nodes(world).map(|node| node.position)
     }
 
-    /// The place at a parameter of it, from 0 to 1. Next to a node it is the node's, so that all
-    /// segments there name one place.
+    /// The site at a parameter from 0 to 1 along the segment. Next to a node it is that of the
+    /// node, so that all segments there give the same site.
     pub(super) fn site(self, world: &World, parameter: f64) -> WireSite {
         const NEXT: f64 = 1e-9;
         let [start, end] = self.nodes(world).map(|node| node.arc);

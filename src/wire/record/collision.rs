@@ -101,7 +101,7 @@ pub enum CrossingOutcome {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ScaledIsland {
-    /// The part, from 0 to 1. Velocities are that part of what was solved for.
+    /// The factor on their motion, from 0 to 1, and on the velocities that were solved for.
     pub motion_scale: f64,
     /// The wires.
     pub wires: Vec<WireId>,

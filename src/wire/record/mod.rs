@@ -16,7 +16,8 @@ use super::vector::Vector;
 use super::world::World;
 use crate::query::Point;
 
-/// Everything that happened in one step. Outside of this crate one starts as the default, for tests of what reads it.
+/// Everything that happened in one step. Outside of this crate one starts as the default, for tests
+/// of what reads it.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]

@@ -3,14 +3,14 @@
 //! A chain's row `G v >= target` has the multiplier `(G v - target) / Sigma` where it is violated,
 //! and none else. So for given impulses of contacts the velocities of a step are where `v . M~ v /
 //! 2 - v . (M v + h f) + sum (G v - target)^2 / (2 Sigma)` is least, with the rows of chains
-//! counted only where they are above their target. This function is strictly convex and quadratic
-//! in branches: Newton's method with an exact line search finds its minimum in finitely many steps
+//! counted only where they are above their target. This function is strictly convex and piecewise
+//! quadratic: Newton's method with an exact line search finds its minimum in finitely many steps
 //! (Sun, Math. Program. 76, 1997). So it is with every
 //! [`ConstitutiveLaw`](super::constitutive::ConstitutiveLaw) in place of that square.
 //!
 //! The friction at a contact node is bounded by the tensions beside it ([`capstan`]). It is found
 //! for bounds that stand, then these for the tensions that follow, and so on until the bounds stay:
-//! each change moves the others by the fraction `f tan(D/2)` of itself, which is below 1 where wire
+//! each change moves the others by `f tan(D/2)` times itself, which is below 1 where wire
 //! slides at all.
 
 use super::capstan;
@@ -23,8 +23,8 @@ use crate::wire::error::Reason;
 /// chains.
 const TRIES: usize = 1000;
 
-/// How often bounds of friction follow tensions. Each time the difference falls to a fraction of
-/// itself; a dozen is usual for a dozen nodes.
+/// How often bounds of friction follow tensions. Each time the difference gets smaller by a factor;
+/// a dozen is usual for a dozen nodes.
 const BOUNDS: usize = 100;
 
 /// A solution for given impulses in which every row has the branch of its law that holds there.
@@ -36,14 +36,14 @@ pub(super) struct ActiveSet {
     pub(super) factorisations: usize,
 }
 
-/// Whether rows violates_branches the guess of their branches: one of a chain that counts and
+/// Whether rows contradict the guess of their branches: one of a chain that counts and
 /// pushes, or one that does not and is longer after the step than it may be; friction whose bound
 /// is not that of the tensions. Rounding of velocities is no contradiction.
 pub(super) fn violates_branches(rows: &[Row], x: &[f64]) -> bool {
     leaves_branch(rows, x) || capstan::bounds_differ(rows, x)
 }
 
-/// Whether a solution is not where the branches of the rows are their laws.
+/// Whether a solution lies outside the range of the branch of a row.
 pub(super) fn leaves_branch(rows: &[Row], x: &[f64]) -> bool {
     const ROUNDING: f64 = 1e-12;
     let changing = || rows.iter().filter(|row| row.may_change());
@@ -88,7 +88,7 @@ pub(super) fn find_active_set(
     Err(Reason::ActiveSet { tries: TRIES })
 }
 
-/// Takes the branches that hold at a solution; whether the system is another one with them.
+/// Takes the branches that hold at a solution. Returns whether this changes the system.
 pub(super) fn update_branches(rows: &mut [Row], x: &[f64]) -> bool {
     let mut changed = false;
     for row in rows.iter_mut().filter(|row| row.may_change()) {
@@ -106,8 +106,8 @@ pub(super) fn advance(x: &mut [f64], newton: &[f64], fraction: f64) {
     }
 }
 
-/// The fraction of the way from `x` to the Newton point at which the function is least, at most 1,
-/// to a fraction of itself.
+/// The fraction of the step from `x` to the Newton point, at most 1, that minimises the function,
+/// to a relative resolution.
 pub(super) fn line_search(system: &System, x: &[f64], newton: &[f64], resolution: f64) -> f64 {
     // Quadratic as factored, the slope would rise from `-curvature` to 0 on the way.
     let mut displacement: Vec<f64> = newton.iter().zip(x).map(|(to, from)| to - from).collect();

@@ -34,7 +34,7 @@ pub(super) struct Augmented {
     /// What is asked for of the normal velocity, in m/s.
     target: f64,
     friction: f64,
-    /// The impulse that is predicted, in N s.
+    /// The predicted impulse, in N s.
     predicted: Vector,
     /// The largest friction, in N s.
     bound: f64,
@@ -45,7 +45,7 @@ pub(super) struct Augmented {
 }
 
 impl Augmented {
-    /// The law of a contact that is predicted to have an impulse.
+    /// The law of a contact with a predicted impulse.
     pub(super) fn new(
         mobility: f64,
         [target, sigma]: [f64; 2],
@@ -100,7 +100,7 @@ impl Augmented {
         slope
     }
 
-    /// A velocity at which what is predicted comes out, as near to another as it may be.
+    /// The velocity nearest to another one at which the law gives the predicted impulse.
     pub(super) fn expected(&self, near: &Vector) -> Vector {
         let pushed = self.target - self.sigma * self.predicted.x;
         let normal = if self.predicted.x > 0.0 {
@@ -120,7 +120,7 @@ impl Augmented {
         (self.impulse(velocity) - impulse).amax() * self.mobility
     }
 
-    /// By how much velocities are off because an impulse that comes out was not predicted, in m/s.
+    /// How far velocities are off because an impulse differs from the prediction, in m/s.
     pub(super) fn residual(&self, velocity: &Vector, impulse: &Vector) -> f64 {
         let given_way = (impulse - self.predicted).amax() * self.soft;
         let bound = self.friction * impulse.x;

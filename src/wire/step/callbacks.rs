@@ -9,7 +9,7 @@ use crate::wire::resolution::{Remesh, RemeshGuard};
 use crate::wire::world::World;
 use crate::wire::{ContactConstraint, Vector};
 
-/// Gives the contacts of a step, judges where they lead, and permits changes of resolution.
+/// Gives the contacts of a step, reviews the motion, and permits changes of resolution.
 pub(in crate::wire) trait StepCallbacks: RemeshGuard {
     /// The contacts to solve with. Until the step ends they may only become more.
     fn contacts(&self) -> &[ContactConstraint];

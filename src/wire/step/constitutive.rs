@@ -1,10 +1,10 @@
-//! Laws of multipliers that are not free: linear in pieces.
+//! Constitutive laws of rows: piecewise linear functions from a row's excess to its multiplier.
 //!
 //! A row's multiplier is a function of its excess `e = G v - target`. A bilateral row has `e /
 //! Sigma`; a chain's, which never pushes, the same for `e > 0` and nothing below. A wire that turns
 //! over a contact node has friction that takes up any slip, as far as its bound goes; and it slides
 //! no further in a step than there is wire for. All of them rise, so they are the derivatives of
-//! convex functions, which are quadratic in pieces.
+//! convex functions, which are piecewise quadratic.
 
 /// How a row's multiplier follows from its excess.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,11 +15,12 @@ pub(super) enum ConstitutiveLaw {
     TensionOnly,
     /// Friction against the speed of sliding.
     Friction {
-        /// Which factor of two other multipliers it may have, without those that push.
+        /// The bound is this factor, `f tan(D/2)`, times the sum of two other multipliers; one that
+        /// pushes counts as 0.
         factor: f64,
         /// These two, by their unknowns.
         tensions: [usize; 2],
-        /// The largest magnitude of the friction, in N s: the factor of the two as they were last.
+        /// The largest magnitude of the friction, in N s: from the two as they were last.
         bound: f64,
         /// The fastest that the wire may slide towards lower and higher arc lengths, in m/s.
         reach: [f64; 2],
@@ -35,7 +36,7 @@ pub(super) struct Branch {
     pub(super) start: f64,
     /// The multiplier that is there whatever the excess is, in N s.
     pub(super) offset: f64,
-    /// From which to which excess the branch is the law.
+    /// The lowest and highest excess at which the branch is the law.
     pub(super) range: [f64; 2],
 }
 
@@ -68,8 +69,8 @@ impl Branch {
     }
 }
 
-/// The bound of friction that has this factor of two pulls, in N s. With a factor from 1 on the
-/// wire sticks whatever they are.
+/// The bound of friction in N s: the factor times the sum of two tensions. With a factor of at
+/// least 1 the wire sticks at any tension.
 pub(super) fn friction_bound(factor: f64, pulls: [f64; 2]) -> f64 {
     if factor < 1.0 {
         factor * (pulls[0].max(0.0) + pulls[1].max(0.0))

@@ -1,7 +1,7 @@
 //! Contacts inside the system, each with its law linearised: a stiffness and an impulse.
 //!
 //! Newton's method, which finds what pulls and slides, then finds what pushes, sticks and slips at
-//! once ([`touching`](super::multipliers)).
+//! once ([`multipliers`](super::multipliers)).
 
 use nalgebra::Matrix3;
 use smallvec::SmallVec;
@@ -24,7 +24,7 @@ pub(super) struct Implicit {
     /// The velocity along x, y, z that is prescribed.
     given: Vector,
     law: Augmented,
-    /// Where the law is taken as linear.
+    /// The velocity at which the law is linearised.
     velocity: Vector,
     /// Its impulse there.
     impulse: Vector,
@@ -33,7 +33,7 @@ pub(super) struct Implicit {
 }
 
 impl Implicit {
-    /// A contact that is predicted to have an impulse along x, y, z. `masses` is the diagonal of
+    /// A contact with a predicted impulse along x, y, z. `masses` is the diagonal of
     /// the mass matrix.
     pub(super) fn new(
         world: &World,
@@ -79,7 +79,7 @@ impl Implicit {
         }
     }
 
-    /// Takes the law as linear where a solution leads, or where the predicted impulse comes out.
+    /// Linearises the law at the velocity of a solution, or where it gives the predicted impulse.
     pub(super) fn linearise(&mut self, x: &[f64], predicted: bool) {
         self.velocity = self.at(x);
         if predicted {
@@ -125,15 +125,15 @@ impl Implicit {
         [linearisation_error, self.law.residual(&velocity, &impulse)]
     }
 
-    /// Predicts what a solution came to.
+    /// Makes the impulse of a solution the next prediction.
     pub(super) fn update_prediction(&mut self, x: &[f64]) {
         let velocity = self.at(x);
         let impulse = self.linear(&velocity);
         self.law.update_prediction(&velocity, &impulse);
     }
 
-    /// On the way between two solutions: the power of the linear law's impulse less that of the
-    /// law, by the fraction of the way.
+    /// The power of the linearised law's impulse less that of the law, between two solutions, as a
+    /// function of the fraction between them.
     pub(super) fn slope_between(&self, x: &[f64], newton: &[f64]) -> impl Fn(f64) -> f64 {
         let start = self.at(x);
         let rise = self.at(newton) - start;

@@ -50,8 +50,8 @@ impl MotionScales {
 }
 
 impl World {
-    /// Where the velocities of a solution `x` lead, times their motion_scales: `v = scale v+`, `x+
-    /// = x + h v`. What has a scale of 0 stays where it is, to the bit.
+    /// The motion that the velocities of a solution `x` lead to, scaled: `v = scale v+`, `x+ = x +
+    /// h v`. What has a scale of 0 stays where it is, to the bit.
     pub(super) fn motion(
         &self,
         layout: &Layout,

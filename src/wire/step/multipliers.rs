@@ -1,8 +1,8 @@
 //! The solution of a step with the contacts in the system.
 //!
 //! For predicted impulses and bounds of friction, the velocities of a step minimise a convex
-//! function, with contacts as with chains ([`slack`](super::active_set)). Newton's method with a
-//! line search finds them. Its impulses are the next prediction, until prediction and solution
+//! function, with contacts as with chains ([`active_set`](super::active_set)). Newton's method
+//! with a line search finds them. Its impulses are the next prediction, until prediction and solution
 //! agree: the method of multipliers (Hestenes 1969, Powell 1969) for what the contacts hold, and
 //! the fixed point of Haslinger (1983) for the friction that their normal impulses allow. Whatever
 //! its bound, friction takes energy.
@@ -19,8 +19,7 @@ const TRIES: usize = 200;
 /// residual.
 const ROUNDS: usize = 30;
 
-/// The fraction of what velocities contact_residual by which they may be off since laws are not
-/// linear.
+/// The largest linearisation error that is accepted, as a fraction of the residual.
 const LINEARISATION: f64 = 0.1;
 
 /// Relative resolution of the line search.
@@ -31,7 +30,7 @@ const RESOLUTION: f64 = 1e-3;
 const NEARLY: f64 = 100.0;
 const STAYS: usize = 3;
 
-/// What is solution.
+/// A solution for the last prediction.
 pub(super) struct Solution {
     /// Velocities and multipliers.
     pub(super) x: Vec<f64>,
@@ -79,14 +78,14 @@ pub(super) fn solve(system: &mut System, x: Vec<f64>, tolerance: f64) -> Result<
     Ok(solution)
 }
 
-/// Where the function is least for what is predicted now, as far as it matters for what comes out.
+/// Minimises the function for the present prediction, as accurately as the residual asks for.
 fn minimise_for_predicted(
     system: &mut System,
     mut solution: Solution,
     tolerance: f64,
 ) -> Result<Solution, Reason> {
-    // The first time contacts are as predicted, not as the velocities have them, which come from
-    // another function.
+    // The first linearisation is at the predicted impulses: the velocities so far minimise another
+    // function.
     let mut predicted = true;
     while solution.factorisations < TRIES {
         update_branches(&mut system.rows, &solution.x);

@@ -3,7 +3,8 @@
 //!
 //! Contacts tie what they press together. Where the factor hardly fills for that, as with chains on
 //! a deck or wires that lie across one, Newton's method finds what pushes, sticks and slips along
-//! with what pulls ([`touching`](super::multipliers)). Where it would, as with wires that are wound
+//! with what pulls ([`multipliers`](super::multipliers)). Where it would, as with wires that are
+//! wound
 //! about each other, contacts are swept ([`friction`](super::friction)).
 
 use crate::wire::contact::{ContactConstraint, ContactSite};

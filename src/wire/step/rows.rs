@@ -72,7 +72,7 @@ impl Row {
         terms.chain(slides).fold(self.target.abs(), f64::max)
     }
 
-    /// Whether its branch is found by the solution.
+    /// Whether the solution decides which branch holds.
     pub(super) fn may_change(&self) -> bool {
         match self.law {
             ConstitutiveLaw::Linear => false,

@@ -122,8 +122,8 @@ impl World {
         Ok(candidate)
     }
 
-    /// With the contacts in the system, from impulses that are predicted. None if that does not
-    /// come to an end.
+    /// Solves with the contacts in the system, from predicted impulses. None if that does not
+    /// converge.
     fn solve_with_implicit_contacts(
         &self,
         system: &mut System,

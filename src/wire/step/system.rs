@@ -143,7 +143,7 @@ impl System {
         }
     }
 
-    /// Takes contacts into the system, with the impulses that are predicted for them.
+    /// Takes contacts into the system, with their predicted impulses.
     pub(super) fn take(
         &mut self,
         world: &World,

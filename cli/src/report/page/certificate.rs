@@ -1,4 +1,5 @@
-//! The certificate: what was found of each subject, the worst of it in pictures, and how to find it again.
+//! The certificate: what was found of each subject, the worst of it in pictures, and how to find it
+//! again.
 
 use maud::{Markup, html};
 

@@ -1,5 +1,5 @@
-//! The result of a sweep or of a search as one page of HTML, which needs nothing else: no network, no
-//! script. It is readable on a telephone, and follows the dark mode of the reader.
+//! The result of a sweep or of a search as one page of HTML, which needs nothing else: no network,
+//! no script. It is readable on a telephone, and follows the dark mode of the reader.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use tunnelproof::thesis::Threshold;

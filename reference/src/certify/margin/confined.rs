@@ -1,11 +1,11 @@
-//! Motion confined to a plane or a line, in small integers: which decisions of Algorithms 8 to 18 are
-//! clear.
+//! Motion confined to a plane or a line, in small integers: which decisions of Algorithms 8 to 18
+//! are clear.
 //!
-//! Where every coordinate is an integer of at most [`LARGEST`] in some power of two, the case, every
-//! coefficient and everything at `t = 0` and `t = 1` is computed without rounding, and a number that is
-//! not 0 is above every threshold. What is left are the roots of quadratics, each known to within
-//! [`SPREAD`], and what is asked of the edges there. The derivation is in `docs/method.md`, "What
-//! excuses the thesis path".
+//! Where every coordinate is an integer of at most [`LARGEST`] in some power of two, the case,
+//! every coefficient and everything at `t = 0` and `t = 1` is computed without rounding, and a
+//! number that is not 0 is above every threshold. What is left are the roots of quadratics, each
+//! known to within [`SPREAD`], and what is asked of the edges there. The derivation is in
+//! `docs/method.md`, "What excuses the thesis path".
 
 use std::cmp::Ordering;
 
@@ -29,8 +29,8 @@ const UNITS: std::ops::RangeInclusive<i64> = -4..=4;
 /// How far a root is from the one in `f64`, at most, and how far a time from 0 is known.
 const SPREAD: f64 = 1.0 / (1u64 << 33) as f64;
 
-/// Whether no decision of the thesis path on this query, of one of the three confined cases with edges
-/// that have length, is near its border.
+/// Whether no decision of the thesis path on this query, of one of the three confined cases with
+/// edges that have length, is near its border.
 pub(super) fn is_clear(query: &EdgeEdge, case: Case, thresholds: &Thresholds) -> bool {
     let Some((points, unit)) = small_integers(query) else {
         return false;
@@ -111,8 +111,8 @@ impl Line {
 struct Moment<'a> {
     exact: &'a Algebraic<Z>,
     t: f64,
-    /// How far a difference of two coordinates may be off in `f64`, in units: nothing at the ends of
-    /// the step, where all of it is integers.
+    /// How far a difference of two coordinates may be off in `f64`, in units: nothing at the ends
+    /// of the step, where all of it is integers.
     error: f64,
 }
 
@@ -130,8 +130,8 @@ impl<'a> Moment<'a> {
     }
 }
 
-/// What the end of an edge does to the other edge: the first time at which it is clear that it is on
-/// it, and the first one before that at which it is not clear whether it is.
+/// What the end of an edge does to the other edge: the first time at which it is clear that it is
+/// on it, and the first one before that at which it is not clear whether it is.
 #[derive(Default)]
 struct Reach {
     contact: Option<f64>,
@@ -251,8 +251,8 @@ impl Asked {
         Some(common.unwrap_or_default())
     }
 
-    /// A vector at a time, its components that are 0 exactly so; `None` if one that is not may count
-    /// as 0.
+    /// A vector at a time, its components that are 0 exactly so; `None` if one that is not may
+    /// count as 0.
     fn clear_vector(&self, moment: &Moment, vector: &Line) -> Option<Vector3<f64>> {
         let mut value = vector.at(moment.t);
         for h in 0..3 {

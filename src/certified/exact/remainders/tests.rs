@@ -42,8 +42,8 @@ fn value(p: &Poly<0>, n: i64, d: i64) -> BigInt {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(4000))]
 
-    /// At a root of a polynomial the neighbours in the sequence have opposite signs or are both 0: that
-    /// is what the theorem of Sturm needs, and a wrong factor or division breaks it.
+    /// At a root of a polynomial the neighbours in the sequence have opposite signs or are both 0:
+    /// that is what the theorem of Sturm needs, and a wrong factor or division breaks it.
     #[test]
     fn remainders_have_opposite_signs_around_a_common_factor_and_roots(
         a in prop::collection::vec(-1000i64..=1000, 0..=4),
@@ -58,7 +58,8 @@ proptest! {
         let (a, b) = if a.len() < b.len() { (b, a) } else { (a, b) };
         let (p, q) = (poly(&times(&a, &c)), poly(&times(&b, &c)));
         let all: Vec<_> = [p.clone()].into_iter().chain(Remainders::new(p, q)).collect();
-        // Each is a positive multiple of minus a remainder: at rational points by which the one between is 0.
+        // Each is a positive multiple of minus a remainder: at rational points by which the one
+        // between is 0.
         for three in all.windows(3) {
             let [first, middle, last] = three else { unreachable!() };
             if let [c0, c1] = middle.coefficients() {

@@ -5,8 +5,8 @@ use super::super::isolate::tests::poly;
 use super::super::isolate::{Isolated, Place};
 use super::*;
 
-/// The sign by halving until the polynomial has no root and no other sign near the root; `None` if it
-/// seems to be 0 there.
+/// The sign by halving until the polynomial has no root and no other sign near the root; `None` if
+/// it seems to be 0 there.
 fn sign_by_halving(
     p: &Poly,
     q: &Poly,

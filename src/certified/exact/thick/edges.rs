@@ -69,8 +69,8 @@ impl Sides<2> for Edges {
         &self.f
     }
 
-    /// Along K, A is at 0, B at `K . K`, C at `M . K` and D at `(M + L) . K`: what both edges have of that
-    /// where they are parallel.
+    /// Along K, A is at 0, B at `K . K`, C at `M . K` and D at `(M + L) . K`: what both edges have
+    /// of that where they are parallel.
     fn overlap(&self, time: &Time) -> Option<(Place<2>, Option<Place<2>>)> {
         let Edges { k, l, m, .. } = self;
         let is_parallel = time.sign_of(&self.n2).is_eq();

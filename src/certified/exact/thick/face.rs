@@ -28,8 +28,9 @@ impl Face {
         }
     }
 
-    /// The foot of the vertex in the plane has the weights `c = (X x Q) . N` and `d = (P x X) . N` over
-    /// `N . N`: with `h` the height, `X - h N = c P + d Q`, crossed with `Q` or `P` and multiplied by `N`.
+    /// The foot of the vertex in the plane has the weights `c = (X x Q) . N` and `d = (P x X) . N`
+    /// over `N . N`: with `h` the height, `X - h N = c P + d Q`, crossed with `Q` or `P` and
+    /// multiplied by `N`.
     fn inside(&self) -> Pair<3> {
         let Face { p, q, x, n, n2, f } = self;
         let (c, d) = (dot(&cross(x, q), n), dot(&cross(p, x), n));

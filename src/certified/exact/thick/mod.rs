@@ -1,22 +1,23 @@
-//! Contact at a distance: when two edges, or a vertex and a face, first come within a radius of each other,
-//! decided in integers.
+//! Contact at a distance: when two edges, or a vertex and a face, first come within a radius of
+//! each other, decided in integers.
 //!
-//! The distance of two convex sets is that of two features, vertices, edges or a face without what bounds
-//! them, which hold the nearest points; there these are the nearest points of what the features span: of
-//! points, lines and planes. So with the features' squared distance `p / q` and the conditions `i` that the
-//! nearest points are inside them ([`pair`], from [`edges`] and [`face`])
+//! The distance of two convex sets is that of two features, vertices, edges or a face without what
+//! bounds them, which hold the nearest points; there these are the nearest points of what the
+//! features span: of points, lines and planes. So with the features' squared distance `p / q` and
+//! the conditions `i` that the nearest points are inside them ([`pair`], from [`edges`] and
+//! [`face`])
 //!
 //! ```text
 //! contact(t)  <=>  for some two features  q > 0,  all i >= 0,  p <= R^2 q
 //! ```
 //!
-//! Let the first contact be at `s > 0`, and take the features with the fewest points that hold the nearest
-//! points there. Their `p - R^2 q` is 0 at `s`; not for all `t`, or they would be in contact shortly before
-//! too, their nearest points still inside. So the first contact is at 0 or at a root of one of these
-//! polynomials ([`roots`]), of degree 2, 4 or 6.
+//! Let the first contact be at `s > 0`, and take the features with the fewest points that hold the
+//! nearest points there. Their `p - R^2 q` is 0 at `s`; not for all `t`, or they would be in
+//! contact shortly before too, their nearest points still inside. So the first contact is at 0 or
+//! at a root of one of these polynomials ([`roots`]), of degree 2, 4 or 6.
 //!
-//! The radius is an integer, in a unit of its own, and so never rounded. Here all integers are of any size: what `f64`
-//! leaves open is little.
+//! The radius is an integer, in a unit of its own, and so never rounded. Here all integers are of
+//! any size: what `f64` leaves open is little.
 
 mod edges;
 mod face;
@@ -51,7 +52,8 @@ type Poly = poly::Poly<0>;
 /// Times at which such a polynomial is 0.
 type Time<'a> = AlgebraicTime<'a, 0>;
 
-/// The first contact at a distance. A place has `W` numbers: `u` and `v`, or the weights of B, C and D.
+/// The first contact at a distance. A place has `W` numbers: `u` and `v`, or the weights of B, C
+/// and D.
 struct Approach<const W: usize> {
     /// The neighbours in `f64` of the time of impact.
     toi: [f64; 2],
@@ -119,7 +121,8 @@ trait Sides<const W: usize> {
     /// Six times the volume of the four points.
     fn f(&self) -> &Poly;
 
-    /// The ends of the part along which two sides are nearest, if that is more than a point or they are parallel.
+    /// The ends of the part along which two sides are nearest, if that is more than a point or they
+    /// are parallel.
     fn overlap(&self, time: &Time) -> Option<(Place<W>, Option<Place<W>>)>;
 
     /// The configuration at a time.
@@ -128,7 +131,8 @@ trait Sides<const W: usize> {
 
 /// The square of the radius: `square 2^shift` in the unit of the coordinates, squared.
 ///
-/// The radius has a unit of its own: it may be so small that the coordinates in its unit would be hundreds of times as long.
+/// The radius has a unit of its own: it may be so small that the coordinates in its unit would be
+/// hundreds of times as long.
 struct Reach {
     square: Integer,
     shift: i64,
@@ -190,7 +194,8 @@ fn first_approach<const W: usize>(sides: &impl Sides<W>, reach: &Reach) -> Optio
     })
 }
 
-/// The first root, with its neighbours in `f64`, at which the nearest points of its pair are inside.
+/// The first root, with its neighbours in `f64`, at which the nearest points of its pair are
+/// inside.
 fn first_root<'a, const W: usize>(
     pairs: &[Pair<W>],
     roots: &'a [Roots],
@@ -211,8 +216,8 @@ fn first_root<'a, const W: usize>(
     first
 }
 
-/// The sign of `f` just before a time: that of the first derivative that is not 0, reversed if its order
-/// is odd. 0 at the start, or where `f` is identically 0.
+/// The sign of `f` just before a time: that of the first derivative that is not 0, reversed if its
+/// order is odd. 0 at the start, or where `f` is identically 0.
 fn side(f: &Poly, time: &Time, toi: [f64; 2]) -> i8 {
     if toi[1] == 0.0 {
         return 0;

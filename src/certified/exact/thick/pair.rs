@@ -13,7 +13,8 @@ pub(super) struct Pair<const W: usize> {
     numerator: Poly,
     /// At least 0; where it is 0, features with fewer points are as near.
     denominator: Poly,
-    /// At least 0, all of them, where the nearest points are inside the features or where these end.
+    /// At least 0, all of them, where the nearest points are inside the features or where these
+    /// end.
     inside: Vec<Poly>,
     /// The nearest points.
     pub(super) place: Place<W>,
@@ -23,7 +24,8 @@ pub(super) struct Pair<const W: usize> {
 #[derive(Clone)]
 pub(super) struct Place<const W: usize>(pub(super) [Share; W]);
 
-/// A parameter on an edge or a weight in a face, in `[0, 1]` at a time that is known from the context.
+/// A parameter on an edge or a weight in a face, in `[0, 1]` at a time that is known from the
+/// context.
 #[derive(Clone)]
 pub(super) enum Share {
     /// 0.
@@ -56,8 +58,8 @@ impl<const W: usize> Pair<W> {
     }
 
     /// A vertex `X` and an edge `YZ`, from the ways from `X` to both. With `E = Z - Y`, the line is
-    /// `|(Y - X) x (Z - X)| / |E|` away, and the nearest point is `(X - Y) . E / E . E` of the way from `Y`;
-    /// that share and the rest are given to `place`.
+    /// `|(Y - X) x (Z - X)| / |E|` away, and the nearest point is `(X - Y) . E / E . E` of the way
+    /// from `Y`; that share and the rest are given to `place`.
     pub(super) fn vertex_edge(
         to_y: &Vector,
         to_z: &Vector,
@@ -75,8 +77,8 @@ impl<const W: usize> Pair<W> {
         }
     }
 
-    /// Two edges, or a vertex and a face, whose lines or plane and point are `|f| / |N|` apart. The shares times
-    /// `N . N` are `inside`, as far as they have to be at least 0.
+    /// Two edges, or a vertex and a face, whose lines or plane and point are `|f| / |N|` apart. The
+    /// shares times `N . N` are `inside`, as far as they have to be at least 0.
     pub(super) fn insides(f: &Poly, n2: &Poly, inside: Vec<Poly>, place: [Share; W]) -> Self {
         Pair {
             numerator: Poly::product(f, f),
@@ -86,7 +88,8 @@ impl<const W: usize> Pair<W> {
         }
     }
 
-    /// A positive multiple of `numerator - square denominator`: 0 where what they span is at the distance.
+    /// A positive multiple of `numerator - square denominator`: 0 where what they span is at the
+    /// distance.
     pub(super) fn excess(&self, Reach { square, shift }: &Reach) -> Poly {
         let up = |by: i64| by.max(0).unsigned_abs();
         let own = self.numerator.shifted(up(-shift));

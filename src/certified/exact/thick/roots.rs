@@ -62,8 +62,8 @@ impl Roots {
     }
 }
 
-/// Halves the step until every part has one root or none; `None` if that takes more than so many halvings of
-/// a part. Not by recursion: with a radius of 1e-161 two roots are as near as that.
+/// Halves the step until every part has one root or none; `None` if that takes more than so many
+/// halvings of a part. Not by recursion: with a radius of 1e-161 two roots are as near as that.
 fn isolate(poly: &Poly, halvings: u64) -> Option<SmallVec<[Cell; 2]>> {
     let bernstein = bernstein(poly);
     let mut derivative = None;
@@ -106,9 +106,10 @@ fn isolate(poly: &Poly, halvings: u64) -> Option<SmallVec<[Cell; 2]>> {
 
 /// The roots in a piece that has two or none, and in which the derivative has one root.
 ///
-/// If there are two, that root is between them, and the polynomial has the other sign there; if not, it has one sign in the
-/// whole piece. Its root and that of the derivative are not the same, so that narrowing to the latter, which takes few
-/// steps however near the two roots are, tells in the end.
+/// If there are two, that root is between them, and the polynomial has the other sign there; if
+/// not, it has one sign in the whole piece. Its root and that of the derivative are not the same,
+/// so that narrowing to the latter, which takes few steps however near the two roots are, tells in
+/// the end.
 fn two_or_none(poly: &Poly, derivative: &Poly, piece: &Piece) -> SmallVec<[Cell; 2]> {
     let (low, high) = piece.ends();
     let sign = piece.first_sign();

@@ -112,8 +112,8 @@ fn longer(bracket: &Bracket, power: f64) -> Option<Bracket> {
     (power <= 0.0 && high <= 1.0).then_some(Bracket { high, ..*bracket })
 }
 
-/// A vertex that meets the face at a time of few bits, in an edge or a corner as often as not, up to
-/// rounding.
+/// A vertex that meets the face at a time of few bits, in an edge or a corner as often as not, up
+/// to rounding.
 fn touching(random: &mut Random) -> [f64; 24] {
     let mut x = points(random, (0, 0));
     let t = f64::from(random.whole(1, 7)) / 8.0;

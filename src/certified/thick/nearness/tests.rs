@@ -6,8 +6,8 @@ use crate::certified::kind::Kind;
 use crate::certified::testing::{Claim, Number, Random, dot as exact_dot, points};
 use crate::query::{EdgeEdge, VertexFace};
 
-/// Where the difference is nearest to 0 on the line or plane of one part of the boundary: `u`, `v` and the squared distance,
-/// all times `scale`.
+/// Where the difference is nearest to 0 on the line or plane of one part of the boundary: `u`, `v`
+/// and the squared distance, all times `scale`.
 struct Foot {
     place: [Number; 2],
     square: Number,

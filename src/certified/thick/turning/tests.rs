@@ -7,8 +7,8 @@ use crate::certified::testing::{
 };
 use crate::query::{EdgeEdge, VertexFace};
 
-/// That a plane keeps all corners more than the radius away a time `s` after `t`: the square of what is asked is at most
-/// that of the least corner.
+/// That a plane keeps all corners more than the radius away a time `s` after `t`: the square of
+/// what is asked is at most that of the least corner.
 fn separation<K: Kind>(sample: &Sample, plane: &Turning, t: f64, s: &Number) -> Claim {
     let exact = |x: &Vector| x.map(Number::from);
     let (normal, turn) = (exact(&plane.normal), exact(&plane.turn));
@@ -81,8 +81,8 @@ fn thick_planes_of_a_face_separate_as_long_as_they_say() {
     planes_are_proved::<VertexFace>(4, true, &[0]);
 }
 
-/// Edges that turn about the line through their nearest points, at a distance of 1: no fixed plane keeps them apart, the
-/// one that turns does.
+/// Edges that turn about the line through their nearest points, at a distance of 1: no fixed plane
+/// keeps them apart, the one that turns does.
 #[test]
 fn thick_planes_turn_with_the_edges() {
     let turning = |z: f64, x: f64| [z, x, 1.0 - z];
@@ -109,7 +109,8 @@ fn thick_planes_turn_with_the_edges() {
     assert!(turned >= 1.0, "{turned}");
 }
 
-/// The first root of a polynomial of degree 2, about which nothing is promised but that it is not passed.
+/// The first root of a polynomial of degree 2, about which nothing is promised but that it is not
+/// passed.
 #[test]
 fn thick_polynomials_stay_positive_as_long_as_they_say() {
     let certain = Cell::new([0; 2]);

@@ -37,7 +37,7 @@ fn chain(rng: &mut ChaCha8Rng) -> World {
     world
 }
 
-/// The solution for the one guess of which segments pull that it does not violates_branches, of all
+/// The solution for the one guess of which segments pull that it does not contradict, of all
 /// there are.
 fn by_guessing(system: &mut System) -> Vec<f64> {
     let mut found = Vec::new();

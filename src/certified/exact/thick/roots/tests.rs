@@ -49,7 +49,8 @@ proptest! {
         }
     }
 
-    /// A double root moved up or down by less and less, so that it becomes none or two, up to 2^-600 from each other.
+    /// A double root moved up or down by less and less, so that it becomes none or two, up to
+    /// 2^-600 from each other.
     #[test]
     fn roots_that_nearly_meet_are_two_or_none(
         n in 1i64..=10,
