@@ -1,5 +1,11 @@
 //! `docs/conformance.md` names what exists, and leaves out no algorithm.
 
+#![allow(
+    clippy::panic,
+    clippy::unwrap_used,
+    reason = "a test fails by panicking"
+)]
+
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;

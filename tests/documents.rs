@@ -186,6 +186,37 @@ fn documents_name_files_that_exist() {
     assert!(missing.is_empty(), "{missing:#?}");
 }
 
+/// Every Rust source, relative to the root.
+fn sources(folder: &Path, found: &mut BTreeSet<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        if path.is_dir() && !path.is_symlink() && !SKIPPED.contains(&&*name) {
+            sources(&path, found);
+        } else if name.ends_with(".rs") {
+            found.insert(path.strip_prefix(root()).unwrap().to_owned());
+        }
+    }
+}
+
+#[test]
+fn documents_name_sources_that_exist() {
+    let mut files = BTreeSet::new();
+    sources(&root(), &mut files);
+    let mut missing = Vec::new();
+    for (page, text) in pages() {
+        let prose = prose(&text);
+        let quoted = prose.split('`').skip(1).step_by(2);
+        let quoted = quoted.filter(|text| text.ends_with(".rs") && !text.contains(' '));
+        for name in quoted {
+            if !files.iter().any(|file| file.ends_with(name)) {
+                missing.push(format!("{}: {name}", page.display()));
+            }
+        }
+    }
+    assert!(missing.is_empty(), "{missing:#?}");
+}
+
 #[test]
 fn documents_are_short_and_in_the_index() {
     let index = fs::read_to_string(root().join("docs/README.md")).unwrap();
