@@ -212,10 +212,17 @@ impl Hit {
         (across.norm() > ANGLE).then(|| across.normalize())
     }
 
-    /// Whether the vector between the closest points has turned about from start to end: they came through.
-    pub(super) fn came_through(&self) -> bool {
-        let [before, after] = [self.query.start(), self.query.end()].map(Closest::new);
-        before.apart.dot(&after.apart) < 0.0
+    /// The vectors between the closest points at the start and at the end, from B to A. None where they touch.
+    pub(super) fn apart(&self) -> [Option<Vector>; 2] {
+        let toi = self.contact.toi;
+        let of = |points: &[Point; 4], touches: bool| {
+            let apart = Closest::new(points).apart;
+            (!touches && apart != Vector::zeros()).then_some(apart)
+        };
+        [
+            of(self.query.start(), toi == 0.0),
+            of(self.query.end(), toi == 1.0),
+        ]
     }
 
     pub(super) fn crossing(&self, outcome: Outcome) -> Crossing {
