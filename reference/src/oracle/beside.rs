@@ -159,10 +159,13 @@ struct Cube<Z> {
 impl<Z: Integer> Cube<Z> {
     fn new(points: &Scaled<Z>, offsets: &[[[i64; 3]; 4]; 2], ray: &[i64; 3]) -> Self {
         let [rx, ry, rz] = ray.map(Z::from_i64);
-        // It keeps orientations: the determinant is rz^2.
+        // It keeps orientations: the determinant is rz^2. No axis is along a former one.
         let turned = |[x, y, z]: [Z; 3]| {
             let across = |c: &Z, r: &Z| c.mul(&rz).sub(&z.mul(r));
-            [across(&x, &rx), across(&y, &ry), z.clone()]
+            let (mut x, mut y) = (across(&x, &rx), across(&y, &ry));
+            x.add_product(&y, &Z::from_i64(1021));
+            y.add_product(&x, &Z::from_i64(4093));
+            [x, y, z]
         };
         let way = |time: usize, from: usize, to: usize| {
             let (at, offsets) = ([&points.start, &points.end][time], &offsets[time]);
