@@ -1,8 +1,10 @@
-//! Wires moved aside by an infinitesimal, and how often two segments of them pass through each other.
+//! Wires moved aside by an infinitesimal, and how often two segments of them pass through each
+//! other.
 //!
-//! Every node is moved by a vector times one infinitesimal. Nodes fixed to one point have one vector, the others have that of
-//! their wire. So wires stay wires, and what is fixed together stays together. It does not depend on arc length, which
-//! changes where wire slides over a contact node. A wire against itself has another vector for the later one of the two segments: what
+//! Every node is moved by a vector times one infinitesimal. Nodes fixed to one point have one
+//! vector, the others have that of their wire. So wires stay wires, and what is fixed together
+//! stays together. It does not depend on arc length, which changes where wire slides over a contact
+//! node. A wire against itself has another vector for the later one of the two segments: what
 //! counts is the difference of the two.
 
 use tunnelproof::query::{EdgeEdge, Point};

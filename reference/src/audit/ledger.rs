@@ -1,13 +1,15 @@
 //! How often wires have passed through each other, counted with signs.
 //!
-//! A passage at a node is seen by every segment there, and by none as a crossing inside of it. So the ledger counts in
-//! general position, every node moved aside by an infinitesimal ([`super::aside`]). It looks at those pairs alone that have an exact contact
-//! in the audit of motions or of changes of resolution, for no other pair can come to meet. So what stands has been in
-//! contact, and each of these contacts was reported or is a finding.
+//! A passage at a node is seen by every segment there, and by none as a crossing inside of it. So
+//! the ledger counts in general position, every node moved aside by an infinitesimal
+//! ([`super::aside`]). It looks at those pairs alone that have an exact contact in the audit of
+//! motions or of changes of resolution, for no other pair can come to meet. So what stands has been
+//! in contact, and each of these contacts was reported or is a finding.
 //!
-//! Where contacts are inside the wires, between the first and the last step, and not at a segment that shares a node with the
-//! other one, the sum is the same in every general position: it is a degree. Elsewhere it may depend on where nodes are moved. So
-//! it is taken in several positions, and is ambiguous if they differ.
+//! Where contacts are inside the wires, between the first and the last step, and not at a segment
+//! that shares a node with the other one, the sum is the same in every general position: it is a
+//! degree. Elsewhere it may depend on where nodes are moved. So it is taken in several positions,
+//! and is ambiguous if they differ.
 
 use std::collections::BTreeMap;
 
@@ -21,8 +23,8 @@ pub(super) struct Ledger {
     sums: BTreeMap<[usize; 2], Passages>,
 }
 
-/// Two wires of which it cannot be said how often they have passed through each other: a contact is at the end of one, at the
-/// start or the end of the run, or where wires are fixed to one point.
+/// Two wires of which it cannot be said how often they have passed through each other: a contact is
+/// at the end of one, at the start or the end of the run, or where wires are fixed to one point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Ambiguous {
     /// The wires.

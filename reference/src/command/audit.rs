@@ -25,7 +25,7 @@ Examples:
   tunnelproof audit run.tps --replay run.html
 
 Every pair of segments whose swept boxes meet, in every step and every change of resolution, of one wire too. Exit code
-1 if anything passed unnoticed or stands on the wrong side at the end.")]
+1 if anything passed unnoticed, or stands or may stand on the wrong side at the end.")]
 pub(super) struct Audit {
     /// The recording
     recording: PathBuf,

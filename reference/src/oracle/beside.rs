@@ -1,15 +1,17 @@
 //! Passages of two edges that are moved aside by an infinitesimal, without roots.
 //!
-//! Let `F(u, v, t) = (A + u K) - (C + v L)` on the unit cube. A passage is a zero of `F`, and `f` rises or falls there as
-//! `det DF` is positive or negative. If `F` is not 0 on the border of the cube, the sum of these signs is the degree of `F`,
-//! which its values on the border decide: the points of the border at which `F` is a positive multiple of a
-//! fixed vector, each with the sign of its orientation (Milnor, Topology from the Differentiable Viewpoint, 1965, section 5).
-//! On two faces of the cube `F` is linear in `u` and `v`; on the other four such points are roots of a quadratic
-//! polynomial in `t`, which a Cauchy index counts (Basu, Pollack and Roy, Algorithms in Real Algebraic
-//! Geometry, 2006, section 2.2.2).
+//! Let `F(u, v, t) = (A + u K) - (C + v L)` on the unit cube. A passage is a zero of `F`, and `f`
+//! rises or falls there as `det DF` is positive or negative. If `F` is not 0 on the border of the
+//! cube, the sum of these signs is the degree of `F`, which its values on the border decide: the
+//! points of the border at which `F` is a positive multiple of a fixed vector, each with the sign
+//! of its orientation (Milnor, Topology from the Differentiable Viewpoint, 1965, section 5). On two
+//! faces of the cube `F` is linear in `u` and `v`; on the other four such points are roots of a
+//! quadratic polynomial in `t`, which a Cauchy index counts (Basu, Pollack and Roy, Algorithms in
+//! Real Algebraic Geometry, 2006, section 2.2.2).
 //!
-//! Coordinates are `c + e d` with integers `c` and `d` and an infinitesimal `e > 0`, so every number is a polynomial in `e` and has
-//! the sign of its lowest term. That is its sign for every positive number `e` that is small enough. Nothing is rounded.
+//! Coordinates are `c + e d` with integers `c` and `d` and an infinitesimal `e > 0`, so every
+//! number is a polynomial in `e` and has the sign of its lowest term. That is its sign for every
+//! positive number `e` that is small enough. Nothing is rounded.
 
 use std::cmp::Ordering;
 
@@ -19,8 +21,8 @@ use crate::field::{self, Integer};
 use crate::poly::Poly;
 use crate::scaled::Scaled;
 
-/// Vectors along which the border is looked at. The first for which no point is on a border of a face, or
-/// touches it, is used.
+/// Vectors along which the border is looked at. The first for which no point is on a border of a
+/// face, or touches it, is used.
 const RAYS: [[i64; 3]; 4] = [
     [7919, -6101, 9973],
     [-3571, 9161, 8117],
@@ -28,9 +30,10 @@ const RAYS: [[i64; 3]; 4] = [
     [5309, 7703, 9689],
 ];
 
-/// How often two edges pass through each other if A, B, C and D are moved by these vectors at the start and at the end of the
-/// step, each times one positive infinitesimal: +1 where `f = (K x L) . M` rises, -1 where it falls. `None` if the edges still touch at an end of an edge
-/// or of the step, which vectors in general position exclude.
+/// How often two edges pass through each other if A, B, C and D are moved by these vectors at the
+/// start and at the end of the step, each times one positive infinitesimal: +1 where `f = (K x L) .
+/// M` rises, -1 where it falls. `None` if the edges still touch at an end of an edge or of the
+/// step, which vectors in general position exclude.
 pub fn passages_beside(query: &EdgeEdge, offsets: &[[[i64; 3]; 4]; 2]) -> Option<i64> {
     let points = Scaled::<field::Default>::new(&Query::EdgeEdge(*query));
     RAYS.iter()
@@ -122,8 +125,9 @@ impl<Z: Integer> InTime<Z> {
     }
 }
 
-/// The sum of the signs of `h' g` over the roots of `h` strictly between 0 and 1: the Cauchy index of `g / h`, by
-/// the sequence of signed remainders. `None` if `h` is 0 at 0 or 1, or has a root in common with `g`.
+/// The sum of the signs of `h' g` over the roots of `h` strictly between 0 and 1: the Cauchy index
+/// of `g / h`, by the sequence of signed remainders. `None` if `h` is 0 at 0 or 1, or has a root in
+/// common with `g`.
 fn index<Z: Integer>(h: &InTime<Z>, g: &InTime<Z>) -> Option<i64> {
     let mut changes = [0, 0];
     let mut last = h.signs();
@@ -194,8 +198,8 @@ impl<Z: Integer> Cube<Z> {
 
 /// The points of the ray on the edge from `p` to `q`, which moves: each +1 where `h = p x q` rises.
 ///
-/// At a root of `h` the edge meets the line of the ray if `p` and `q` are on different sides of it, `px qx < 0`, and is on
-/// the ray if `w qx > 0` with `w = pz qx - qz px`.
+/// At a root of `h` the edge meets the line of the ray if `p` and `q` are on different sides of it,
+/// `px qx < 0`, and is on the ray if `w qx > 0` with `w = pz qx - qz px`.
 fn side<Z: Integer>(
     [px, py, pz]: &Triple<InTime<Z>>,
     [qx, qy, qz]: &Triple<InTime<Z>>,
@@ -210,7 +214,8 @@ fn side<Z: Integer>(
     Some((all + index(&h, &w.mul(qx))? - index(&h, &w.mul(px))?) / 4)
 }
 
-/// The point of the ray on the parallelogram `F(u, v)` of a time, with its orientation in `u` and `v`.
+/// The point of the ray on the parallelogram `F(u, v)` of a time, with its orientation in `u` and
+/// `v`.
 fn flat<Z: Integer>([[ac, ad], [bc, _]]: &[[Triple<Number<Z>>; 2]; 2]) -> Option<i64> {
     let from = |a: &Triple<Number<Z>>, b: &Triple<Number<Z>>| [0, 1, 2].map(|h| b[h].sub(&a[h]));
     let (k, l, m) = (from(ac, bc), from(ad, ac), [0, 1, 2].map(|h| ac[h].neg()));
@@ -264,8 +269,8 @@ mod tests {
         EdgeEdge::new(start, end, 0.0).unwrap()
     }
 
-    /// Coordinates of a few small integers: points that coincide, edges on one line and motion in a plane are common. A unit of
-    /// 2^-40 m is below the gaps there, and exact.
+    /// Coordinates of a few small integers: points that coincide, edges on one line and motion in a
+    /// plane are common. A unit of 2^-40 m is below the gaps there, and exact.
     #[test]
     fn passages_beside_are_those_of_edges_moved_by_a_hair() {
         let rng = &mut ChaCha8Rng::seed_from_u64(30);

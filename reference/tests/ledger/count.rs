@@ -1,9 +1,10 @@
-//! Passages counted a second time, with nothing of the audit: exact integers, wires moved by a hair in other directions, and
-//! roots kept in by subdivision of Bernstein polynomials.
+//! Passages counted a second time, with nothing of the audit: exact integers, wires moved by a hair
+//! in other directions, and roots kept in by subdivision of Bernstein polynomials.
 //!
-//! Places are integers in the unit of their last bit, times `2^HAIR`; each wire is moved by some integers and sheared along its arc length, and
-//! all nodes fixed to one point go together. Every pair of segments is looked at whose boxes meet and that is not joined, whether
-//! it touches before it is moved or not.
+//! Places are integers in the unit of their last bit, times `2^HAIR`; each wire is moved by some
+//! integers and sheared along its arc length, and all nodes fixed to one point go together. Every
+//! pair of segments is looked at whose boxes meet and that is not joined, whether it touches before
+//! it is moved or not.
 
 use std::collections::BTreeMap;
 
@@ -190,7 +191,8 @@ impl Count {
             .or_default() += sum;
     }
 
-    /// By how much a node is moved: with what it is fixed to, else with its wire, by an amount that grows with arc length.
+    /// By how much a node is moved: with what it is fixed to, else with its wire, by an amount that
+    /// grows with arc length.
     fn offset(&self, node: &Node) -> Exact {
         let fixed = node
             .anchor()

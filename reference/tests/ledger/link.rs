@@ -24,8 +24,8 @@ fn is_closed(wire: &WireRecord) -> bool {
         && wire.before.first() == wire.before.last()
 }
 
-/// The sum of the signs of the crossings at which the first curve is above the second, seen along a direction. `None` if
-/// corners cover each other.
+/// The sum of the signs of the crossings at which the first curve is above the second, seen along a
+/// direction. `None` if corners cover each other.
 fn linking(a: &[Point], b: &[Point], view: [i64; 2]) -> Option<i64> {
     let flat = |point: &Point| {
         let [x, y, z] = exact(point);
@@ -63,7 +63,8 @@ fn linking(a: &[Point], b: &[Point], view: [i64; 2]) -> Option<i64> {
     Some(sum)
 }
 
-/// How many pairs of closed wires were compared: the change of their linking number is the number of passages.
+/// How many pairs of closed wires were compared: the change of their linking number is the number
+/// of passages.
 pub(crate) fn differing(
     records: &[StepRecord],
     sums: &BTreeMap<[usize; 2], i64>,

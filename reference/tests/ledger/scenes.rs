@@ -139,7 +139,8 @@ impl Draft {
         } = self;
         self.wires += &format!(
             "[[wires]]\nname = \"w{count}\"\nmaterial = {{ radius = {radius:?}, bend_modulus = 0, \
-             stretch_modulus = 1e7, density = 1000 }}\nresolution = {resolution:?}\nadaptive = {adaptive}\n\
+             stretch_modulus = 1e7, density = 1000 }}\nresolution = {resolution:?}\n\
+              adaptive = {adaptive}\n\
              velocity = {}\nroute = [{}]\n",
             list(velocity),
             route.join(", ")
@@ -309,8 +310,10 @@ impl Draft {
         for k in 0..2 {
             let (at, turn) = (self.vector(0.5), self.vector(20.0));
             self.bodies += &format!(
-                "[[bodies]]\nname = \"b{k}\"\nshape = {{ sphere = {{ radius = 0.05 }} }}\nposition = {}\n\
-                 drive = {{ kinematic = [{{ from = 0, velocity = [0, 0, 0], angular_velocity = {} }}] }}\n",
+                "[[bodies]]\nname = \"b{k}\"\nshape = {{ sphere = {{ radius = 0.05 }} }}\n\
+                 position = {}\n\
+                 drive = {{ kinematic = [{{ from = 0, velocity = [0, 0, 0], \
+                  angular_velocity = {} }}] }}\n",
                 list(at),
                 list(turn)
             );
