@@ -119,6 +119,10 @@ pub const PLACE_ERROR: f64 = f64::from_bits((1023 - 32) << 52);
 
 /// Hit or miss of one query, in `f64`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "a box would allocate for each hit"
+)]
 pub enum Verdict {
     /// No contact during the step.
     Miss,

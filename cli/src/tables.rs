@@ -48,8 +48,7 @@ impl Audited {
 ///
 /// The scene cannot be built.
 pub fn audited(scene: &Scene, narrow: Narrow, mode: Mode) -> Result<Audited, SceneError> {
-    let radii = scene.wires.iter().map(|wire| wire.material.radius);
-    let mut audit = Audit::new(radii.collect());
+    let mut audit = Audit::default();
     let narrow = &*narrow.phase();
     let run = Run {
         scene,

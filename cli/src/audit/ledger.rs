@@ -1,90 +1,72 @@
 //! How often wires have passed through each other, counted with signs.
 //!
-//! A passage at a node is seen by every segment there, and by none as a crossing inside of it. So the ledger counts in
-//! general position: every node is a millionth of its wire's radius beside its place, by an offset that is a smooth
-//! function of wire and arc length. The wires so moved are wires again, their motion has no gaps, and their passages are inside
-//! of segments, each seen once.
+//! A passage at a node is seen by every segment there, and by none as a crossing inside of it. So
+//! the ledger counts in general position, every node moved aside by an infinitesimal
+//! ([`super::aside`]). It looks at those pairs alone that have an exact contact in the audit of
+//! motions or of changes of resolution, for no other pair can come to meet. So what stands has been
+//! in contact, and each of these contacts was reported or is a finding.
+//!
+//! Where contacts are inside the wires, between the first and the last step, and not at a segment
+//! that shares a node with the other one, the sum is the same in every general position: it is a
+//! degree. Elsewhere it may depend on where nodes are moved. So it is taken in several positions,
+//! and is ambiguous if they differ.
 
 use std::collections::BTreeMap;
 
-use rayon::prelude::*;
-use tunnelproof::query::{EdgeEdge, Point};
-use tunnelproof::wire::{Remesh, RemeshKind, StepRecord};
+use serde::Serialize;
 
-use super::remesh::Wires;
-use super::segments::{Segment, candidates, moving, query};
-use tunnelproof_reference::oracle::net_passages;
+use super::aside::{POSITIONS, Passages};
 
 /// Passages by pair of wires.
 #[derive(Default)]
 pub(super) struct Ledger {
-    radii: Vec<f64>,
-    sums: BTreeMap<[usize; 2], i64>,
+    sums: BTreeMap<[usize; 2], Passages>,
+}
+
+/// Two wires of which it cannot be said how often they have passed through each other: a contact is
+/// at the end of one, at the start or the end of the run, or where wires are fixed to one point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Ambiguous {
+    /// The wires.
+    pub wires: [usize; 2],
+    /// The least signed number of passages.
+    pub least: i64,
+    /// The largest.
+    pub most: i64,
 }
 
 impl Ledger {
-    pub(super) fn new(radii: Vec<f64>) -> Self {
-        let sums = BTreeMap::new();
-        Ledger { radii, sums }
-    }
-
     /// Pairs of wires that have passed through each other without coming back, and how often.
     pub(super) fn standing(&self) -> Vec<([usize; 2], i64)> {
-        let sums = self.sums.iter().filter(|(_, sum)| **sum != 0);
-        sums.map(|(wires, sum)| (*wires, *sum)).collect()
+        let sums = self.sums.iter();
+        let one = sums.filter_map(|(wires, sums)| Some((*wires, agreed(sums)?)));
+        one.filter(|(_, sum)| *sum != 0).collect()
     }
 
-    /// A node beside its place.
-    fn beside(&self, wire: usize, arc: f64, at: Point) -> Point {
-        let size = 1e-6 * self.radii.get(wire).copied().unwrap_or(0.0);
-        // Frequencies without a common measure. Nothing depends on which.
-        let phase = 1.7 * wire as f64;
-        let offset = [(1.3, 0.4), (1.9, 1.1), (2.3, 2.9)]
-            .map(|(k, shift)| size * (k * (arc + phase) + shift).sin());
-        Point::new(at.x + offset[0], at.y + offset[1], at.z + offset[2])
+    /// Pairs of wires whose number of passages depends on where wires are moved.
+    pub(super) fn ambiguous(&self) -> Vec<Ambiguous> {
+        let sums = self.sums.iter();
+        let differ = sums.filter(|(_, sums)| agreed(sums).is_none());
+        let ambiguous = differ.map(|(&wires, sums)| Ambiguous {
+            wires,
+            least: sums.iter().flatten().min().copied().unwrap_or(0),
+            most: sums.iter().flatten().max().copied().unwrap_or(0),
+        });
+        ambiguous.collect()
     }
 
-    fn enter(&mut self, wires: [usize; 2], passages: i64) {
-        if passages != 0 {
-            let wires = [wires[0].min(wires[1]), wires[0].max(wires[1])];
-            *self.sums.entry(wires).or_default() += passages;
+    /// Adds the passages of two segments.
+    pub(super) fn enter(&mut self, wires: [usize; 2], passages: &Passages) {
+        let wires = [wires[0].min(wires[1]), wires[0].max(wires[1])];
+        let sums = self.sums.entry(wires).or_insert([Some(0); POSITIONS]);
+        for (sum, passages) in sums.iter_mut().zip(passages) {
+            *sum = sum.zip(*passages).map(|(sum, passages)| sum + passages);
         }
     }
+}
 
-    /// The passages of a step.
-    pub(super) fn step(&mut self, record: &StepRecord) {
-        let segments = moving(record, |wire, arc, at| self.beside(wire, arc, at));
-        let found: Vec<_> = candidates(&segments)
-            .into_par_iter()
-            .filter_map(|pair| {
-                let [a, b] = pair.map(|k| &segments[k]);
-                let query = query(a, b).ok()?;
-                Some(([a, b].map(|s: &Segment| s.id.wire.0), net_passages(&query)))
-            })
-            .collect();
-        for (wires, passages) in found {
-            self.enter(wires, passages);
-        }
-    }
-
-    /// The passages of a change of resolution: taking `b` out moves the start of `bc` to `a`.
-    pub(super) fn remesh(&mut self, wires: &Wires, change: &Remesh) {
-        let own = change.wire.0;
-        let corner = |k: usize| self.beside(own, change.arcs[k], change.triangle[k]);
-        let [a, b, c] = [0, 1, 2].map(corner);
-        let (from, to) = match change.kind {
-            RemeshKind::Merge => (b, a),
-            RemeshKind::Split => (a, b),
-        };
-        let mut found = Vec::new();
-        for (w, arcs, points) in wires.others(change) {
-            let [p, q] = [0, 1].map(|k| self.beside(w, arcs[k], points[k]));
-            if let Ok(query) = EdgeEdge::new([from, c, p, q], [to, c, p, q], 0.0) {
-                found.push(([own, w], net_passages(&query)));
-            }
-        }
-        for (wires, passages) in found {
-            self.enter(wires, passages);
-        }
-    }
+/// The sum that every position gives.
+fn agreed(sums: &Passages) -> Option<i64> {
+    let first = sums[0]?;
+    sums.iter().all(|sum| *sum == Some(first)).then_some(first)
 }

@@ -10,9 +10,10 @@
 //! - a wire that does not start where the step before left it *jumped*: nobody has looked at how it got there;
 //! - the ledger sums up signed passages of each pair of wires. What is not 0 at the end is a *standing tunnel*.
 //!
-//! Pairs that share a node or are fixed to one point are left out. Boxes are compared and not computed, so
-//! nothing is rounded anywhere; the ledger alone looks at wires moved aside by a millionth of their radius.
+//! Pairs that share a node or are fixed to one point are left out. Boxes are compared and not computed, and the ledger moves
+//! wires aside by an infinitesimal, so nothing is rounded anywhere.
 
+mod aside;
 mod finding;
 mod ledger;
 mod remesh;
@@ -28,18 +29,21 @@ use tunnelproof::contact::ContactKind;
 use tunnelproof::query::{EdgeEdge, Point, Query};
 use tunnelproof::wire::{CrossingOutcome, PairAnswer, SegmentId, StepRecord};
 
+use aside::passages;
 use ledger::Ledger;
-use remesh::Wires;
+use remesh::{Meeting, Wires};
 use segments::{Segment, candidates, moving, query};
 use tunnelproof_reference::answer::ExactHit;
 use tunnelproof_reference::oracle::decide_query;
 
 pub use finding::{Culprit, Finding, What};
+pub use ledger::Ambiguous;
 
 /// How many findings are kept; the others are counted.
 pub const MOST_FINDINGS: usize = 1000;
 
 /// An audit under way.
+#[derive(Default)]
 pub struct Audit {
     ledger: Ledger,
     left: Option<Wires>,
@@ -77,14 +81,16 @@ pub struct Report {
     pub false_hits: u64,
     /// Pairs of wires that have passed through each other at the end: wires and signed number.
     pub standing: Vec<([usize; 2], i64)>,
+    /// Pairs of wires of which that cannot be said.
+    pub ambiguous: Vec<Ambiguous>,
     /// The first of all that is wrong, at most [`MOST_FINDINGS`].
     pub findings: Vec<Finding>,
 }
 
 impl Report {
-    /// Whether nothing passed unnoticed and nothing stands on the wrong side.
+    /// Whether nothing passed unnoticed and nothing stands, or may stand, on the wrong side.
     pub fn is_clean(&self) -> bool {
-        self.unnoticed() == 0 && self.standing.is_empty()
+        self.unnoticed() == 0 && self.standing.is_empty() && self.ambiguous.is_empty()
     }
 
     /// Whether every time of impact was right as well, to the last bit, and no contact made up.
@@ -122,15 +128,6 @@ impl Report {
 }
 
 impl Audit {
-    /// An audit of wires with these radii in m.
-    pub fn new(radii: Vec<f64>) -> Self {
-        Audit {
-            ledger: Ledger::new(radii),
-            left: None,
-            report: Report::default(),
-        }
-    }
-
     /// Looks at the next step.
     pub fn step(&mut self, record: &StepRecord) {
         self.report.steps += 1;
@@ -146,7 +143,6 @@ impl Audit {
         if unsound.is_empty() {
             self.motion(record);
             self.prevented(record);
-            self.ledger.step(record);
             self.left = Some(self.remeshes(record));
         }
     }
@@ -154,6 +150,7 @@ impl Audit {
     /// What it came to.
     pub fn finish(mut self) -> Report {
         self.report.standing = self.ledger.standing();
+        self.report.ambiguous = self.ledger.ambiguous();
         self.report
     }
 
@@ -174,7 +171,7 @@ impl Audit {
 
     /// The motion that was made, pair by pair.
     fn motion(&mut self, record: &StepRecord) {
-        let segments = moving(record, |_, _, at| at);
+        let segments = moving(record);
         let pairs = candidates(&segments);
         self.report.pairs += pairs.len() as u64;
         let mut said: BTreeMap<_, _> = (record.collisions.pairs.iter())
@@ -182,11 +179,14 @@ impl Audit {
             .collect();
         let asked = |pair: [usize; 2]| {
             let [a, b] = pair.map(|k| &segments[k]);
-            Some(([a.id, b.id], exact(a, b)?))
+            let (query, hit) = exact(a, b)?;
+            let passages = passages(&query, [a.held(), b.held()]);
+            Some(([a.id, b.id], query, hit, passages))
         };
         let met: Vec<_> = pairs.into_par_iter().filter_map(asked).collect();
-        for (pair, (query, hit)) in met {
+        for (pair, query, hit, passages) in met {
             self.report.contacts += 1;
+            self.ledger.enter(pair.map(|id| id.wire.0), &passages);
             let crossing = hit.kind == ContactKind::Crossing || hit.crosses;
             self.report.crossings += u64::from(crossing);
             let missed = |by| Some(What::Missed { by, crossing });
@@ -244,10 +244,15 @@ impl Audit {
                     None,
                 ),
                 Some(met) => {
-                    for (id, query) in met {
+                    for Meeting {
+                        id,
+                        query,
+                        passages,
+                    } in met
+                    {
                         self.find(record, What::Remesh, &[id], Some(query));
+                        self.ledger.enter([change.wire.0, id.wire.0], &passages);
                     }
-                    self.ledger.remesh(&wires, change);
                     wires.make(change);
                 }
             }

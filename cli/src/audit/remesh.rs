@@ -3,6 +3,7 @@
 use tunnelproof::query::{EdgeEdge, Point};
 use tunnelproof::wire::{NodeKind, Remesh, RemeshKind, SegmentId, StepRecord, WireId};
 
+use super::aside::{Held, Passages, passages};
 use super::first_contact;
 use super::segments::is_one_point;
 
@@ -12,19 +13,29 @@ pub(super) struct Wires(Vec<Vec<Node>>);
 
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    arc: f64,
     kind: NodeKind,
     at: Point,
+}
+
+/// A segment that a change passes through, with a witness.
+pub(super) struct Meeting {
+    pub(super) id: SegmentId,
+    pub(super) query: EdgeEdge,
+    pub(super) passages: Passages,
+}
+
+impl Node {
+    fn fixed(&self) -> (NodeKind, Point) {
+        (self.kind, self.at)
+    }
 }
 
 impl Wires {
     /// After the motion of a step.
     pub(super) fn after(record: &StepRecord) -> Self {
         let wires = record.wires.iter().map(|wire| {
-            let places = wire.arcs.iter().zip(&wire.kinds).zip(&wire.after);
-            places
-                .map(|((&arc, &kind), &at)| Node { arc, kind, at })
-                .collect()
+            let places = wire.kinds.iter().zip(&wire.after);
+            places.map(|(&kind, &at)| Node { kind, at }).collect()
         });
         Wires(wires.collect())
     }
@@ -55,15 +66,7 @@ impl Wires {
         windows.position(|nodes| nodes.iter().map(|node| node.at).eq(corners.iter().copied()))
     }
 
-    /// The segments that are no neighbours of a change: wire, arc lengths and positions of their ends.
-    pub(super) fn others<'a>(
-        &'a self,
-        change: &'a Remesh,
-    ) -> impl Iterator<Item = (usize, [f64; 2], [Point; 2])> + 'a {
-        self.apart(change)
-            .map(|(id, two)| (id.wire.0, two.map(|node| node.arc), two.map(|node| node.at)))
-    }
-
+    /// The segments that are no neighbours of a change.
     fn apart<'a>(
         &'a self,
         change: &'a Remesh,
@@ -102,9 +105,9 @@ impl Wires {
         })
     }
 
-    /// The segments that a change passes through, with a witness each. It is swept around the middle of the
-    /// triangle, which is not how the engine sweeps it. None if it is not a change of these wires.
-    pub(super) fn meetings(&self, change: &Remesh) -> Option<Vec<(SegmentId, EdgeEdge)>> {
+    /// The segments that a change passes through. It is swept around the middle of the triangle, which is not how the
+    /// engine sweeps it. None if it is not a change of these wires.
+    pub(super) fn meetings(&self, change: &Remesh) -> Option<Vec<Meeting>> {
         self.place(change)?;
         let [a, b, c] = change.triangle;
         let mut met = Vec::new();
@@ -112,10 +115,42 @@ impl Wires {
             let [p, q] = two.map(|node| node.at);
             let query = EdgeEdge::new([a, b, p, q], [c, b, p, q], 0.0).ok()?;
             if first_contact(query).is_some() {
-                met.push((id, query));
+                let passages = self.passages(change, id, two)?;
+                met.push(Meeting {
+                    id,
+                    query,
+                    passages,
+                });
             }
         }
         Some(met)
+    }
+
+    /// How often a change passes through a segment: taking `b` out moves the start of `bc` to `a`.
+    fn passages(&self, change: &Remesh, id: SegmentId, two: [Node; 2]) -> Option<Passages> {
+        let first = self.place(change)?;
+        let wire = &self.0[change.wire.0];
+        let [_, b, _] = change.triangle;
+        let (a, middle) = (wire[first], (NodeKind::Free, b));
+        let (last, from, to) = match change.kind {
+            RemeshKind::Merge => (first + 2, middle, a.fixed()),
+            RemeshKind::Split => (first + 1, a.fixed(), middle),
+        };
+        let c = wire[last].fixed();
+        let own = Held {
+            id: SegmentId {
+                wire: change.wire,
+                segment: first,
+            },
+            ends: [[from, c], [to, c]],
+        };
+        let other = Held {
+            id,
+            ends: [two.map(|node| node.fixed()); 2],
+        };
+        let [p, q] = two.map(|node| node.at);
+        let query = EdgeEdge::new([from.1, c.1, p, q], [to.1, c.1, p, q], 0.0).ok()?;
+        Some(passages(&query, [own, other]))
     }
 
     /// Makes a change.
@@ -128,7 +163,6 @@ impl Wires {
             RemeshKind::Merge => drop(wire.remove(first + 1)),
             RemeshKind::Split => {
                 let node = Node {
-                    arc: change.arcs[1],
                     kind: NodeKind::Free,
                     at: change.triangle[1],
                 };

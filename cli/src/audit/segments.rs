@@ -3,6 +3,8 @@
 use tunnelproof::query::{EdgeEdge, Point, QueryError};
 use tunnelproof::wire::{NodeKind, SegmentId, StepRecord, WireId};
 
+use super::aside::Held;
+
 /// A segment on its way: straight, from start to end.
 pub(super) struct Segment {
     pub(super) id: SegmentId,
@@ -24,13 +26,20 @@ impl Segment {
         })
     }
 
+    /// It and what fixes its ends.
+    pub(super) fn held(&self) -> Held {
+        let id = self.id;
+        let ends = [self.start, self.end].map(|at| [0, 1].map(|k| (self.kinds[k], at[k])));
+        Held { id, ends }
+    }
+
     /// Whether two segments are one and the same, have a node in common, or are fixed to one point.
     fn is_joined(&self, other: &Segment) -> bool {
         let (a, b) = (self.id, other.id);
         let neighbours = a.wire == b.wire && a.segment.abs_diff(b.segment) <= 1;
-        let ends = |segment: &Segment| [0, 1].map(|k| (segment.kinds[k], segment.start[k]));
-        let one_point = |x: &(NodeKind, Point)| ends(other).iter().any(|y| is_one_point(x, y));
-        neighbours || ends(self).iter().any(one_point)
+        let [others, _] = other.held().ends;
+        let one_point = |x: &(NodeKind, Point)| others.iter().any(|y| is_one_point(x, y));
+        neighbours || self.held().ends[0].iter().any(one_point)
     }
 }
 
@@ -43,11 +52,8 @@ pub(super) fn is_one_point(x: &(NodeKind, Point), y: &(NodeKind, Point)) -> bool
     }
 }
 
-/// All segments in the motion of a step, every node where `place` puts it.
-pub(super) fn moving(
-    record: &StepRecord,
-    place: impl Fn(usize, f64, Point) -> Point,
-) -> Vec<Segment> {
+/// All segments in the motion of a step.
+pub(super) fn moving(record: &StepRecord) -> Vec<Segment> {
     let mut all = Vec::new();
     for (w, wire) in record.wires.iter().enumerate() {
         let nodes = wire
@@ -56,9 +62,7 @@ pub(super) fn moving(
             .min(wire.after.len())
             .min(wire.kinds.len());
         for segment in 0..nodes.min(wire.arcs.len()).saturating_sub(1) {
-            let at = |points: &[Point]| {
-                [segment, segment + 1].map(|node| place(w, wire.arcs[node], points[node]))
-            };
+            let at = |points: &[Point]| [points[segment], points[segment + 1]];
             let wire_id = WireId(w);
             all.push(Segment {
                 id: SegmentId {

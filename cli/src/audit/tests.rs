@@ -68,7 +68,7 @@ fn records(mut world: World, mut collisions: Collisions<'_>, steps: usize) -> Ve
 }
 
 fn audited(records: &[StepRecord]) -> Report {
-    let mut audit = Audit::new(vec![0.02; records[0].wires.len()]);
+    let mut audit = Audit::default();
     records.iter().for_each(|record| audit.step(record));
     audit.finish()
 }

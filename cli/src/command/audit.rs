@@ -25,7 +25,7 @@ Examples:
   tunnelproof audit run.tps --replay run.html
 
 Every pair of segments whose swept boxes meet, in every step and every change of resolution, of one wire too. Exit code
-1 if anything passed unnoticed or stands on the wrong side at the end.")]
+1 if anything passed unnoticed, or stands or may stand on the wrong side at the end.")]
 pub(super) struct Audit {
     /// The recording
     recording: PathBuf,
@@ -46,8 +46,7 @@ impl Audit {
         let page = self.replay.as_deref().map(OutputFile::create).transpose()?;
         let mut replay = page.is_some().then(|| self.empty_page()).transpose()?;
         let recording = self.open()?;
-        let wires = recording.header().wires.iter();
-        let mut auditor = Auditor::new(wires.map(|wire| wire.material.radius).collect());
+        let mut auditor = Auditor::default();
         progress::counting("steps", |done| {
             for record in recording {
                 let record = record.map_err(|error| self.wrong(error))?;

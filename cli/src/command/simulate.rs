@@ -30,7 +30,7 @@ Examples:
   tunnelproof simulate --schema > scene.schema.json
 
 Scenes of the thesis (4.2): basic-collision, pulling-anchor, twisting-under-load, chains-on-deck. Exit code 1 if
-a step cannot be done, or the audit finds that something passed unnoticed or stands on the wrong side.")]
+a step cannot be done, or the audit finds that something passed unnoticed, or stands or may stand on the wrong side.")]
 pub(super) struct Simulate {
     /// The name of a scene of the thesis, or the path of a scene file
     #[arg(required_unless_present = "schema")]
@@ -222,7 +222,7 @@ impl<'a> Watch<'a> {
         Ok(Watch {
             vtk: options.vtk.as_deref().map(polygons).transpose()?,
             recorder: options.record.as_deref().map(record).transpose()?,
-            audit: options.audit.then(|| Audit::new(radii(world))),
+            audit: options.audit.then(Audit::default),
             replay: options.replay.as_ref().map(|_| {
                 let replay = Replay::new(&scene.title, Header::from(world), scene.steps());
                 replay.named_as_in(scene)

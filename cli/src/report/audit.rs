@@ -1,6 +1,6 @@
 //! What an audit came to, as text.
 
-use crate::audit::Report;
+use crate::audit::{Ambiguous, Report};
 use tunnelproof_reference::certify::table::grouped;
 
 /// Findings that are shown.
@@ -36,6 +36,7 @@ pub fn text(report: &Report) -> String {
         ("times early", worst(report.early)),
         ("contacts made up", grouped(report.false_hits)),
         ("standing tunnels", grouped(report.standing.len() as u64)),
+        ("ambiguous", grouped(report.ambiguous.len() as u64)),
     ];
     let mut text = String::from("Audit by the exact oracle\n");
     for (name, value) in rows {
@@ -43,6 +44,12 @@ pub fn text(report: &Report) -> String {
     }
     for ([a, b], passages) in &report.standing {
         text += &format!("  wires {a} and {b} have passed through each other: {passages:+}\n");
+    }
+    for Ambiguous { wires, least, most } in &report.ambiguous {
+        let [a, b] = wires;
+        text += &format!(
+            "  wires {a} and {b} met where they end, begin, or are fixed: {least:+} to {most:+} passages\n"
+        );
     }
     let (tunnels, others): (Vec<_>, Vec<_>) = report
         .findings

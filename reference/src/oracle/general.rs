@@ -38,16 +38,24 @@ fn crosses<Z: Integer>(motion: &dyn Motion<Z>, time: &Algebraic<Z>, locus: &Locu
     before != after && is_inside(time)
 }
 
-/// The passages of a motion with `f` not identically 0: +1 for each crossing at which `f` rises, -1 for each at which
-/// it falls.
-pub(super) fn passages<Z: Integer>(motion: &dyn Motion<Z>) -> i64 {
-    let times = isolate_roots(motion.f()).into_iter();
-    let signs = times.filter_map(|time| {
-        let locus = motion.locus(&time)?;
-        let rises = signs_around(motion.f(), &time).0.is_lt();
-        crosses(motion, &time, &locus).then_some(if rises { 1 } else { -1 })
-    });
-    signs.sum()
+/// The passages of a motion with `f` not identically 0: +1 for each contact at which `f` rises, -1 for each at which it
+/// falls. `None` if a contact is not inside both edges and the step: then a disturbance decides.
+pub(super) fn passages<Z: Integer>(motion: &dyn Motion<Z>) -> Option<i64> {
+    let mut sum = 0;
+    for time in isolate_roots(motion.f()) {
+        let Some(locus) = motion.locus(&time) else {
+            continue;
+        };
+        if !(locus.cuts_inside && is_inside(&time)) {
+            return None;
+        }
+        sum += match signs_around(motion.f(), &time) {
+            (before, after) if before == after => 0,
+            (Ordering::Less, _) => 1,
+            _ => -1,
+        };
+    }
+    Some(sum)
 }
 
 /// The signs of `f`, which is not identically 0, just before and just after a root of it.

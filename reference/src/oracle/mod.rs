@@ -28,6 +28,7 @@ use crate::field::{self, Integer};
 use crate::scaled::Scaled;
 use crate::subject::{Answer, NoAnswer, Subject};
 
+mod beside;
 mod confined;
 mod edges;
 mod face;
@@ -44,6 +45,7 @@ mod steps;
 mod tests;
 mod vector;
 
+pub use beside::passages_beside;
 pub use gap::{comes_within, estimate_gap, least_gap, least_gap_to};
 pub use steps::{Event, Step};
 
@@ -73,13 +75,14 @@ pub fn decide_query(query: &Query) -> ExactAnswer {
     decide::<field::Default>(query).written()
 }
 
-/// How often two edges pass through each other, in the sense of [`crate::answer`]: +1 for each crossing at which
-/// `f = (K x L) . M` rises, -1 for each at which it falls. 0 if `f` is identically 0.
-pub fn net_passages(query: &EdgeEdge) -> i64 {
+/// How often two edges pass through each other: +1 for each contact at which `f = (K x L) . M` rises, -1 for each at
+/// which it falls. `None` if a contact is not inside both edges and the step, or `f` is identically 0: then
+/// [`passages_beside`] has to say where they are moved aside.
+pub fn passages_inside(query: &EdgeEdge) -> Option<i64> {
     let query = Query::EdgeEdge(*query);
     let motion = motion_of(&query, &Scaled::<field::Default>::new(&query));
     match motion.f().is_zero() {
-        true => 0,
+        true => None,
         false => passages(&*motion),
     }
 }

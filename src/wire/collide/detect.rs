@@ -220,11 +220,18 @@ impl MidlineHit {
         (across.norm() > ANGLE).then(|| across.normalize())
     }
 
-    /// Whether the vector between the closest points has turned about from start to end: they came
-    /// through.
-    pub(super) fn passed_through(&self) -> bool {
-        let [before, after] = [self.query.start(), self.query.end()].map(Closest::new);
-        before.separation.dot(&after.separation) < 0.0
+    /// The vectors between the closest points at the start and at the end, from B to A. None where
+    /// they touch.
+    pub(super) fn separations(&self) -> [Option<Vector>; 2] {
+        let toi = self.contact.toi;
+        let of = |points: &[Point; 4], touches: bool| {
+            let separation = Closest::new(points).separation;
+            (!touches && separation != Vector::zeros()).then_some(separation)
+        };
+        [
+            of(self.query.start(), toi == 0.0),
+            of(self.query.end(), toi == 1.0),
+        ]
     }
 
     pub(super) fn crossing(&self, outcome: CrossingOutcome) -> Crossing {

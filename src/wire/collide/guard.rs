@@ -110,14 +110,23 @@ impl<'a, 'n> Guard<'a, 'n> {
 }
 
 /// What a hit that was not prevented came to. Wires that came through change sides, in the ledger
-/// of their contact.
+/// of their contact. Where a step ends in contact, the contact keeps the side from which they came,
+/// and the step after tells.
 fn passage(touches: &mut WireContacts, world: &World, hit: &MidlineHit) -> CrossingOutcome {
-    if !hit.passed_through() {
+    let [before, after] = hit.separations();
+    let known = |touches: &mut WireContacts| touches.nearest(world, &hit.sites).map(|t| t.side());
+    let before = before.or_else(|| known(touches));
+    let came_through = before.zip(after).map(|(a, b)| a.dot(&b) < 0.0);
+    let ends_in_contact = before.is_some() && after.is_none();
+    if came_through != Some(true) && !ends_in_contact {
         return CrossingOutcome::Grazed;
     }
     if let (None, Some((normal, _))) = (touches.nearest(world, &hit.sites), hit.normal()) {
         let new = touches.make(hit.sites, normal);
         touches.add(world, [new]);
+    }
+    if ends_in_contact {
+        return CrossingOutcome::Grazed;
     }
     match touches.nearest(world, &hit.sites) {
         Some(touch) => {

@@ -299,3 +299,46 @@ fn side_is_counted_and_not_read_from_positions() {
     let closest = Closest::of(&world, [first, second]);
     assert!((closest.distance() - 0.01).abs() < 1e-15);
 }
+
+#[test]
+fn passage_at_the_border_of_two_steps_is_a_tunnel() {
+    // Nothing gives way, so nothing is pushed back: three eyes of a scripted body and three pins.
+    let step = 0.0625;
+    let mut world = World::new(Settings {
+        gravity: Vector::zeros(),
+        step,
+        ..Settings::default()
+    })
+    .unwrap();
+    let places = [-1.0, 0.0, 1.0];
+    let wire = |route: [Stop; 3]| WirePlan::new(Material::steel(0.02), 3.0, route.to_vec());
+    let fixed = places.map(|y| Stop::Pinned(Point::new(0.0, y, 0.0)));
+    world.add_wire(&wire(fixed)).unwrap();
+    let down = Phase {
+        from: 0.0,
+        velocity: Vector::new(0.0, 0.0, -0.5 / step),
+        angular_velocity: Vector::zeros(),
+    };
+    let body = world
+        .add_body(BodyPlan {
+            drive: Drive::Kinematic(vec![down]),
+            ..BodyPlan::fixed(Shape::Sphere { radius: 0.1 }, Point::new(0.0, 0.0, 0.5))
+        })
+        .unwrap();
+    let eyes = places.map(|x| Stop::Eye {
+        body,
+        local: Vector::new(x, 0.0, 0.0),
+    });
+    world.add_wire(&wire(eyes)).unwrap();
+    let mut collisions =
+        Collisions::new(Mode::Thesis, Method::default(), &Certified).without_bodies();
+    let mut outcomes = Vec::new();
+    for expected in [0.0, -0.5, -1.0] {
+        let record = world.step_colliding(&mut collisions, &[]).unwrap();
+        assert_eq!(record.wires[1].after[1].z, expected);
+        let crossings = record.collisions.crossings.iter();
+        outcomes.push(crossings.map(|c| c.outcome).collect::<Vec<_>>());
+    }
+    use Outcome::{Grazed, Tunnelled};
+    assert_eq!(outcomes, [vec![Grazed], vec![Tunnelled], vec![]]);
+}

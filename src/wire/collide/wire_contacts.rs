@@ -157,6 +157,15 @@ impl WireContact {
         (0..2).all(|k| (self.sites[k].arc - sites[k].arc).abs() <= wires[0] + wires[1])
     }
 
+    /// The last direction between the places, from B to A.
+    pub(super) fn side(&self) -> Vector {
+        if self.wrong {
+            -self.normal
+        } else {
+            self.normal
+        }
+    }
+
     fn contact(&self, friction: f64) -> ContactConstraint {
         self.row(self.normal, self.gap, friction)
     }
