@@ -339,6 +339,6 @@ fn passage_at_the_border_of_two_steps_is_a_tunnel() {
         let crossings = record.collisions.crossings.iter();
         outcomes.push(crossings.map(|c| c.outcome).collect::<Vec<_>>());
     }
-    use Outcome::{Grazed, Tunnelled};
+    use CrossingOutcome::{Grazed, Tunnelled};
     assert_eq!(outcomes, [vec![Grazed], vec![Tunnelled], vec![]]);
 }
