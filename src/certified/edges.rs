@@ -151,16 +151,9 @@ fn decide_by_cubic<E: Ends>(
             .meeting(cubic, &Bracket::around(low, high))
             .is_apart()
     };
-    let Some(brackets) = cubic.isolate(is_apart) else {
-        return Finding::Undecided;
-    };
-    for bracket in brackets.as_slice() {
-        match decide_at_root(positions, motion, cubic, bracket) {
-            Finding::Miss => continue,
-            finding => return finding,
-        }
-    }
-    Finding::Miss
+    cubic.decide_at_roots(is_apart, |bracket| {
+        decide_at_root(positions, motion, cubic, bracket)
+    })
 }
 
 /// Whether the edges touch at the root in a bracket.

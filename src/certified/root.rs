@@ -3,6 +3,7 @@
 use super::cubic::{Cubic, have_one_sign};
 use super::ends::{larger, smaller};
 use super::separate::U;
+use super::stage::Finding;
 
 /// An interval that holds exactly one root of `f`, a simple one, strictly inside.
 #[derive(Clone, Copy, Debug)]
@@ -56,6 +57,26 @@ impl Cubic {
         };
         self.isolate_in(self.whole(), &is_apart, &mut found)?;
         Some(found)
+    }
+
+    /// What is found at the first root at which there is no miss, of those that
+    /// [`isolate`](Self::isolate) brackets. Undecided as soon as one of them is not certain.
+    #[inline(always)]
+    pub(super) fn decide_at_roots<H>(
+        &self,
+        is_apart: impl Fn(f64, f64) -> bool,
+        decide_at: impl Fn(&Bracket) -> Finding<H>,
+    ) -> Finding<H> {
+        let Some(brackets) = self.isolate(is_apart) else {
+            return Finding::Undecided;
+        };
+        for bracket in brackets.as_slice() {
+            match decide_at(bracket) {
+                Finding::Miss => {}
+                finding => return finding,
+            }
+        }
+        Finding::Miss
     }
 
     /// Halves `part` until each piece has no root, or none that matters, or one that can be

@@ -163,16 +163,9 @@ fn decide_by_cubic<E: Ends>(
     cubic: &Cubic,
 ) -> Finding<Hit<FacePlace>> {
     let is_apart = |low, high| raw_weights(motion, cubic, &Bracket::around(low, high)).are_apart();
-    let Some(brackets) = cubic.isolate(is_apart) else {
-        return Finding::Undecided;
-    };
-    for bracket in brackets.as_slice() {
-        match decide_at_root(positions, motion, cubic, bracket) {
-            Finding::Miss => continue,
-            finding => return finding,
-        }
-    }
-    Finding::Miss
+    cubic.decide_at_roots(is_apart, |bracket| {
+        decide_at_root(positions, motion, cubic, bracket)
+    })
 }
 
 /// Whether the vertex touches the face at the root in a bracket.
