@@ -179,17 +179,21 @@ impl Draft {
         }
     }
 
-    /// Zigzags in planes one above the other, of which one goes through the others; or all in one
-    /// plane.
+    /// Zigzags in planes one above the other, of which one goes through the others as it is; or all
+    /// in one plane, where they fold.
     fn planar(&mut self) {
-        let in_one = self.rng.random_bool(0.1);
+        let in_one = self.rng.random_bool(0.15);
         for k in 0..self.rng.random_range(2..=3) {
             let flat = |at: Point, z: f64| [at[0], at[1], z];
             let above = if in_one { 0.0 } else { f64::from(k) * 0.25 };
+            let is_fixed = k == 0 && !in_one;
             let mut route = Vec::new();
             for _ in 0..self.rng.random_range(2..=4) {
-                let (kind, at) = (self.kind(if k == 0 { 0.5 } else { 0.1 }), self.vector(0.7));
-                route.push(stop(kind, flat(at, above)));
+                let (kind, at) = (self.kind(if in_one { 0.3 } else { 0.0 }), self.vector(0.7));
+                route.push(stop(
+                    if is_fixed { "pinned" } else { kind },
+                    flat(at, above),
+                ));
             }
             let velocity = self.vector(4.0);
             let down = if in_one { 0.0 } else { -4.0 * f64::from(k) };
@@ -210,10 +214,10 @@ impl Draft {
             [0.0; 3],
             &[0.0, 1.0, 2.0, 3.0].map(|k| stop("pinned", along(k))),
         );
-        for _ in 0..self.rng.random_range(1..=2) {
+        for _ in 0..[1, 1, 1, 2][self.rng.random_range(0..4)] {
             let target = along([1.0, 2.0, 1.5, 0.25][self.rng.random_range(0..4)]);
             let place = [1.0, 1.0, 1.5, 0.5][self.rng.random_range(0..4)];
-            let place = if self.rng.random_bool(0.02) {
+            let place = if self.rng.random_bool(0.01) {
                 0.0
             } else {
                 place
@@ -249,7 +253,8 @@ impl Draft {
         for _ in 0..self.rng.random_range(2..=3) {
             let first = points[self.rng.random_range(0..2)];
             let mut route = vec![stop("pinned", first)];
-            for _ in 0..self.rng.random_range(1..=3) {
+            // With one there would be two segments in one place.
+            for _ in 0..self.rng.random_range(2..=3) {
                 let at = self.vector(1.0);
                 route.push(stop("free", at));
             }
@@ -335,7 +340,7 @@ impl Draft {
             let last = match self.rng.random_range(0..3) {
                 0 => eye(1, other),
                 1 => stop("free", other),
-                _ => eye(0, shared),
+                _ => eye(0, if first == shared { own } else { shared }),
             };
             let route = match self.rng.random_bool(0.5) {
                 true => vec![eye(0, first), stop("free", free), last],
