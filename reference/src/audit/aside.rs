@@ -16,7 +16,7 @@ use tunnelproof::wire::{NodeKind, SegmentId};
 use crate::oracle::{passages_beside, passages_inside};
 
 /// In how many positions passages are counted. Each second one is opposite to the one before.
-pub(super) const POSITIONS: usize = 16;
+pub(super) const POSITIONS: usize = 32;
 
 /// Signed passages in each position; `None` where segments moved aside still touch at an end.
 pub(super) type Passages = [Option<i64>; POSITIONS];

@@ -1,6 +1,6 @@
 //! The wires between two steps, while changes of resolution are made.
 
-use tunnelproof::query::{EdgeEdge, Point};
+use tunnelproof::query::EdgeEdge;
 use tunnelproof::wire::{NodeKind, Remesh, RemeshKind, SegmentId, StepRecord, WireId};
 
 use super::aside::{Held, Node, Passages, passages};
