@@ -2,10 +2,13 @@
 //! other.
 //!
 //! Every node is moved by a vector times one infinitesimal. Nodes fixed to one point have one
-//! vector, the others have that of their wire. So wires stay wires, and what is fixed together
-//! stays together. It does not depend on arc length, which changes where wire slides over a contact
-//! node. A wire against itself has another vector for the later one of the two segments: what
-//! counts is the difference of the two.
+//! vector, so what is fixed together stays together. In one half of the positions all other nodes
+//! of a wire have one vector as well, and a wire against itself another one for the later one of
+//! the two segments: what counts is the difference of the two. It does not depend on arc length,
+//! which changes where wire slides over a contact node. In the other half free nodes have a vector
+//! that is a cubic polynomial in arc length, so that what is straight, or slides along itself, does
+//! not stay so. A node that comes to ride a body, or leaves it, jumps there by an infinitesimal; if
+//! something touches it just then, the positions may differ, and that is ambiguous.
 
 use tunnelproof::query::{EdgeEdge, Point};
 use tunnelproof::wire::{NodeKind, SegmentId};
@@ -13,16 +16,25 @@ use tunnelproof::wire::{NodeKind, SegmentId};
 use tunnelproof_reference::oracle::{passages_beside, passages_inside};
 
 /// In how many positions passages are counted. Each second one is opposite to the one before.
-pub(super) const POSITIONS: usize = 16;
+pub(super) const POSITIONS: usize = 32;
 
 /// Signed passages in each position; `None` where segments moved aside still touch at an end.
 pub(super) type Passages = [Option<i64>; POSITIONS];
+
+/// A node.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    /// Arc length in m.
+    pub(super) arc: f64,
+    pub(super) kind: NodeKind,
+    pub(super) at: Point,
+}
 
 /// A segment and what fixes its ends at the start and at the end of a motion.
 #[derive(Clone, Copy)]
 pub(super) struct Held {
     pub(super) id: SegmentId,
-    pub(super) ends: [[(NodeKind, Point); 2]; 2],
+    pub(super) ends: [[Node; 2]; 2],
 }
 
 /// The passages of two segments whose motion is this query, each with its own points of it.
@@ -31,11 +43,10 @@ pub(super) fn passages(query: &EdgeEdge, two: [Held; 2]) -> Passages {
         return [Some(passages); POSITIONS];
     }
     let is_later = |k: usize| two[k].id.wire == two[1 - k].id.wire && two[k].id > two[1 - k].id;
-    let wire = |k: usize| [two[k].id.wire.0 as u64, u64::from(is_later(k)), 0, 0];
     std::array::from_fn(|position| {
         let of = |time: usize, k: usize, end: usize| {
-            let fixed = fixed(two[k].ends[time][end]);
-            offset(position, fixed.unwrap_or_else(|| wire(k)))
+            let (wire, node) = (two[k].id.wire.0, &two[k].ends[time][end]);
+            offset(position, [wire as u64, u64::from(is_later(k))], node)
         };
         let four = |time| {
             [
@@ -49,24 +60,40 @@ pub(super) fn passages(query: &EdgeEdge, two: [Held; 2]) -> Passages {
     })
 }
 
+/// The vector of a node of a wire in a position.
+fn offset(position: usize, [wire, later]: [u64; 2], node: &Node) -> [i64; 3] {
+    let by_arc = position >= POSITIONS / 2 && node.kind == NodeKind::Free;
+    match fixed(node) {
+        Some(place) => vector(position, place),
+        None if by_arc => {
+            let powers = [0, 1, 2, 3].map(|k| {
+                let size = node.arc.powi(k as i32);
+                vector(position, [wire, 2, k, 0]).map(|x| (x as f64 * size).round() as i64)
+            });
+            [0, 1, 2].map(|h| powers.iter().map(|power| power[h]).sum())
+        }
+        None => vector(position, [wire, later, 0, 0]),
+    }
+}
+
 /// The point that a node is fixed to for good.
-fn fixed((kind, at): (NodeKind, Point)) -> Option<[u64; 4]> {
+fn fixed(Node { kind, at, .. }: &Node) -> Option<[u64; 4]> {
     // 0 and -0 are one point.
     let bits = |x: f64| (x + 0.0).to_bits();
     let of = |carrier: u64, point: [f64; 3]| {
         let [x, y, z] = point.map(bits);
         [!carrier, x, y, z]
     };
-    match kind {
+    match *kind {
         NodeKind::Pinned => Some(of(0, [at.x, at.y, at.z])),
         NodeKind::Eye { body, local } => Some(of(body.0 as u64 + 1, local.into())),
         _ => None,
     }
 }
 
-/// The vector of a place in a position.
-fn offset(position: usize, place: [u64; 4]) -> [i64; 3] {
-    const BITS: u32 = 16;
+/// The vector of a place, or of a wire, in a position.
+fn vector(position: usize, place: [u64; 4]) -> [i64; 3] {
+    const BITS: u32 = 24;
     let seed = place
         .into_iter()
         .fold(position as u64 / 2, |seed, word| mixed(seed ^ mixed(word)));

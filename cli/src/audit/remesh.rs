@@ -1,21 +1,15 @@
 //! The wires between two steps, while changes of resolution are made.
 
-use tunnelproof::query::{EdgeEdge, Point};
+use tunnelproof::query::EdgeEdge;
 use tunnelproof::wire::{NodeKind, Remesh, RemeshKind, SegmentId, StepRecord, WireId};
 
-use super::aside::{Held, Passages, passages};
+use super::aside::{Held, Node, Passages, passages};
 use super::first_contact;
 use super::segments::is_one_point;
 
 /// All wires where a step has left them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Wires(Vec<Vec<Node>>);
-
-#[derive(Clone, Copy, Debug)]
-struct Node {
-    kind: NodeKind,
-    at: Point,
-}
 
 /// A segment that a change passes through, with a witness.
 pub(super) struct Meeting {
@@ -24,18 +18,14 @@ pub(super) struct Meeting {
     pub(super) passages: Passages,
 }
 
-impl Node {
-    fn fixed(&self) -> (NodeKind, Point) {
-        (self.kind, self.at)
-    }
-}
-
 impl Wires {
     /// After the motion of a step.
     pub(super) fn after(record: &StepRecord) -> Self {
         let wires = record.wires.iter().map(|wire| {
-            let places = wire.kinds.iter().zip(&wire.after);
-            places.map(|(&kind, &at)| Node { kind, at }).collect()
+            let places = wire.arcs.iter().zip(&wire.kinds).zip(&wire.after);
+            places
+                .map(|((&arc, &kind), &at)| Node { arc, kind, at })
+                .collect()
         });
         Wires(wires.collect())
     }
@@ -130,13 +120,12 @@ impl Wires {
     fn passages(&self, change: &Remesh, id: SegmentId, two: [Node; 2]) -> Option<Passages> {
         let first = self.place(change)?;
         let wire = &self.0[change.wire.0];
-        let [_, b, _] = change.triangle;
-        let (a, middle) = (wire[first], (NodeKind::Free, b));
+        let (a, middle) = (wire[first], middle(change));
         let (last, from, to) = match change.kind {
-            RemeshKind::Merge => (first + 2, middle, a.fixed()),
-            RemeshKind::Split => (first + 1, a.fixed(), middle),
+            RemeshKind::Merge => (first + 2, middle, a),
+            RemeshKind::Split => (first + 1, a, middle),
         };
-        let c = wire[last].fixed();
+        let c = wire[last];
         let own = Held {
             id: SegmentId {
                 wire: change.wire,
@@ -144,12 +133,9 @@ impl Wires {
             },
             ends: [[from, c], [to, c]],
         };
-        let other = Held {
-            id,
-            ends: [two.map(|node| node.fixed()); 2],
-        };
+        let other = Held { id, ends: [two; 2] };
         let [p, q] = two.map(|node| node.at);
-        let query = EdgeEdge::new([from.1, c.1, p, q], [to.1, c.1, p, q], 0.0).ok()?;
+        let query = EdgeEdge::new([from.at, c.at, p, q], [to.at, c.at, p, q], 0.0).ok()?;
         Some(passages(&query, [own, other]))
     }
 
@@ -162,12 +148,17 @@ impl Wires {
         match change.kind {
             RemeshKind::Merge => drop(wire.remove(first + 1)),
             RemeshKind::Split => {
-                let node = Node {
-                    kind: NodeKind::Free,
-                    at: change.triangle[1],
-                };
-                wire.insert(first + 1, node);
+                wire.insert(first + 1, middle(change));
             }
         }
+    }
+}
+
+/// The node in the middle of a change.
+fn middle(change: &Remesh) -> Node {
+    Node {
+        arc: change.arcs[1],
+        kind: NodeKind::Free,
+        at: change.triangle[1],
     }
 }

@@ -3,13 +3,14 @@
 use tunnelproof::query::{EdgeEdge, Point, QueryError};
 use tunnelproof::wire::{NodeKind, SegmentId, StepRecord, WireId};
 
-use super::aside::Held;
+use super::aside::{Held, Node};
 
 /// A segment on its way: straight, from start to end.
 pub(super) struct Segment {
     pub(super) id: SegmentId,
     pub(super) start: [Point; 2],
     pub(super) end: [Point; 2],
+    arcs: [f64; 2],
     kinds: [NodeKind; 2],
 }
 
@@ -29,7 +30,12 @@ impl Segment {
     /// It and what fixes its ends.
     pub(super) fn held(&self) -> Held {
         let id = self.id;
-        let ends = [self.start, self.end].map(|at| [0, 1].map(|k| (self.kinds[k], at[k])));
+        let node = |at: [Point; 2], k: usize| Node {
+            arc: self.arcs[k],
+            kind: self.kinds[k],
+            at: at[k],
+        };
+        let ends = [self.start, self.end].map(|at| [0, 1].map(|k| node(at, k)));
         Held { id, ends }
     }
 
@@ -37,9 +43,9 @@ impl Segment {
     fn is_joined(&self, other: &Segment) -> bool {
         let (a, b) = (self.id, other.id);
         let neighbours = a.wire == b.wire && a.segment.abs_diff(b.segment) <= 1;
-        let [others, _] = other.held().ends;
-        let one_point = |x: &(NodeKind, Point)| others.iter().any(|y| is_one_point(x, y));
-        neighbours || self.held().ends[0].iter().any(one_point)
+        let ends = |segment: &Segment| [0, 1].map(|k| (segment.kinds[k], segment.start[k]));
+        let one_point = |x: &(NodeKind, Point)| ends(other).iter().any(|y| is_one_point(x, y));
+        neighbours || ends(self).iter().any(one_point)
     }
 }
 
@@ -71,6 +77,7 @@ pub(super) fn moving(record: &StepRecord) -> Vec<Segment> {
                 },
                 start: at(&wire.before),
                 end: at(&wire.after),
+                arcs: [wire.arcs[segment], wire.arcs[segment + 1]],
                 kinds: [wire.kinds[segment], wire.kinds[segment + 1]],
             });
         }

@@ -201,9 +201,13 @@ impl Count {
         let numbers = match fixed {
             Some(anchor) => integers(&format!("{seed} {anchor}")),
             None => {
-                let base = integers(&format!("{seed} wire {}", node.wire));
-                let shear = integers(&format!("{seed} shear {}", node.wire));
-                [0, 1, 2].map(|h| (base[h] + shear[h] * node.arc).round())
+                // A cubic: what is straight is so no more.
+                let power = |k: i32| {
+                    let numbers = integers(&format!("{seed} wire {} to {k}", node.wire));
+                    numbers.map(|x| x * node.arc.powi(k))
+                };
+                let powers = [0, 1, 2, 3].map(power);
+                [0, 1, 2].map(|h| powers.iter().map(|power| power[h]).sum::<f64>().round())
             }
         };
         numbers.map(|x| BigInt::from(x as i64))

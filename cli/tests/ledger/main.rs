@@ -14,7 +14,7 @@ use tunnelproof::certified::Certified;
 use tunnelproof::contact::Verdict;
 use tunnelproof::narrow::{NarrowPhase, Report as Said, Unsupported};
 use tunnelproof::query::EdgeEdge;
-use tunnelproof::wire::{Mode, StepRecord};
+use tunnelproof::wire::{Mode, NodeKind, StepRecord};
 use tunnelproof_cli::audit::{Audit, Report};
 use tunnelproof_cli::scenes::Scene;
 use tunnelproof_cli::simulate::Narrow;
@@ -214,7 +214,7 @@ fn judgement_finds_faults_of_the_ledger() {
     let report = audited(&records);
     let counted = counted(&records, 0).standing();
     assert_eq!(report.standing, counted);
-    // A step left out, the sign of time, wires confused.
+    // A step left out, and time that runs back.
     let without = |step: usize| {
         let mut records = records.clone();
         records.remove(step);
@@ -229,6 +229,25 @@ fn judgement_finds_faults_of_the_ledger() {
     let reversed: Vec<_> = counted.iter().map(|(wires, sum)| (*wires, -sum)).collect();
     assert_eq!(audited(&back).standing, reversed);
     assert_ne!(reversed, counted);
+}
+
+/// A ledger that does not know what is fixed together counts segments that the audit of motions leaves
+/// out.
+#[test]
+fn judgement_finds_a_ledger_that_tears_pins_apart() {
+    let is_found = |seed| {
+        let scene = Scene::from_toml(&scene(Sort::Pins, seed)).unwrap();
+        let records = records(&scene, Mode::Thesis, &Certified);
+        let mut torn = records.clone();
+        for wire in torn.iter_mut().flat_map(|record| &mut record.wires) {
+            wire.kinds.fill(NodeKind::Free);
+        }
+        let counted = counted(&records, seed).standing();
+        assert_eq!(audited(&records).standing, counted, "seed {seed}");
+        audited(&torn).standing != counted || !audited(&torn).ambiguous.is_empty()
+    };
+    let found = (0..40).filter(|&seed| is_found(seed)).count();
+    assert!(found > 5, "{found}");
 }
 
 /// Guard mode with a narrow phase that misses lets wires through: each time the audit says so.

@@ -179,53 +179,57 @@ impl Draft {
         }
     }
 
+    /// Zigzags in planes one above the other, of which one goes through the others as it is; or all
+    /// in one plane, where they fold.
     fn planar(&mut self) {
+        let in_one = self.rng.random_bool(0.15);
         for k in 0..self.rng.random_range(2..=3) {
-            let flat = |mut at: Point| {
-                at[2] = 0.0;
-                at
-            };
+            let flat = |at: Point, z: f64| [at[0], at[1], z];
+            let above = if in_one { 0.0 } else { f64::from(k) * 0.25 };
+            let is_fixed = k == 0 && !in_one;
             let mut route = Vec::new();
             for _ in 0..self.rng.random_range(2..=4) {
-                let (kind, at) = (self.kind(0.3), self.vector(1.0));
-                route.push(stop(kind, flat(at)));
+                let (kind, at) = (self.kind(if in_one { 0.3 } else { 0.0 }), self.vector(0.7));
+                route.push(stop(
+                    if is_fixed { "pinned" } else { kind },
+                    flat(at, above),
+                ));
             }
-            let across = k == 2 && self.rng.random_bool(0.5);
-            let velocity = self.vector(8.0);
-            let velocity = if across {
-                [0.0, 0.0, 6.0]
-            } else {
-                flat(velocity)
-            };
-            self.wire(0.4, velocity, &route);
+            let velocity = self.vector(4.0);
+            let down = if in_one { 0.0 } else { -4.0 * f64::from(k) };
+            self.wire(0.4, flat(velocity, down), &route);
         }
     }
 
+    /// A pinned wire, and others that go through it, node to node or not.
     fn lattice(&mut self, origin: Point, unit: f64, radius: f64) {
         self.radius = radius;
-        let ways = [
-            [1.0, 0.0, 0.0],
-            [0.0, 1.0, 0.0],
-            [0.0, 0.0, 1.0],
-            [1.0, 1.0, 0.0],
-            [1.0, -1.0, 1.0],
-        ];
-        for k in 0..self.rng.random_range(2..=3) {
-            let mut at = add(origin, self.grid(3, unit));
-            let way = ways[self.rng.random_range(0..ways.len())].map(|x: f64| x * 4.0 * unit);
-            let pinned = k == 0 || self.rng.random_bool(0.3);
-            let kind = if pinned { "pinned" } else { "free" };
-            let mut route = vec![stop(kind, at)];
-            for _ in 0..self.rng.random_range(1..=3) {
-                at = add(at, way);
-                route.push(stop(kind, at));
-            }
-            let velocity = if pinned {
-                [0.0; 3]
+        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let turn = self.rng.random_range(0..3);
+        let axis = |k: usize| axes[(k + turn) % 3].map(|x: f64| x * 4.0 * unit);
+        let start = add(origin, self.grid(3, unit));
+        let along = |k: f64| add(start, axis(0).map(|x| x * k));
+        self.wire(
+            unit * 4.0,
+            [0.0; 3],
+            &[0.0, 1.0, 2.0, 3.0].map(|k| stop("pinned", along(k))),
+        );
+        for _ in 0..[1, 1, 1, 2][self.rng.random_range(0..4)] {
+            let target = along([1.0, 2.0, 1.5, 0.25][self.rng.random_range(0..4)]);
+            let place = [1.0, 1.0, 1.5, 0.5][self.rng.random_range(0..4)];
+            let place = if self.rng.random_bool(0.01) {
+                0.0
             } else {
-                self.grid(2, unit / STEP)
+                place
             };
-            let resolution = unit * [2.0, 4.0, 16.0][self.rng.random_range(0..3)];
+            let skew = f64::from(self.rng.random_range(-1..=1));
+            let way = add(axis(1), axis(0).map(|x| x * skew));
+            let mut velocity = self.grid(1, unit / STEP);
+            velocity[(2 + turn) % 3] = -2.0 * unit / STEP;
+            let time = STEP * f64::from(self.rng.random_range(1..=6)) / 2.0;
+            let from = [0, 1, 2].map(|h| target[h] - velocity[h] * time - way[h] * place);
+            let route = [0.0, 1.0, 2.0].map(|k| stop("free", add(from, way.map(|x| x * k))));
+            let resolution = unit * [2.0, 16.0][self.rng.random_range(0..2)];
             self.wire(resolution, velocity, &route);
         }
     }
@@ -249,7 +253,8 @@ impl Draft {
         for _ in 0..self.rng.random_range(2..=3) {
             let first = points[self.rng.random_range(0..2)];
             let mut route = vec![stop("pinned", first)];
-            for _ in 0..self.rng.random_range(1..=3) {
+            // With one there would be two segments in one place.
+            for _ in 0..self.rng.random_range(2..=3) {
                 let at = self.vector(1.0);
                 route.push(stop("free", at));
             }
@@ -335,7 +340,7 @@ impl Draft {
             let last = match self.rng.random_range(0..3) {
                 0 => eye(1, other),
                 1 => stop("free", other),
-                _ => eye(0, shared),
+                _ => eye(0, if first == shared { own } else { shared }),
             };
             let route = match self.rng.random_bool(0.5) {
                 true => vec![eye(0, first), stop("free", free), last],

@@ -275,7 +275,7 @@ mod tests {
     fn passages_beside_are_those_of_edges_moved_by_a_hair() {
         let rng = &mut ChaCha8Rng::seed_from_u64(30);
         let (mut touching, mut sums) = (0, [0; 3]);
-        for round in 0..6000 {
+        for round in 0..3000 {
             let most = [1, 2, 8][round % 3];
             let mut at = [(); 2].map(|()| points(rng, most));
             match round % 5 {
@@ -311,7 +311,7 @@ mod tests {
                 "{still:?} {offsets:?}"
             );
             touching += usize::from(passages_inside(&still).is_none());
-            sums[(beside.unwrap() + 1) as usize] += 1;
+            sums[(beside.unwrap().signum() + 1) as usize] += 1;
         }
         println!("{touching} touch where they end; passages {sums:?}");
         assert!(touching > 1000 && sums.iter().all(|&count| count > 100));
