@@ -52,7 +52,8 @@ fn entry(number: u64, vector: &Value, options: ReadOptions) -> Result<Entry, Pro
         number,
         text: vector.to_string(),
     };
-    let kind = options.kind.or(Some(QueryKind::EdgeEdge));
+    let unstated = vector["kind"].is_null().then_some(QueryKind::EdgeEdge);
+    let kind = options.kind.or(unstated);
     let entry = jsonl::entry(&line, ReadOptions { kind, ..options })?;
     Ok(Entry {
         label: vector["result"]["hit"].as_bool(),

@@ -31,6 +31,16 @@ fn vector_file_gives_labelled_queries() {
 }
 
 #[test]
+fn vector_file_takes_the_kind_that_a_vector_states() {
+    let face =
+        vector("a", EIGHT, true).replace("\"points\"", "\"kind\": \"vertex-face\", \"points\"");
+    let text = document(&[&face, &vector("b", EIGHT, true)]);
+    let entries = entries("a.json", text, ReadOptions::default());
+    let kinds: Vec<_> = entries.iter().map(|entry| entry.query.kind()).collect();
+    assert_eq!(kinds, [QueryKind::VertexFace, QueryKind::EdgeEdge]);
+}
+
+#[test]
 fn vector_file_errors_say_where() {
     let read = |text: String| read_text("a.json", text, ReadOptions::default());
     let bad = vector("b", "[[0,0,0]]", true);
