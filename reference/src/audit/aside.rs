@@ -127,7 +127,7 @@ fn vector(position: usize, place: [u64; 4]) -> [i64; 3] {
     let seed = place
         .into_iter()
         .fold(position as u64 / 2, |seed, word| mixed(seed ^ mixed(word)));
-    let opposite = if position % 2 == 0 { 1 } else { -1 };
+    let opposite = if position.is_multiple_of(2) { 1 } else { -1 };
     let component = |k: u64| {
         let (low, size) = (-(1i64 << (BITS - 1)), 1u64 << BITS);
         opposite * (low + (mixed(seed.wrapping_add(k)) % size) as i64)

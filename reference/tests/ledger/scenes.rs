@@ -214,7 +214,7 @@ impl Draft {
             [0.0; 3],
             &[0.0, 1.0, 2.0, 3.0].map(|k| stop("pinned", along(k))),
         );
-        for _ in 0..[1, 1, 1, 2][self.rng.random_range(0..4)] {
+        for _ in 0..1 + u32::from(self.rng.random_bool(0.1)) {
             let target = along([1.0, 2.0, 1.5, 0.25][self.rng.random_range(0..4)]);
             let place = [1.0, 1.0, 1.5, 0.5][self.rng.random_range(0..4)];
             let place = if self.rng.random_bool(0.005) {
