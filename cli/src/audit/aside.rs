@@ -13,13 +13,20 @@
 use tunnelproof::query::{EdgeEdge, Point};
 use tunnelproof::wire::{NodeKind, SegmentId};
 
+use super::first_contact;
 use tunnelproof_reference::oracle::{passages_beside, passages_inside};
 
 /// In how many positions passages are counted. Each second one is opposite to the one before.
 pub(super) const POSITIONS: usize = 32;
 
-/// Signed passages in each position; `None` where segments moved aside still touch at an end.
-pub(super) type Passages = [Option<i64>; POSITIONS];
+/// Signed passages.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Passages {
+    /// In each position; `None` where segments moved aside still touch at an end.
+    pub(super) by_position: [Option<i64>; POSITIONS],
+    /// Whether a contact is at the end of a wire, so that it may depend on the position.
+    pub(super) at_end: bool,
+}
 
 /// A node.
 #[derive(Clone, Copy, Debug)]
@@ -35,15 +42,20 @@ pub(super) struct Node {
 pub(super) struct Held {
     pub(super) id: SegmentId,
     pub(super) ends: [[Node; 2]; 2],
+    /// Whether its first node is the first of the wire, and its last the last.
+    pub(super) is_last: [bool; 2],
 }
 
 /// The passages of two segments whose motion is this query, each with its own points of it.
 pub(super) fn passages(query: &EdgeEdge, two: [Held; 2]) -> Passages {
     if let Some(passages) = passages_inside(query) {
-        return [Some(passages); POSITIONS];
+        return Passages {
+            by_position: [Some(passages); POSITIONS],
+            at_end: false,
+        };
     }
     let is_later = |k: usize| two[k].id.wire == two[1 - k].id.wire && two[k].id > two[1 - k].id;
-    std::array::from_fn(|position| {
+    let by_position = std::array::from_fn(|position| {
         let of = |time: usize, k: usize, end: usize| {
             let (wire, node) = (two[k].id.wire.0, &two[k].ends[time][end]);
             offset(position, [wire as u64, u64::from(is_later(k))], node)
@@ -57,7 +69,25 @@ pub(super) fn passages(query: &EdgeEdge, two: [Held; 2]) -> Passages {
             ]
         };
         passages_beside(query, &[0, 1].map(four))
-    })
+    });
+    let at_end = [0, 1, 2, 3]
+        .into_iter()
+        .any(|k| two[k / 2].is_last[k % 2] && is_met(query, k));
+    Passages {
+        by_position,
+        at_end,
+    }
+}
+
+/// Whether A, B, C or D, by number, meets the other edge.
+fn is_met(query: &EdgeEdge, which: usize) -> bool {
+    let alone = |points: &[Point; 4]| {
+        let mut points = *points;
+        points[which ^ 1] = points[which];
+        points
+    };
+    let query = EdgeEdge::new(alone(query.start()), alone(query.end()), 0.0);
+    query.is_ok_and(|query| first_contact(query).is_some())
 }
 
 /// The vector of a node of a wire in a position.
@@ -97,7 +127,7 @@ fn vector(position: usize, place: [u64; 4]) -> [i64; 3] {
     let seed = place
         .into_iter()
         .fold(position as u64 / 2, |seed, word| mixed(seed ^ mixed(word)));
-    let opposite = if position % 2 == 0 { 1 } else { -1 };
+    let opposite = if position.is_multiple_of(2) { 1 } else { -1 };
     let component = |k: u64| {
         let (low, size) = (-(1i64 << (BITS - 1)), 1u64 << BITS);
         opposite * (low + (mixed(seed.wrapping_add(k)) % size) as i64)

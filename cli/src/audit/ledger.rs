@@ -6,10 +6,10 @@
 //! motions or of changes of resolution, for no other pair can come to meet. So what stands has been
 //! in contact, and each of these contacts was reported or is a finding.
 //!
-//! Where contacts are inside the wires, between the first and the last step, and not at a segment
-//! that shares a node with the other one, the sum is the same in every general position: it is a
-//! degree. Elsewhere it may depend on where nodes are moved. So it is taken in several positions,
-//! and is ambiguous if they differ.
+//! Where contacts are inside the wires, between the start and the end of the run, and not at
+//! segments that share a node, the sum is the same in every general position: it is a degree. At an
+//! end of a wire or of the run it may depend on where nodes are moved, so the two wires are
+//! ambiguous. So they are if sums in several positions differ.
 
 use std::collections::BTreeMap;
 
@@ -49,24 +49,42 @@ impl Ledger {
         let differ = sums.filter(|(_, sums)| agreed(sums).is_none());
         let ambiguous = differ.map(|(&wires, sums)| Ambiguous {
             wires,
-            least: sums.iter().flatten().min().copied().unwrap_or(0),
-            most: sums.iter().flatten().max().copied().unwrap_or(0),
+            least: known(sums).min().unwrap_or(0),
+            most: known(sums).max().unwrap_or(0),
         });
         ambiguous.collect()
     }
 
     /// Adds the passages of two segments.
     pub(super) fn enter(&mut self, wires: [usize; 2], passages: &Passages) {
-        let wires = [wires[0].min(wires[1]), wires[0].max(wires[1])];
-        let sums = self.sums.entry(wires).or_insert([Some(0); POSITIONS]);
-        for (sum, passages) in sums.iter_mut().zip(passages) {
-            *sum = sum.zip(*passages).map(|(sum, passages)| sum + passages);
+        let sums = self.of(wires);
+        sums.at_end |= passages.at_end;
+        for (sum, passages) in sums.by_position.iter_mut().zip(passages.by_position) {
+            *sum = sum.zip(passages).map(|(sum, passages)| sum + passages);
         }
+    }
+
+    /// Notes that the run starts or ends with a contact of two wires.
+    pub(super) fn cut(&mut self, wires: [usize; 2]) {
+        self.of(wires).at_end = true;
+    }
+
+    fn of(&mut self, wires: [usize; 2]) -> &mut Passages {
+        let wires = [wires[0].min(wires[1]), wires[0].max(wires[1])];
+        self.sums.entry(wires).or_insert(Passages {
+            by_position: [Some(0); POSITIONS],
+            at_end: false,
+        })
     }
 }
 
-/// The sum that every position gives.
+fn known(sums: &Passages) -> impl Iterator<Item = i64> {
+    sums.by_position.iter().flatten().copied()
+}
+
+/// The sum that every position gives, and every other one would.
 fn agreed(sums: &Passages) -> Option<i64> {
-    let first = sums[0]?;
-    sums.iter().all(|sum| *sum == Some(first)).then_some(first)
+    let first = sums.by_position[0]?;
+    let same = sums.by_position.iter().all(|sum| *sum == Some(first));
+    (same && !sums.at_end).then_some(first)
 }

@@ -47,6 +47,8 @@ pub const MOST_FINDINGS: usize = 1000;
 pub struct Audit {
     ledger: Ledger,
     left: Option<Wires>,
+    /// The wires of contacts in the last step, and where the two segments end.
+    last: Vec<([usize; 2], [Point; 4])>,
     report: Report,
 }
 
@@ -149,6 +151,12 @@ impl Audit {
 
     /// What it came to.
     pub fn finish(mut self) -> Report {
+        for (wires, end) in std::mem::take(&mut self.last) {
+            let query = EdgeEdge::new(end, end, 0.0);
+            if query.is_ok_and(|query| first_contact(query).is_some()) {
+                self.ledger.cut(wires);
+            }
+        }
         self.report.standing = self.ledger.standing();
         self.report.ambiguous = self.ledger.ambiguous();
         self.report
@@ -183,10 +191,16 @@ impl Audit {
             let passages = passages(&query, [a.held(), b.held()]);
             Some(([a.id, b.id], query, hit, passages))
         };
+        self.last.clear();
         let met: Vec<_> = pairs.into_par_iter().filter_map(asked).collect();
         for (pair, query, hit, passages) in met {
             self.report.contacts += 1;
-            self.ledger.enter(pair.map(|id| id.wire.0), &passages);
+            let wires = pair.map(|id| id.wire.0);
+            self.ledger.enter(wires, &passages);
+            if self.report.steps == 1 && hit.is_initial() {
+                self.ledger.cut(wires);
+            }
+            self.last.push((wires, *query.end()));
             let crossing = hit.kind == ContactKind::Crossing || hit.crosses;
             self.report.crossings += u64::from(crossing);
             let missed = |by| Some(What::Missed { by, crossing });

@@ -132,8 +132,13 @@ impl Wires {
                 segment: first,
             },
             ends: [[from, c], [to, c]],
+            is_last: [false, last + 1 == wire.len()],
         };
-        let other = Held { id, ends: [two; 2] };
+        let other = Held {
+            id,
+            ends: [two; 2],
+            is_last: [id.segment == 0, id.segment + 2 == self.0[id.wire.0].len()],
+        };
         let [p, q] = two.map(|node| node.at);
         let query = EdgeEdge::new([from.at, c.at, p, q], [to.at, c.at, p, q], 0.0).ok()?;
         Some(passages(&query, [own, other]))

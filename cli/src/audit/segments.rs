@@ -11,6 +11,7 @@ pub(super) struct Segment {
     pub(super) start: [Point; 2],
     pub(super) end: [Point; 2],
     arcs: [f64; 2],
+    is_last: [bool; 2],
     kinds: [NodeKind; 2],
 }
 
@@ -36,7 +37,8 @@ impl Segment {
             at: at[k],
         };
         let ends = [self.start, self.end].map(|at| [0, 1].map(|k| node(at, k)));
-        Held { id, ends }
+        let is_last = self.is_last;
+        Held { id, ends, is_last }
     }
 
     /// Whether two segments are one and the same, have a node in common, or are fixed to one point.
@@ -66,8 +68,9 @@ pub(super) fn moving(record: &StepRecord) -> Vec<Segment> {
             .before
             .len()
             .min(wire.after.len())
-            .min(wire.kinds.len());
-        for segment in 0..nodes.min(wire.arcs.len()).saturating_sub(1) {
+            .min(wire.kinds.len())
+            .min(wire.arcs.len());
+        for segment in 0..nodes.saturating_sub(1) {
             let at = |points: &[Point]| [points[segment], points[segment + 1]];
             let wire_id = WireId(w);
             all.push(Segment {
@@ -77,6 +80,7 @@ pub(super) fn moving(record: &StepRecord) -> Vec<Segment> {
                 },
                 start: at(&wire.before),
                 end: at(&wire.after),
+                is_last: [segment == 0, segment + 2 == nodes],
                 arcs: [wire.arcs[segment], wire.arcs[segment + 1]],
                 kinds: [wire.kinds[segment], wire.kinds[segment + 1]],
             });

@@ -231,8 +231,8 @@ fn judgement_finds_faults_of_the_ledger() {
     assert_ne!(reversed, counted);
 }
 
-/// A ledger that does not know what is fixed together counts segments that the audit of motions leaves
-/// out.
+/// A ledger that does not know what is fixed together counts segments that the audit of motions
+/// leaves out.
 #[test]
 fn judgement_finds_a_ledger_that_tears_pins_apart() {
     let is_found = |seed| {

@@ -179,25 +179,25 @@ impl Draft {
         }
     }
 
-    /// Zigzags in planes one above the other, of which one goes through the others as it is; or all
-    /// in one plane, where they fold.
+    /// Zigzags in planes one above the other, of which one goes through the others as it is; or
+    /// side by side in one plane, where they fold and go past each other.
     fn planar(&mut self) {
-        let in_one = self.rng.random_bool(0.15);
+        let in_one = self.rng.random_bool(0.1);
         for k in 0..self.rng.random_range(2..=3) {
-            let flat = |at: Point, z: f64| [at[0], at[1], z];
-            let above = if in_one { 0.0 } else { f64::from(k) * 0.25 };
-            let is_fixed = k == 0 && !in_one;
+            let (above, beside) = if in_one { (0.0, 0.5) } else { (0.25, 0.0) };
+            let (above, beside) = (above * f64::from(k), beside * f64::from(k));
             let mut route = Vec::new();
-            for _ in 0..self.rng.random_range(2..=4) {
-                let (kind, at) = (self.kind(if in_one { 0.3 } else { 0.0 }), self.vector(0.7));
-                route.push(stop(
-                    if is_fixed { "pinned" } else { kind },
-                    flat(at, above),
-                ));
+            for i in 0..self.rng.random_range(2..=4) {
+                let kind = self.kind(if in_one { 0.3 } else { 0.0 });
+                let kind = if k == 0 && !in_one { "pinned" } else { kind };
+                let [x, y, _] = self.vector(0.2);
+                let along = f64::from(i) * 0.5 - 0.7;
+                route.push(stop(kind, [along + x, beside + y, above]));
             }
-            let velocity = self.vector(4.0);
+            let [x, y, _] = self.vector(3.0);
+            let towards = if in_one { -3.0 * f64::from(k) } else { 0.0 };
             let down = if in_one { 0.0 } else { -4.0 * f64::from(k) };
-            self.wire(0.4, flat(velocity, down), &route);
+            self.wire(0.4, [x, y + towards, down], &route);
         }
     }
 
@@ -214,10 +214,10 @@ impl Draft {
             [0.0; 3],
             &[0.0, 1.0, 2.0, 3.0].map(|k| stop("pinned", along(k))),
         );
-        for _ in 0..[1, 1, 1, 2][self.rng.random_range(0..4)] {
+        for _ in 0..1 + u32::from(self.rng.random_bool(0.1)) {
             let target = along([1.0, 2.0, 1.5, 0.25][self.rng.random_range(0..4)]);
             let place = [1.0, 1.0, 1.5, 0.5][self.rng.random_range(0..4)];
-            let place = if self.rng.random_bool(0.01) {
+            let place = if self.rng.random_bool(0.005) {
                 0.0
             } else {
                 place
@@ -377,27 +377,22 @@ impl Draft {
     }
 
     fn off_ends(&mut self) {
-        let exact = self.rng.random_bool(0.3);
+        let exact = self.rng.random_bool(0.15);
         for _ in 0..3 {
-            let (at, way) = match exact {
-                true => (self.grid(2, 0.125), self.grid(2, 0.25)),
-                false => (self.vector(0.4), self.vector(0.5)),
+            let (at, way, velocity) = match exact {
+                true => (self.grid(2, 0.125), self.grid(2, 0.25), self.grid(2, 2.0)),
+                false => {
+                    // Their middles come near the origin after two steps.
+                    let (at, way, turn) = (self.vector(0.4), self.vector(0.3), self.vector(1.0));
+                    let from = [0, 1, 2].map(|h| at[h] - way[h] / 2.0);
+                    let velocity = [0, 1, 2].map(|h| turn[h] - at[h] / (2.0 * STEP));
+                    (from, way, velocity)
+                }
             };
-            let way = if way == [0.0; 3] {
-                [0.5, 0.0, 0.0]
-            } else {
-                way
-            };
-            let velocity = if exact {
-                self.grid(2, 2.0)
-            } else {
-                self.vector(6.0)
-            };
-            self.wire(
-                4.0,
-                velocity,
-                &[stop("free", at), stop("free", add(at, way))],
-            );
+            let none = way == [0.0; 3];
+            let way = if none { [0.5, 0.0, 0.0] } else { way };
+            let route = [stop("free", at), stop("free", add(at, way))];
+            self.wire(4.0, velocity, &route);
         }
     }
 

@@ -230,8 +230,8 @@ fn flat<Z: Integer>([[ac, ad], [bc, _]]: &[[Triple<Number<Z>>; 2]; 2]) -> Option
         return Some(0);
     }
     let mut f = Poly::zero();
-    for h in 0..3 {
-        f.add_product(&m[h], &cross(&k, &l, h));
+    for (h, m) in m.iter().enumerate() {
+        f.add_product(m, &cross(&k, &l, h));
     }
     let (u, v) = (cross(&m, &l, 2), cross(&m, &k, 2));
     let way = unit(&n)?;
