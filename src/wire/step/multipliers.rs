@@ -1,8 +1,8 @@
 //! The solution of a step with the contacts in the system.
 //!
 //! For predicted impulses and bounds of friction, the velocities of a step minimise a convex
-//! function, with contacts as with chains ([`active_set`](super::active_set)). Newton's method
-//! with a line search finds them. Its impulses are the next prediction, until prediction and solution
+//! function, with contacts as with chains ([`active_set`](super::active_set)). Newton's method with
+//! a line search finds them. Its impulses are the next prediction, until prediction and solution
 //! agree: the method of multipliers (Hestenes 1969, Powell 1969) for what the contacts hold, and
 //! the fixed point of Haslinger (1983) for the friction that their normal impulses allow. Whatever
 //! its bound, friction takes energy.
