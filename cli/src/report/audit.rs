@@ -48,7 +48,7 @@ pub fn text(report: &Report) -> String {
     for Ambiguous { wires, least, most } in &report.ambiguous {
         let [a, b] = wires;
         text += &format!(
-            "  wires {a} and {b} met where they end, begin, or are fixed: {least:+} to {most:+} passages\n"
+            "  wires {a} and {b} met at an end, and may have passed: {least:+} to {most:+}\n"
         );
     }
     let (tunnels, others): (Vec<_>, Vec<_>) = report
