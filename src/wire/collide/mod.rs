@@ -69,7 +69,7 @@ impl World {
     ///
     /// # Errors
     ///
-    /// As [`step`](Self::step), and [`CollisionError`] in
+    /// As [`step`](Self::step), and [`CollisionError`](crate::wire::CollisionError) in
     /// [`Reason::Collision`](crate::wire::Reason::Collision): in guard mode, if midlines touch
     /// before the step. The world is as before.
     pub fn step_colliding(
