@@ -72,7 +72,9 @@ pub mod thesis;
 #[cfg(feature = "wire")]
 pub mod wire;
 
-pub use certified::{Batch, BatchError, Normal, classify, decide, decide_discrete, decide_exactly};
+pub use certified::{
+    Batch, BatchError, Kind, Normal, Proximity, classify, decide, decide_discrete, decide_exactly,
+};
 pub use contact::{
     Case, Contact, ContactKind, ContactPoint, EdgePlace, EdgePoint, FacePlace, Flags, Hit,
 };
