@@ -144,14 +144,14 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         culprit: Culprit::Thick,
-        file: "src/certified/thick/shape.rs",
+        file: "src/certified/edges.rs",
         text: "m + l.smaller(zero) - k.larger(zero)",
         replacement: "m + l.smaller(zero) - k.smaller(zero)",
         fault: "a direction separates if it separates one end of AB",
     },
     Mutant {
         culprit: Culprit::Thick,
-        file: "src/certified/thick/settle.rs",
+        file: "src/certified/thick/refine_toi.rs",
         text: "let first = x / (2.0 * slope);",
         replacement: "let first = x / slope;",
         fault: "the last step to the contact is twice as long",
