@@ -5,8 +5,8 @@ use num_bigint::BigInt;
 use tunnelproof::query::Query;
 use tunnelproof::thesis::Repairs;
 
-use crate::{oracle, shadow};
 use tunnelproof_reference::field::Integer;
+use tunnelproof_reference::{oracle, shadow};
 
 type Gmp = rug::Integer;
 
