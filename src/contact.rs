@@ -41,6 +41,10 @@ pub struct Hit<P> {
     pub toi_above: f64,
     /// Whether a simulator that misses the contact lets the two sides through each other. Exact.
     ///
+    /// It is about this pair within this step. Do not filter by it: what passes through a mesh at a
+    /// vertex or an edge that two of its parts share, or at the border of two steps, grazes each of
+    /// them.
+    ///
     /// A contact at time 0 or 1 is a graze. Otherwise the definition uses `f` (see
     /// [`side`](Self::side)):
     ///
@@ -154,7 +158,7 @@ pub struct ContactPoint {
     pub point: Point,
     /// How the point is made of A, B, C and D: `A w[0] + B w[1]` and `C w[2] + D w[3]` of two
     /// edges, `A` and `B w[1] + C w[2] + D w[3]` of a vertex and a face. The weights of each side
-    /// add up to 1.
+    /// add up to 1, within three times the error of the place.
     pub weights: [f64; 4],
     /// The direction in which the second side moves relative to the first at this point, a unit
     /// vector; `None` where they do not move against each other.

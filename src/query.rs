@@ -54,7 +54,7 @@ pub struct VertexFace {
     radius: Radius,
 }
 
-/// Either kind of query.
+/// Either kind of query, for collections of both. `decide` takes the query inside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Query {
     /// Edge against edge.

@@ -110,6 +110,9 @@ impl<K: Kind> Batch<K> {
         radius: impl Into<Radius>,
     ) -> Result<Self, BatchError> {
         let radius = radius.into();
+        if !radius.is_valid() {
+            return Err(BatchError::Radius(radius));
+        }
         let radii = if radius.is_zero() {
             Vec::new()
         } else {
@@ -254,7 +257,9 @@ pub enum BatchError {
         /// How long the first is.
         expected: usize,
     },
-    /// A coordinate is not a finite number, or the radius is not one of at least 0.
+    /// The radius is NaN, infinite or negative.
+    Radius(Radius),
+    /// A coordinate is not a finite number.
     Query {
         /// Which query, from 0.
         index: usize,
@@ -276,6 +281,7 @@ impl std::fmt::Display for BatchError {
                     "array {array} has {found} numbers, the first has {expected}"
                 )
             }
+            BatchError::Radius(radius) => QueryError::Radius(*radius).fmt(f),
             BatchError::Query { index, error } => write!(f, "query {index}: {error}"),
         }
     }

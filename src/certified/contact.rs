@@ -9,10 +9,13 @@ use crate::query::Point;
 impl<P> Hit<P> {
     /// The contact in space, from the positions at [`toi`](Hit::toi).
     ///
+    /// The hit has to be that of this query.
+    ///
     /// With `S` the largest magnitude of a coordinate of the first side, and `e` the error of the
-    /// place, each coordinate of a point is within `(8 * 2^-53 + 2 e + 2 (toi_above - toi)) S` of
-    /// the exact one. The relative velocity is a difference of differences of positions: where
-    /// these cancel it loses accuracy in the same measure. The normal is that of [`Hit::normal`].
+    /// place, each coordinate of a point is within
+    /// `(8 * 2^-53 + 2 e + 2 (toi_above - toi)) S + 2^-1072` of the exact one. The relative velocity
+    /// is a difference of differences of positions: where these cancel it loses accuracy in the
+    /// same measure. The normal is that of [`Hit::normal`].
     pub fn contact<K: Kind<Place = P>>(&self, query: &K) -> Contact {
         let (first, second) = self.points(query);
         Contact {
@@ -43,8 +46,9 @@ impl<P> Hit<P> {
     /// - At ends of edges and corners, for parallel and coplanar motion: the same limit, in
     ///   integers. It takes tens of microseconds there, else well under one.
     ///
-    /// `None` if and only if the sides touch at the start of the step: then there is no direction
-    /// that they come from.
+    /// `None` if and only if the sides share a point at the start of the step: then there is no
+    /// direction that they come from. Sides that start within the radius and apart have one. The hit has to be that of this query; the normal of another hit means
+    /// nothing.
     ///
     /// ```
     /// use tunnelproof::nalgebra::Vector3;
@@ -65,7 +69,8 @@ impl<P> Hit<P> {
     pub fn normal<K: Kind<Place = P>>(&self, query: &K) -> Option<Normal> {
         let (_, radius) = query.parts();
         let touches_at_start = self.toi_above == 0.0 && radius.is_zero();
-        if touches_at_start {
+        let is_of_step = 0.0 <= self.toi && self.toi <= self.toi_above && self.toi_above <= 1.0;
+        if touches_at_start || !is_of_step {
             return None;
         }
         query.normal(self)

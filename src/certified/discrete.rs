@@ -20,7 +20,7 @@ pub struct Proximity {
     pub touches: bool,
     /// The distance is not below this, in metres.
     pub distance_low: f64,
-    /// Nor is it above this.
+    /// The distance is not above this.
     ///
     /// The two are about `2^-26` of the size of the edges apart where these are nearly parallel,
     /// else a few units in the last place of the coordinates.

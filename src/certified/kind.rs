@@ -1,5 +1,7 @@
 //! The two kinds of queries, two edges or a vertex and a face: what the stages ask of them.
 
+use std::fmt::Debug;
+
 use super::cubic::Cubic;
 use super::ends::Ends;
 use super::exact::Passage;
@@ -9,7 +11,7 @@ use super::normal::Normal;
 use super::root::{Bracket, Half};
 use super::separate::SweptBoxes;
 use super::stage::Stage;
-use crate::contact::{Case, Hit};
+use crate::contact::{Case, Hit, Place};
 use crate::query::{Point, QueryError, Radius};
 
 /// A kind of query that the certified path decides: [`EdgeEdge`](crate::query::EdgeEdge) or
@@ -19,7 +21,22 @@ use crate::query::{Point, QueryError, Radius};
 pub trait Kind: Stages<<Self as Kind>::Place> + Copy + Send + Sync + 'static {
     /// Where the two sides touch: [`EdgePlace`](crate::contact::EdgePlace) or
     /// [`FacePlace`](crate::contact::FacePlace).
-    type Place: Copy + Send;
+    type Place: Copy + Debug + PartialEq + Send + Sync + Into<Place> + 'static;
+
+    /// The four points at `t = 0`.
+    fn start(&self) -> &[Point; 4] {
+        self.parts().0[0]
+    }
+
+    /// The four points at `t = 1`.
+    fn end(&self) -> &[Point; 4] {
+        self.parts().0[1]
+    }
+
+    /// The distance at which the two sides count as touching.
+    fn radius(&self) -> Radius {
+        self.parts().1
+    }
 }
 
 /// A kind of query, as the stages see it. `P` is its place.

@@ -30,7 +30,7 @@ impl Radius {
     }
 
     /// Whether both radii are finite and not negative.
-    pub(super) fn is_valid(&self) -> bool {
+    pub(crate) fn is_valid(&self) -> bool {
         self.parts
             .iter()
             .all(|part| part.is_finite() && *part >= 0.0)
