@@ -41,7 +41,8 @@ pub struct Hit<P> {
     pub toi_above: f64,
     /// Whether a simulator that misses the contact lets the two sides through each other. Exact.
     ///
-    /// It is about this pair within this step. Do not filter by it: what passes through a mesh at a
+    /// It is about the first contact of this pair in this step: after a graze the two may still
+    /// cross later in the step. Do not filter by it: what passes through a mesh at a
     /// vertex or an edge that two of its parts share, or at the border of two steps, grazes each of
     /// them.
     ///
@@ -154,14 +155,14 @@ pub struct Contact {
 /// One point of contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactPoint {
-    /// Position in space, in metres.
+    /// Position in space, in metres, on the first side.
     pub point: Point,
     /// How the point is made of A, B, C and D: `A w[0] + B w[1]` and `C w[2] + D w[3]` of two
     /// edges, `A` and `B w[1] + C w[2] + D w[3]` of a vertex and a face. The weights of each side
     /// add up to 1, within three times the error of the place.
     pub weights: [f64; 4],
     /// The direction in which the second side moves relative to the first at this point, a unit
-    /// vector; `None` where they do not move against each other.
+    /// vector; `None` where they do not move against each other, or by less than rounding tells.
     ///
     /// Brandl calls it the normal ("Continuous Collision Detection for Wires with Adaptive
     /// Resolution", Umeå University 2017, section 2.2.2).

@@ -6,7 +6,7 @@ use tunnelproof::narrow::NarrowPhase;
 use tunnelproof::query::Query;
 
 use crate::generate::{FAMILIES, Family};
-use crate::subject::Engine;
+use crate::subject::{Engine, Subject};
 
 use super::findings::{Findings, Settings};
 use super::judged::Judged;
@@ -112,8 +112,12 @@ impl<N: NarrowPhase> Trial<N> {
             shard: Shard::WHOLE,
         };
         let findings = Findings::new(panel, settings, blocks, Vec::new());
+        let mut failures = failures(&findings.panel, &findings.total);
+        if findings.total.queries == 0 {
+            failures.push(format!("{}: no query is judged", subject.name()));
+        }
         Ok(Outcome {
-            failures: failures(&findings.panel, &findings.total),
+            failures,
             text: table::text(&findings),
         })
     }
@@ -158,6 +162,18 @@ mod tests {
             "{}",
             outcome.text
         );
+    }
+
+    #[test]
+    fn trial_without_a_query_fails() {
+        for trial in [
+            certify(Certified).families([]),
+            certify(Certified).families(by_name("no such family")),
+            certify(Certified).count(0),
+        ] {
+            let failures = trial.run().unwrap().failures;
+            assert_eq!(failures, ["certified: no query is judged"]);
+        }
     }
 
     #[test]
