@@ -28,8 +28,8 @@ extern "C" {
 
 /*
  * Whether two edges touch, and when. points: x y z of A B C D at the start of the step, then x y z of A B C D at its
- * end, in metres; AB is one edge, CD the other; each point moves in a straight line. radius: the edges touch where they
- * are within the exact sum of the two, 0 and 0 in most families. toi: for a hit, set to the time of impact, from 0 to 1.
+ * end, in metres; AB is one edge, CD the other; each point moves on a straight line. radius: contact is a distance of at
+ * most the exact sum of the two, 0 and 0 in most families. toi: for a hit, set to the time of impact, from 0 to 1.
  */
 TUNNELPROOF_EXPORT int tunnelproof_edge_edge(const double points[24], const double radius[2], double *toi);
 

@@ -162,7 +162,8 @@ pub struct ContactPoint {
     /// add up to 1, within three times the error of the place.
     pub weights: [f64; 4],
     /// The direction in which the second side moves relative to the first at this point, a unit
-    /// vector; `None` where they do not move against each other, or by less than rounding tells.
+    /// vector; `None` where they do not move against each other, or so little that rounding hides
+    /// it.
     ///
     /// Brandl calls it the normal ("Continuous Collision Detection for Wires with Adaptive
     /// Resolution", Umeå University 2017, section 2.2.2).
@@ -219,6 +220,16 @@ impl ContactPoint {
     pub fn on_edges(&self) -> EdgePoint {
         let [_, u, _, v] = self.weights;
         EdgePoint { u, v }
+    }
+}
+
+impl Place {
+    /// No parameter or weight is farther from the exact one than this.
+    pub fn error(&self) -> f64 {
+        match self {
+            Place::Edges(place) => place.error,
+            Place::Face(place) => place.error,
+        }
     }
 }
 

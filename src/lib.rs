@@ -43,6 +43,8 @@
 //! # Modules
 //!
 //! - [`query`] is what is asked, [`contact`] what is answered, [`certified`] the method.
+//! - [`mesh`] asks about whole meshes, and makes certified steps: the positions to store, with a
+//!   proof that nothing touches on the way.
 //! - [`broad`] finds the pairs that may meet during a step.
 //! - [`narrow`] is the trait of every method, also of your own. The crate `tunnelproof-reference`
 //!   judges any of them against the exact answer.
@@ -53,7 +55,7 @@
 //!
 //! | feature | what it adds |
 //! | --- | --- |
-//! | `rayon` | `Batch::par_decide`: all threads |
+//! | `rayon` | `Batch::par_decide`, and meshes on all threads |
 //! | `wire` | the wire stepper |
 //! | `serde` | its settings and records as data; includes `wire` |
 //! | `recording` | its steps to a file and back; includes `serde` |
@@ -66,6 +68,8 @@ pub mod broad;
 pub mod certified;
 mod closest;
 pub mod contact;
+pub mod environment;
+pub mod mesh;
 pub mod narrow;
 pub mod query;
 pub mod thesis;
@@ -73,11 +77,13 @@ pub mod thesis;
 pub mod wire;
 
 pub use certified::{
-    Batch, BatchError, Kind, Normal, Proximity, classify, decide, decide_discrete, decide_exactly,
+    Advance, Batch, BatchError, Blocked, Clearance, ClearanceError, Kind, Normal, Proximity,
+    advance, classify, decide, decide_discrete, decide_exactly, interpolate,
 };
 pub use contact::{
     Case, Contact, ContactKind, ContactPoint, EdgePlace, EdgePoint, FacePlace, Flags, Hit,
 };
+pub use mesh::Mesh;
 pub use nalgebra;
 pub use query::{EdgeEdge, Point, Query, QueryError, QueryKind, Radius, VertexFace};
 

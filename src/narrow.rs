@@ -18,8 +18,8 @@
 
 use std::fmt;
 
-use crate::contact::{Case, Flags, Verdict};
-use crate::query::{EdgeEdge, QueryKind, Radius, VertexFace};
+use crate::contact::{Case, Contact, ContactPoint, Flags, Verdict};
+use crate::query::{EdgeEdge, Point, QueryKind, Radius, VertexFace};
 
 /// A continuous narrow phase: the thesis path, the certified path, or a user's own.
 ///
@@ -32,7 +32,6 @@ use crate::query::{EdgeEdge, QueryKind, Radius, VertexFace};
 /// time of impact:
 ///
 /// ```
-/// use tunnelproof::contact::{Contact, ContactPoint, Flags, Verdict};
 /// use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
 /// use tunnelproof::query::{EdgeEdge, Point};
 ///
@@ -49,22 +48,7 @@ use crate::query::{EdgeEdge, QueryKind, Radius, VertexFace};
 ///         }
 ///         let volume = |[a, b, c, d]: &[Point; 4]| (b - a).cross(&(d - c)).dot(&(c - a));
 ///         let changes = volume(query.start()) * volume(query.end()) < 0.0;
-///         let first = ContactPoint {
-///             point: query.end()[0],
-///             weights: [1.0, 0.0, 1.0, 0.0],
-///             relative_velocity: None,
-///         };
-///         let contact = Contact {
-///             toi: 0.5,
-///             first,
-///             second: None,
-///             normal: None,
-///         };
-///         Ok(Report {
-///             verdict: if changes { Verdict::Hit(contact) } else { Verdict::Miss },
-///             case: None,
-///             flags: Flags::default(),
-///         })
+///         Ok(if changes { Report::hit(0.5) } else { Report::miss() })
 ///     }
 /// }
 ///
@@ -77,7 +61,7 @@ use crate::query::{EdgeEdge, QueryKind, Radius, VertexFace};
 ///
 /// `certify(...).assert_passes()` in a `#[test]` fails with the worst witness of each kind.
 pub trait NarrowPhase: Sync {
-    /// A short name for tables, such as `thesis`.
+    /// A short name for tables, such as `my-engine`.
     fn name(&self) -> &str;
 
     /// Whether and when two moving edges touch.
@@ -104,6 +88,8 @@ pub trait NarrowPhase: Sync {
 }
 
 /// The answer to one query, with how it was reached.
+///
+/// [`Report::hit`] and [`Report::miss`] make one of what every method knows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report {
     /// Hit or miss.
@@ -112,6 +98,35 @@ pub struct Report {
     pub case: Option<Case>,
     /// The configuration at the time of impact.
     pub flags: Flags,
+}
+
+impl Report {
+    /// A contact at this time of the step, from 0 to 1, of which no more is known: its point and
+    /// weights are NaN.
+    pub fn hit(toi: f64) -> Self {
+        Report {
+            verdict: Verdict::Hit(Contact {
+                toi,
+                first: ContactPoint {
+                    point: Point::new(f64::NAN, f64::NAN, f64::NAN),
+                    weights: [f64::NAN; 4],
+                    relative_velocity: None,
+                },
+                second: None,
+                normal: None,
+            }),
+            ..Report::miss()
+        }
+    }
+
+    /// No contact.
+    pub fn miss() -> Self {
+        Report {
+            verdict: Verdict::Miss,
+            case: None,
+            flags: Flags::default(),
+        }
+    }
 }
 
 /// A query that a method does not take.
@@ -126,11 +141,11 @@ pub enum Unsupported {
 impl fmt::Display for Unsupported {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Unsupported::Kind(kind) => write!(f, "{kind} queries are not supported yet"),
+            Unsupported::Kind(kind) => write!(f, "{kind} queries are not supported"),
             Unsupported::Radius(radius) => {
                 write!(
                     f,
-                    "a radius above 0 is not supported yet (this one is {radius})"
+                    "a radius above 0 is not supported (this one is {radius})"
                 )
             }
         }

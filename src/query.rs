@@ -29,6 +29,7 @@ use nalgebra::Point3;
 mod radius;
 
 pub use radius::Radius;
+pub(crate) use radius::Short;
 
 /// A point in space, coordinates in metres.
 pub type Point = Point3<f64>;
@@ -211,7 +212,11 @@ impl Query {
     }
 }
 
-fn check(start: &[Point; 4], end: &[Point; 4], radius: Radius) -> Result<(), QueryError> {
+pub(crate) fn check(
+    start: &[Point; 4],
+    end: &[Point; 4],
+    radius: Radius,
+) -> Result<(), QueryError> {
     for (at_end, points) in [(false, start), (true, end)] {
         for (point, position) in points.iter().enumerate() {
             for (axis, &value) in position.coords.iter().enumerate() {
@@ -273,7 +278,10 @@ impl fmt::Display for QueryError {
                 )
             }
             QueryError::Radius(value) => {
-                write!(f, "radius is {value}, not a finite number of at least 0")
+                write!(
+                    f,
+                    "the radius is {value}; it has to be finite, and 0 or more"
+                )
             }
         }
     }
@@ -316,7 +324,7 @@ mod tests {
         let error = VertexFace::new(zero, zero, [0.5, -1.0]).unwrap_err();
         assert_eq!(
             error.to_string(),
-            "radius is 0.5 + -1, not a finite number of at least 0"
+            "the radius is 0.5 + -1; it has to be finite, and 0 or more"
         );
         assert!(EdgeEdge::new(zero, zero, 0.0).is_ok());
         assert!(EdgeEdge::new(zero, zero, [f64::MAX; 2]).is_ok());

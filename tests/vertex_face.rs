@@ -172,7 +172,8 @@ const EXACT_AT_MOST: &[(&str, f64)] = &[
 fn vertex_face_exact_stage_is_reached_no_more_often_than_it_must() {
     for family in FAMILIES {
         let mut exact = 0;
-        for index in 0..20_000 {
+        let count = cases(20_000);
+        for index in 0..u64::from(count) {
             let query = of_family(&family.query(1, index), [2, 0, 1, 3]);
             let mut observe = |stage| exact += u32::from(stage == Stage::Exact);
             decide_observed(&query, &mut observe);
@@ -181,7 +182,7 @@ fn vertex_face_exact_stage_is_reached_no_more_often_than_it_must() {
             .iter()
             .find(|(name, _)| *name == family.name());
         let (_, at_most) = named.unwrap();
-        let share = f64::from(exact) / 200.0;
+        let share = 100.0 * f64::from(exact) / f64::from(count);
         assert!(share <= *at_most, "{}: {share}%", family.name());
     }
 }
@@ -246,15 +247,15 @@ fn vertex_face_is_exact_and_as_labelled_on_the_public_sets() {
 fn vertex_face_hit_is_a_contact_in_space() {
     let face = [[-1., -1., 0.], [3., -1., 0.], [-1., 3., 0.]];
     let at = |vertex: [f64; 3]| [vertex, face[0], face[1], face[2]].map(Point::from);
-    let query = VertexFace::new(at([0., 0., 1.]), at([0., 0., -3.]), 0.0).unwrap();
+    let query = VertexFace::new(at([1., 0., 1.]), at([1., 0., -3.]), 0.0).unwrap();
     let report = Certified.vertex_face(&query).unwrap();
     let Verdict::Hit(contact) = report.verdict else {
         unreachable!("it goes through the face")
     };
     assert_eq!(contact.toi, 0.25);
     let first = contact.first;
-    assert_eq!(first.weights, [1.0, 0.5, 0.25, 0.25]);
-    assert_eq!(first.point, Point::new(0., 0., 0.));
+    assert_eq!(first.weights, [1.0, 0.25, 0.5, 0.25]);
+    assert_eq!(first.point, Point::new(1., 0., 0.));
     // The face rises through the vertex, which comes from above.
     assert_eq!(first.relative_velocity.unwrap().as_slice(), [0., 0., 1.]);
     assert_eq!(contact.normal.unwrap().as_slice(), [0., 0., -1.]);

@@ -1,10 +1,15 @@
 /* tunnelproof: continuous collision detection of two moving edges, and of a moving vertex and face,
  * without thresholds: no hit is false, no contact is missed, and the time of impact is the exact
- * one rounded down.
+ * one rounded down. Positions at that time are rounded, and may already be past the contact:
+ * tunnelproof_advance_... and tunnelproof_mesh_step give positions to store, with a proof that
+ * straight motion to them touches nothing.
  *
- * The proofs assume rounding to nearest and gradual underflow in the thread that calls, which is
- * what C sets up. A program that is linked with -ffast-math, or sets FTZ or DAZ, has no gradual
- * underflow: restore it around the call.
+ * The proofs assume the floating-point environment that is the default of C: rounding to nearest
+ * and gradual underflow. On x86 with SSE2 and on AArch64 each function sees to it: it sets that
+ * environment and restores the caller's before it returns, so that fesetround, FTZ and DAZ (which
+ * -ffast-math may set for a program) and exceptions that are not masked do not change any answer.
+ * Exception flags that a function raises stay raised. Threads that the library starts for meshes
+ * have the default environment. On other processors it is up to the caller.
  *
  * The points of a query are 24 numbers in metres: x, y, z of A, B, C, D at the start of the step,
  * then of A, B, C, D at its end. In between they move on straight lines. Edge-edge: the edges AB
@@ -13,7 +18,14 @@
  * numbers, such as the radii of two wires. Contact is a distance of at most the radius; with radius
  * 0, a common point.
  *
- * All functions may be called from any thread at any time. None keeps a pointer. */
+ * Buffers of queries: `points` has 24 doubles for each query, `radii` has 2, `verdicts` 1 int32_t
+ * and `hits` 1 tunnelproof_hit. Those of meshes are described there. Each pointer is aligned for its
+ * type. A buffer that is written must not overlap any other buffer of the call, unless it says so,
+ * and nobody else may use it during the call. Buffers that are only read may overlap each other.
+ * They must not change during the call.
+ *
+ * All functions may be called from any thread at any time, but for those that change or free a
+ * mesh: nobody else may use the mesh during these. No function keeps a pointer. */
 #ifndef TUNNELPROOF_H
 #define TUNNELPROOF_H
 
@@ -32,16 +44,24 @@ extern "C" {
 #define TUNNELPROOF_NULL (-1)
 #define TUNNELPROOF_NOT_FINITE (-2)
 #define TUNNELPROOF_RADIUS (-3)
+/* And of meshes and steps: a vertex or a group that there is not, more vertices, edges or faces
+ * than indices of 32 bits, fewer thicknesses than groups, a clearance below 0 or not finite, a
+ * share below 0 or not below 1, or both a clearance and a share. */
+#define TUNNELPROOF_INDEX (-4)
+#define TUNNELPROOF_COUNT (-5)
+#define TUNNELPROOF_LENGTH (-6)
+#define TUNNELPROOF_CLEARANCE (-7)
 
-/* Whether a simulator that misses the contact lets the two sides through each other (a crossing)
- * or not (a graze). */
+/* Whether the two sides pass through each other at the first contact (a crossing) or not (a graze).
+ * With a radius: whether they do so within the step. After a graze they may cross later in the
+ * step, so respond to both. */
 enum tunnelproof_kind {
   TUNNELPROOF_CROSSING = 1,
   TUNNELPROOF_GRAZE = 2
 };
 
-/* How the two sides move against each other during the whole step. Of several, the last in this
- * list. */
+/* How the two sides move relative to each other during the whole step. If several hold, the last in
+ * this list. */
 enum tunnelproof_case {
   /* None of those below. */
   TUNNELPROOF_GENERAL = 1,
@@ -62,19 +82,19 @@ typedef struct tunnelproof_contact_point {
   /* The weights of A, B, C and D, in [0, 1]. Of two edges they are 1 - u, u, 1 - v, v with u on
    * AB and v on CD. Of a vertex and a face they are 1 and the weights of B, C and D. */
   double weights[4];
-  /* The point on the first side at toi, in metres. */
+  /* The point on the first side at toi, in metres, rounded to double. */
   double point[3];
 } tunnelproof_contact_point;
 
 /* The first contact of a step, of either kind of query. */
 typedef struct tunnelproof_hit {
   /* The largest double that is not above the time of impact, in [0, 1], and the smallest that is
-   * not below it. Positions that are rounded to double at toi may already be past the contact. */
+   * not below it. Positions at toi are rounded to double, and may already be past the contact. */
   double toi, toi_above;
-  /* A value of tunnelproof_kind. Exact. */
+  /* A value of tunnelproof_kind, of this first contact. Exact. */
   int32_t kind;
-  /* The sign of f just before the contact, which tells the side they come from; 0 if f is always
-   * 0, or at time 0. Exact. Of two edges f = ((B - A) x (D - C)) . (C - A), of a vertex and a
+  /* The sign of f just before the contact, which is the side they come from; 0 if f is always 0,
+   * or at time 0. Exact. Of two edges f = ((B - A) x (D - C)) . (C - A), of a vertex and a
    * face f = ((C - B) x (D - B)) . (A - B). */
   int32_t side;
   /* A value of tunnelproof_case. Exact. */
@@ -101,25 +121,234 @@ typedef struct tunnelproof_hit {
 } tunnelproof_hit;
 
 /* Decides one query. Returns TUNNELPROOF_MISS, TUNNELPROOF_HIT, or why it cannot be decided.
- * `radii` are two numbers, or NULL for radius 0. `hit` is written where the verdict is
- * TUNNELPROOF_HIT, and may be NULL. */
+ * `points` are 24 numbers. `radii` are two, or NULL for radius 0. `hit` is written if the verdict
+ * is TUNNELPROOF_HIT, and may be NULL. */
 int32_t tunnelproof_decide_edge_edge(const double *points, const double *radii,
                                      tunnelproof_hit *hit);
 int32_t tunnelproof_decide_vertex_face(const double *points, const double *radii,
                                        tunnelproof_hit *hit);
 
 /* Decides `count` queries. Their points follow one another, and so do their radii unless `radii` is
- * NULL. `verdicts[i]` gets the verdict on query i. Where it is TUNNELPROOF_HIT, `hits[i]` gets the
+ * NULL. `verdicts[i]` gets the verdict on query i. If it is TUNNELPROOF_HIT, `hits[i]` gets the
  * contact, unless `hits` is NULL. The other elements of `hits` stay as they are. Returns the number
- * of hits, or TUNNELPROOF_NULL.
+ * of hits, or TUNNELPROOF_NULL. If `count` is 0, no pointer is read.
  *
- * The answers are those of the functions above, bit for bit. Where few queries are hits this is
+ * The answers are those of the functions above, bit for bit. If few queries are hits, this is
  * faster. */
 int64_t tunnelproof_decide_edge_edge_batch(const double *points, const double *radii, size_t count,
                                            int32_t *verdicts, tunnelproof_hit *hits);
 int64_t tunnelproof_decide_vertex_face_batch(const double *points, const double *radii,
                                              size_t count, int32_t *verdicts,
                                              tunnelproof_hit *hits);
+
+/* Why a step is not a whole one. */
+enum tunnelproof_blocked {
+  /* A larger step would bring the two sides nearer than is kept, or a rounding error of that. */
+  TUNNELPROOF_AHEAD = 1,
+  /* The two sides come nearer, and start so near to what is kept that no rounded positions tried
+   * were proved. */
+  TUNNELPROOF_NEAR = 2,
+  /* The two sides touch at the start, radius or not: no motion from there is apart. */
+  TUNNELPROOF_TOUCHING = 3
+};
+
+/* A step of a query that is proved. */
+typedef struct tunnelproof_advance {
+  /* How much of the step is made, from 0 to 1. */
+  double step;
+  /* A, B, C and D to store, in metres: at a step of 1 the end, at 0 the start, bit for bit. */
+  double points[12];
+  /* Straight motion from the start to `points` keeps a distance above the exact sum of these two,
+   * in metres. Exact. Both are 0 unless is_proved. */
+  double kept[2];
+  /* Whether any step is proved. If not, `step` is 0 and the points stay. */
+  int32_t is_proved;
+  /* A value of tunnelproof_blocked, or 0 if the step is a whole one. */
+  int32_t blocked;
+} tunnelproof_advance;
+
+/* The largest step, within rounding, that keeps the two sides of a query apart by more than the
+ * radius and a clearance, and the points to store. Straight motion to these points keeps that
+ * distance exactly, in real arithmetic. The next step starts at them. So nothing ever passes
+ * through anything, however many steps follow.
+ *
+ * `clearance` is in metres, 0 or more. Or it is 0, and `share` is not: two sides that would come
+ * within the radius keep this share of what they have beyond it at the start, from 0 to below 1.
+ *
+ * Two sides that start nearer than that keep nine tenths of what they have beyond the radius, or of
+ * their distance if they start within the radius; where rounding leaves no room even for that, they
+ * keep the radius, or do not touch. They are free to part.
+ *
+ * Returns `advance->blocked`, or a negative number, with nothing written: TUNNELPROOF_NULL,
+ * TUNNELPROOF_NOT_FINITE, TUNNELPROOF_RADIUS or TUNNELPROOF_CLEARANCE. `points` and `radii` are as
+ * above. */
+int32_t tunnelproof_advance_edge_edge(const double *points, const double *radii, double clearance,
+                                      double share, tunnelproof_advance *advance);
+int32_t tunnelproof_advance_vertex_face(const double *points, const double *radii,
+                                        double clearance, double share,
+                                        tunnelproof_advance *advance);
+
+/* Vertices, edges and faces by their indices: cloth, bodies, wires and points. Every edge may meet
+ * every edge, and every vertex every face. A vertex in no edge is a point, which may also meet
+ * edges and points. Parts that share a vertex never meet. */
+typedef struct tunnelproof_mesh tunnelproof_mesh;
+
+/* What is refused. A function that takes an error writes it if it returns a negative number, or no
+ * mesh. It may be NULL. */
+typedef struct tunnelproof_error {
+  /* The number that is returned. */
+  int32_t code;
+  /* The name of the array or argument: "edges", "faces", "groups", "start", "end", "thickness",
+   * "vertices", "clearance"; of a NULL that of the pointer. It lives as long as the library. */
+  const char *array;
+  /* The place in it, from 0: `array[index][corner]`. Of TUNNELPROOF_LENGTH, `index` is how many
+   * there should be. 0 where there is no place. */
+  size_t index, corner;
+  /* The value there, or how many there are; 0 where there is none. */
+  double value;
+} tunnelproof_error;
+
+/* A new mesh of `vertex_count` vertices. `edges` has two indices of vertices for each edge, `faces`
+ * three for each face. Both are copied. The edges of faces need not be given: those that are
+ * missing come after those that are. A pointer may be NULL if its count is 0.
+ *
+ * Returns NULL and writes `error` if an index is not below `vertex_count` (TUNNELPROOF_INDEX) or
+ * there are too many (TUNNELPROOF_COUNT). */
+tunnelproof_mesh *tunnelproof_mesh_new(size_t vertex_count, const uint32_t *edges,
+                                       size_t edge_count, const uint32_t *faces,
+                                       size_t face_count, tunnelproof_error *error);
+
+/* Frees a mesh. NULL is no mesh and is left alone. */
+void tunnelproof_mesh_free(tunnelproof_mesh *mesh);
+
+/* Puts each vertex into a group, a number from 0: `groups` has `vertex_count` of them, and is
+ * copied. Without it all are of group 0. There is one group more than the largest number. What was
+ * left out is forgotten. Returns 0 or a negative number. */
+int32_t tunnelproof_mesh_set_groups(tunnelproof_mesh *mesh, const uint32_t *groups,
+                                    tunnelproof_error *error);
+
+/* Leaves out the pairs of two groups, which may be the same one. A static part is a group that is
+ * left out with itself. A part with vertices of several groups is left out only if all its groups
+ * are. Returns 0, or TUNNELPROOF_INDEX if there is no such group. */
+int32_t tunnelproof_mesh_leave_out(tunnelproof_mesh *mesh, uint32_t first, uint32_t second,
+                                   tunnelproof_error *error);
+
+/* The edges, those given and then those of faces that were missing. Writes two indices for each
+ * edge, of at most `capacity` edges, unless `edges` is NULL. Returns how many there are. */
+int64_t tunnelproof_mesh_edges(const tunnelproof_mesh *mesh, uint32_t *edges, size_t capacity);
+
+/* What is asked about a mesh: every vertex moves on a straight line from its position at the start
+ * to that at the end. */
+typedef struct tunnelproof_motion {
+  /* x, y, z of each vertex, in metres. */
+  const double *start, *end;
+  /* Contact is a distance of at most the thickness, in metres. It is 0 if thickness_count is 0, the
+   * same for all if that is 1, else there is one for each group. Two parts of different thickness
+   * touch at the mean of both. */
+  const double *thickness;
+  size_t thickness_count;
+} tunnelproof_motion;
+
+/* What a side of a pair is. */
+enum tunnelproof_feature {
+  TUNNELPROOF_VERTEX = 1,
+  /* An edge of tunnelproof_mesh_edges. */
+  TUNNELPROOF_EDGE = 2,
+  TUNNELPROOF_FACE = 3
+};
+
+/* Two edges, an edge or a point and a point, or a vertex and a face of a mesh. */
+typedef struct tunnelproof_pair {
+  /* A value of tunnelproof_feature, and its index. */
+  int32_t first_feature;
+  uint32_t first;
+  int32_t second_feature;
+  uint32_t second;
+  /* The vertices A, B, C and D of its query. A point is both ends of its edge. */
+  uint32_t vertices[4];
+} tunnelproof_pair;
+
+/* The first contact of a pair. All but `pair` is as in tunnelproof_hit. */
+typedef struct tunnelproof_mesh_contact {
+  tunnelproof_pair pair;
+  double toi, toi_above;
+  int32_t kind;
+  int32_t has_second;
+  tunnelproof_contact_point first, second;
+  double normal[3];
+} tunnelproof_mesh_contact;
+
+/* The functions below use all threads, and give the same answers on any number of them. They return
+ * a negative number, and write nothing but `error`, for what is NULL (TUNNELPROOF_NULL), a
+ * coordinate that is not finite (TUNNELPROOF_NOT_FINITE), a thickness that is not a finite number
+ * of at least 0 (TUNNELPROOF_RADIUS), or too few of these (TUNNELPROOF_LENGTH). */
+
+/* The contact of the least time of impact; of several with the same `toi`, that of the first pair.
+ * None is missed and none is false. Returns TUNNELPROOF_HIT or TUNNELPROOF_MISS. `contact` is
+ * written if there is one, and may be NULL. */
+int32_t tunnelproof_mesh_first_contact(const tunnelproof_mesh *mesh,
+                                       const tunnelproof_motion *motion,
+                                       tunnelproof_mesh_contact *contact,
+                                       tunnelproof_error *error);
+
+/* The first contact of each pair that touches, in an order that depends on the mesh alone. Writes
+ * at most `capacity` of them, unless `contacts` is NULL. Returns how many there are. */
+int64_t tunnelproof_mesh_all_contacts(const tunnelproof_mesh *mesh,
+                                      const tunnelproof_motion *motion,
+                                      tunnelproof_mesh_contact *contacts, size_t capacity,
+                                      tunnelproof_error *error);
+
+/* Whether no pair touches: 1 or 0. */
+int32_t tunnelproof_mesh_is_free(const tunnelproof_mesh *mesh, const tunnelproof_motion *motion,
+                                 tunnelproof_error *error);
+
+/* A pair that ends a step, and why: a value of tunnelproof_blocked. */
+typedef struct tunnelproof_limit {
+  tunnelproof_pair pair;
+  int32_t blocked;
+} tunnelproof_limit;
+
+/* A pair that starts nearer than it should be kept. It keeps a distance above the exact sum of the
+ * two numbers, in metres. */
+typedef struct tunnelproof_near_pair {
+  tunnelproof_pair pair;
+  double kept[2];
+} tunnelproof_near_pair;
+
+/* A step of a mesh that is proved. */
+typedef struct tunnelproof_step {
+  /* Set before the call: where to write x, y, z of each vertex to store, in metres. It may be the
+   * `start` or the `end` of the motion. */
+  double *positions;
+  /* Set before the call: room for this many pairs that end the step, and that start too near. A
+   * pointer may be NULL: nothing is written there. */
+  tunnelproof_limit *limits;
+  size_t limit_capacity;
+  tunnelproof_near_pair *near_pairs;
+  size_t near_capacity;
+  /* How much of the step is made, from 0 to 1. At 1 the positions are those of the end, at 0 those
+   * of the start, bit for bit. */
+  double step;
+  /* How many pairs end the step, 0 if it is a whole one, and how many start too near. */
+  size_t limit_count, near_count;
+  /* How many pairs of edges or points, and of a vertex and a face, had swept boxes so near that
+   * they were looked at. */
+  size_t candidates[2];
+} tunnelproof_step;
+
+/* The largest step, within rounding, that keeps all pairs apart by more than the thickness and a
+ * clearance, and the positions to store. Straight motion from `start` to these keeps each pair
+ * farther apart than that, exactly, in real arithmetic. The next step starts at them. So nothing
+ * ever passes through anything, however many steps follow. `clearance` and `share`, and what pairs
+ * keep that start too near, are as in tunnelproof_advance_edge_edge, with the thickness as radius.
+ *
+ * The step is 0 if a pair touches at the start, thickness or not, or if rounding leaves no room to
+ * any step tried. `limits` names the pairs. Do not ask again with the same motion.
+ *
+ * Returns 0 or a negative number, also TUNNELPROOF_CLEARANCE. */
+int32_t tunnelproof_mesh_step(const tunnelproof_mesh *mesh, const tunnelproof_motion *motion,
+                              double clearance, double share, tunnelproof_step *step,
+                              tunnelproof_error *error);
 
 /* The version of the library, "0.1.0". */
 const char *tunnelproof_version(void);

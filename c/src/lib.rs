@@ -1,7 +1,10 @@
 //! The certified path for C: `include/tunnelproof.h`, which documents it, function for function.
 //!
 //! Pointers are all that is unsafe here. Each function reads its arguments as slices in one place,
-//! next to the header's promise that makes it sound, and works on those.
+//! next to the header's promise that makes it sound, and works on those. All of it happens in the
+//! default floating-point environment ([`with_default`]), also the comparison of an argument with 0,
+//! which a host that flushes subnormal numbers to zero would answer otherwise; so do the threads of
+//! the pool for meshes, which is started there and runs nothing else.
 
 use std::ffi::{CStr, c_char};
 use std::mem::MaybeUninit;
@@ -12,12 +15,25 @@ use tunnelproof::{
     Batch, Case, ContactKind, ContactPoint as EnginePoint, EdgeEdge, EdgePlace, FacePlace,
     Hit as EngineHit, Point, QueryError, Radius, VertexFace,
 };
+use tunnelproof_float_env::with_default;
+
+mod advance;
+mod mesh;
+mod subject;
+
+pub use advance::{Advance, tunnelproof_advance_edge_edge, tunnelproof_advance_vertex_face};
+pub use mesh::*;
+pub use subject::{tunnelproof_certified_edge_edge, tunnelproof_certified_vertex_face};
 
 const MISS: i32 = 0;
 const HIT: i32 = 1;
 const NULL: i32 = -1;
 const NOT_FINITE: i32 = -2;
 const RADIUS: i32 = -3;
+const INDEX: i32 = -4;
+const COUNT: i32 = -5;
+const LENGTH: i32 = -6;
+const CLEARANCE: i32 = -7;
 
 /// `tunnelproof_contact_point`.
 #[repr(C)]
@@ -255,7 +271,7 @@ pub unsafe extern "C" fn tunnelproof_decide_edge_edge(
     hit: *mut Hit,
 ) -> i32 {
     // SAFETY: the caller's promise is the same.
-    unsafe { decide_at::<EdgeEdge>(points, radii, hit) }
+    with_default(|| unsafe { decide_at::<EdgeEdge>(points, radii, hit) })
 }
 
 /// `tunnelproof_decide_vertex_face`.
@@ -270,7 +286,7 @@ pub unsafe extern "C" fn tunnelproof_decide_vertex_face(
     hit: *mut Hit,
 ) -> i32 {
     // SAFETY: the caller's promise is the same.
-    unsafe { decide_at::<VertexFace>(points, radii, hit) }
+    with_default(|| unsafe { decide_at::<VertexFace>(points, radii, hit) })
 }
 
 /// `tunnelproof_decide_edge_edge_batch`.
@@ -287,7 +303,7 @@ pub unsafe extern "C" fn tunnelproof_decide_edge_edge_batch(
     hits: *mut Hit,
 ) -> i64 {
     // SAFETY: the caller's promise is the same.
-    unsafe { decide_all_at::<EdgeEdge>(points, radii, count, verdicts, hits) }
+    with_default(|| unsafe { decide_all_at::<EdgeEdge>(points, radii, count, verdicts, hits) })
 }
 
 /// `tunnelproof_decide_vertex_face_batch`.
@@ -304,7 +320,7 @@ pub unsafe extern "C" fn tunnelproof_decide_vertex_face_batch(
     hits: *mut Hit,
 ) -> i64 {
     // SAFETY: the caller's promise is the same.
-    unsafe { decide_all_at::<VertexFace>(points, radii, count, verdicts, hits) }
+    with_default(|| unsafe { decide_all_at::<VertexFace>(points, radii, count, verdicts, hits) })
 }
 
 /// `tunnelproof_version`.

@@ -142,9 +142,181 @@ static void in_batch(decide *one, decide_batch *all, const double *with_radii, i
   CHECK(all(many, with_radii, COUNT, verdicts, NULL) == count);
 }
 
+/* CD stops above AB, and the points that are stored are apart. */
+static void advanced(void) {
+  const double radii[2] = {0.25, 0.25};
+  tunnelproof_advance moved;
+  double points[24];
+  memcpy(points, falling, sizeof points);
+
+  CHECK(tunnelproof_advance_edge_edge(falling, NULL, 0, 0, &moved) == TUNNELPROOF_AHEAD);
+  CHECK(moved.step <= 0.25 && moved.step > 0.25 - 1e-12 && moved.is_proved == 1);
+  CHECK(moved.blocked == TUNNELPROOF_AHEAD && moved.kept[0] == 0 && moved.kept[1] == 0);
+  memcpy(points + 12, moved.points, sizeof moved.points);
+  CHECK(tunnelproof_decide_edge_edge(points, NULL, NULL) == TUNNELPROOF_MISS);
+
+  CHECK(tunnelproof_advance_edge_edge(falling, radii, 0, 0.5, &moved) == TUNNELPROOF_AHEAD);
+  CHECK(fabs(moved.kept[0] + moved.kept[1] - 0.75) < 1e-12);
+  CHECK(fabs(moved.points[8] - 0.75) < 1e-12);
+  CHECK(tunnelproof_advance_vertex_face(through, NULL, 0.5, 0, &moved) == TUNNELPROOF_AHEAD);
+  CHECK(fabs(moved.points[2] - 0.5) < 1e-12);
+
+  /* A whole step is the end, bit for bit; a touch at the start is no step. */
+  points[20] = points[23] = 0.1;
+  CHECK(tunnelproof_advance_edge_edge(points, NULL, 0, 0, &moved) == 0);
+  CHECK(moved.step == 1 && memcmp(moved.points, points + 12, sizeof moved.points) == 0);
+  points[8] = points[11] = 0;
+  CHECK(tunnelproof_advance_edge_edge(points, NULL, 0, 0, &moved) == TUNNELPROOF_TOUCHING);
+  CHECK(moved.step == 0 && moved.is_proved == 0);
+
+  CHECK(tunnelproof_advance_edge_edge(falling, NULL, 0, 0, NULL) == TUNNELPROOF_NULL);
+  CHECK(tunnelproof_advance_edge_edge(falling, NULL, 1, 0.5, &moved) == TUNNELPROOF_CLEARANCE);
+  CHECK(tunnelproof_advance_vertex_face(through, NULL, 0, 1, &moved) == TUNNELPROOF_CLEARANCE);
+  CHECK(tunnelproof_advance_vertex_face(through, NULL, NAN, 0, &moved) == TUNNELPROOF_CLEARANCE);
+}
+
+/* A face at rest; an edge and a point fall through it. */
+static const uint32_t edges[2] = {3, 4};
+static const uint32_t faces[3] = {0, 1, 2};
+static const double at_first[18] = {0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 1, 1, 5, 1, 1, 1, 3};
+static const double at_last[18] = {0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, -3, 1, 5, -3, 1, 1, -1};
+
+static void contacts_of_a_mesh(const tunnelproof_mesh *mesh) {
+  tunnelproof_motion motion = {at_first, at_last, NULL, 0};
+  tunnelproof_mesh_contact all[4];
+  const double thickness = 0.5;
+
+  memset(all, 0, sizeof all);
+  CHECK(tunnelproof_mesh_is_free(mesh, &motion, NULL) == 0);
+  CHECK(tunnelproof_mesh_first_contact(mesh, &motion, all, NULL) == TUNNELPROOF_HIT);
+  CHECK(all[0].toi == 0.25 && all[0].kind == TUNNELPROOF_CROSSING);
+  CHECK(all[0].pair.first_feature == TUNNELPROOF_EDGE && all[0].pair.first == 0);
+  CHECK(all[0].pair.second_feature == TUNNELPROOF_EDGE && all[0].pair.second == 2);
+  CHECK(all[0].pair.vertices[0] == 3 && all[0].pair.vertices[3] == 2);
+
+  CHECK(tunnelproof_mesh_all_contacts(mesh, &motion, NULL, 0, NULL) == 3);
+  CHECK(tunnelproof_mesh_all_contacts(mesh, &motion, all, 2, NULL) == 3 && all[2].toi == 0);
+  CHECK(tunnelproof_mesh_all_contacts(mesh, &motion, all, 4, NULL) == 3);
+  CHECK(all[2].pair.first_feature == TUNNELPROOF_VERTEX && all[2].pair.first == 5);
+  CHECK(all[2].pair.second_feature == TUNNELPROOF_FACE && all[2].toi == 0.75);
+  CHECK(all[2].first.weights[0] == 1 && is_near(all[2].first.point, 1, 1, 0, 0));
+  CHECK(all[2].has_second == 0 && is_near(all[2].normal, 0, 0, -1, 1e-9));
+
+  motion.thickness = &thickness;
+  motion.thickness_count = 1;
+  CHECK(tunnelproof_mesh_first_contact(mesh, &motion, all, NULL) == TUNNELPROOF_HIT);
+  CHECK(all[0].toi == 0.125);
+  motion.end = at_first;
+  CHECK(tunnelproof_mesh_is_free(mesh, &motion, NULL) == 1);
+  CHECK(tunnelproof_mesh_first_contact(mesh, &motion, NULL, NULL) == TUNNELPROOF_MISS);
+}
+
+static void steps_of_a_mesh(const tunnelproof_mesh *mesh) {
+  double x[18], wanted[18];
+  const double thickness = 0.01;
+  tunnelproof_motion motion = {x, wanted, &thickness, 1};
+  tunnelproof_limit limits[2];
+  tunnelproof_near_pair near_pairs[1];
+  tunnelproof_step step = {x, limits, 2, near_pairs, 1, 0, 0, 0, {0, 0}};
+  int i, k;
+
+  memcpy(x, at_first, sizeof x);
+  for (i = 0; i < 10; i++) {
+    double before[18];
+    const tunnelproof_motion moved = {before, x, &thickness, 1};
+    memcpy(before, x, sizeof x);
+    memcpy(wanted, x, sizeof x);
+    for (k = 3; k < 6; k++) wanted[3 * k + 2] -= 0.3;
+    /* The positions go to where the start was. */
+    CHECK(tunnelproof_mesh_step(mesh, &motion, 0, 0, &step, NULL) == 0);
+    CHECK(tunnelproof_mesh_is_free(mesh, &moved, NULL) == 1);
+    CHECK((step.step == 1) == (step.limit_count == 0) && (i > 2) == (step.limit_count > 0));
+  }
+  CHECK(x[11] > 0.01 && x[11] < 0.01 + 1e-9 && x[17] > 1.9);
+  CHECK(step.limit_count == 2 && limits[0].pair.vertices[0] == 3);
+  CHECK(limits[0].blocked == TUNNELPROOF_AHEAD || limits[0].blocked == TUNNELPROOF_NEAR);
+  CHECK(step.candidates[0] > 0 && step.candidates[1] > 0);
+
+  memcpy(x, at_first, sizeof x);
+  memcpy(wanted, at_last, sizeof x);
+  CHECK(tunnelproof_mesh_step(mesh, &motion, 2, 0, &step, NULL) == 0);
+  CHECK(step.near_count > 1 && near_pairs[0].pair.vertices[0] == 3);
+  CHECK(near_pairs[0].kept[0] + near_pairs[0].kept[1] > 0.89);
+}
+
+static void refused_of_a_mesh(tunnelproof_mesh *mesh) {
+  tunnelproof_motion motion = {at_first, at_last, NULL, 0};
+  tunnelproof_error error;
+  tunnelproof_step step = {NULL, NULL, 0, NULL, 0, 0, 0, 0, {0, 0}};
+  const double thicknesses[2] = {1, -1};
+  const uint32_t groups[6] = {0, 0, 0, 1, 1, 2};
+  const uint32_t beyond[6] = {0, 1, 2, 2, 1, 6};
+  double bad[18];
+
+  CHECK(tunnelproof_mesh_new(6, edges, 1, beyond, 2, &error) == NULL);
+  CHECK(error.code == TUNNELPROOF_INDEX && strcmp(error.array, "faces") == 0);
+  CHECK(error.index == 1 && error.corner == 2 && error.value == 6);
+  CHECK(tunnelproof_mesh_new(6, NULL, 1, NULL, 0, &error) == NULL);
+  CHECK(error.code == TUNNELPROOF_NULL && strcmp(error.array, "edges") == 0);
+  CHECK(tunnelproof_mesh_new(6, beyond, 3, NULL, 0, NULL) == NULL);
+  tunnelproof_mesh_free(NULL);
+
+  CHECK(tunnelproof_mesh_is_free(NULL, &motion, &error) == TUNNELPROOF_NULL);
+  CHECK(strcmp(error.array, "mesh") == 0);
+  CHECK(tunnelproof_mesh_all_contacts(mesh, NULL, NULL, 0, NULL) == TUNNELPROOF_NULL);
+  CHECK(tunnelproof_mesh_step(mesh, &motion, 0, 0, NULL, NULL) == TUNNELPROOF_NULL);
+  CHECK(tunnelproof_mesh_step(mesh, &motion, 0, 0, &step, &error) == TUNNELPROOF_NULL);
+  CHECK(strcmp(error.array, "positions") == 0);
+  step.positions = bad;
+  CHECK(tunnelproof_mesh_step(mesh, &motion, -1, 0, &step, &error) == TUNNELPROOF_CLEARANCE);
+  CHECK(strcmp(error.array, "clearance") == 0);
+  CHECK(tunnelproof_mesh_step(mesh, &motion, 1, 0.5, &step, NULL) == TUNNELPROOF_CLEARANCE);
+
+  memcpy(bad, at_last, sizeof bad);
+  bad[7] = NAN;
+  motion.end = bad;
+  CHECK(tunnelproof_mesh_is_free(mesh, &motion, &error) == TUNNELPROOF_NOT_FINITE);
+  CHECK(strcmp(error.array, "end") == 0 && error.index == 2 && error.corner == 1);
+  CHECK(error.value != error.value);
+  motion.end = NULL;
+  CHECK(tunnelproof_mesh_first_contact(mesh, &motion, NULL, &error) == TUNNELPROOF_NULL);
+  CHECK(strcmp(error.array, "end") == 0);
+
+  motion.end = at_last;
+  motion.thickness = thicknesses + 1;
+  motion.thickness_count = 1;
+  CHECK(tunnelproof_mesh_is_free(mesh, &motion, &error) == TUNNELPROOF_RADIUS);
+  CHECK(error.value == -1);
+  CHECK(tunnelproof_mesh_set_groups(mesh, NULL, NULL) == TUNNELPROOF_NULL);
+  CHECK(tunnelproof_mesh_set_groups(mesh, groups, NULL) == 0);
+  motion.thickness = thicknesses;
+  motion.thickness_count = 2;
+  CHECK(tunnelproof_mesh_is_free(mesh, &motion, &error) == TUNNELPROOF_LENGTH);
+  CHECK(error.index == 3 && error.value == 2);
+  CHECK(tunnelproof_mesh_leave_out(mesh, 3, 0, &error) == TUNNELPROOF_INDEX && error.value == 3);
+  CHECK(tunnelproof_mesh_leave_out(mesh, 0, 1, NULL) == 0);
+  CHECK(tunnelproof_mesh_leave_out(mesh, 2, 0, NULL) == 0);
+  motion.thickness_count = 0;
+  CHECK(tunnelproof_mesh_is_free(mesh, &motion, NULL) == 1);
+}
+
+static void of_a_mesh(void) {
+  tunnelproof_mesh *mesh = tunnelproof_mesh_new(6, edges, 1, faces, 1, NULL);
+  uint32_t all[8];
+  CHECK(mesh != NULL);
+  CHECK(tunnelproof_mesh_edges(mesh, all, 4) == 4 && all[0] == 3 && all[1] == 4 && all[7] == 0);
+  CHECK(tunnelproof_mesh_edges(NULL, all, 4) == TUNNELPROOF_NULL);
+  contacts_of_a_mesh(mesh);
+  steps_of_a_mesh(mesh);
+  refused_of_a_mesh(mesh);
+  tunnelproof_mesh_free(mesh);
+}
+
 int main(void) {
   size_t i;
   one_by_one();
+  advanced();
+  of_a_mesh();
   overlap();
   at_start();
   refused();

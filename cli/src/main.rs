@@ -1,5 +1,4 @@
-//! The command line: `eval`, `certify`, `merge`, `explain`, `shrink`, `replay`, `vectors`, `sweep`
-//! and `tune`.
+//! The command line `tunnelproof`.
 
 use std::process::ExitCode;
 

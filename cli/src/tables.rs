@@ -163,7 +163,7 @@ fn stopped<'a>(runs: impl IntoIterator<Item = &'a Audited>) -> String {
 /// A scene cannot be built.
 pub fn missed(scenes: &[OfThesis]) -> Result<String, SceneError> {
     let mut text = String::from(
-        "Contacts missed, of them crossings / contacts made; standing at the end (thesis mode, by the audit)\n",
+        "Contacts missed, of them crossings / contacts made; standing at the end + ambiguous (thesis mode, by the audit)\n",
     ) + &heading(scenes);
     let order = [
         Narrow::Discrete,
@@ -181,6 +181,10 @@ pub fn missed(scenes: &[OfThesis]) -> Result<String, SceneError> {
         let cell = |Audited { report, .. }: &Audited| {
             let missed = report.missed.iter().sum::<u64>();
             let (crossings, standing) = (report.missed_crossings, report.standing.len());
+            let standing = match report.ambiguous.len() {
+                0 => standing.to_string(),
+                ambiguous => format!("{standing} + {ambiguous}"),
+            };
             format!("{missed}, {crossings} / {}; {standing}", report.contacts)
         };
         text += &row(narrow.name(), runs.iter().map(cell));

@@ -1,7 +1,7 @@
 //! The same world gives the same bits in every build: hashes of all positions after some steps.
 //!
-//! It runs optimised (`cargo test --release`) and not
-//! (`CARGO_PROFILE_TEST_OPT_LEVEL=0 cargo test --test wire_determinism`): a transformation that
+//! It runs optimised (`cargo test`, `cargo test --release`) and not
+//! (`CARGO_PROFILE_DEV_OPT_LEVEL=0 cargo test --test wire_determinism`): a transformation that
 //! changed floating-point results would show here. A change of the stepper that changes results on
 //! purpose changes the hash.
 

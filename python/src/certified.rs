@@ -8,6 +8,7 @@ use tunnelproof::certified::Kind;
 use tunnelproof::{
     Batch, ContactPoint, EdgeEdge, EdgePlace, FacePlace, Hit, Normal, Query, QueryKind, VertexFace,
 };
+use tunnelproof_float_env::with_default;
 
 use crate::columns::{self, Columns};
 use crate::queries::{self, Refused, Rows};
@@ -22,10 +23,10 @@ pub(crate) fn decide<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let kind = queries::kind(kind)?;
     let rows = Rows::new(&points, &radii)?;
-    match kind {
+    with_default(|| match kind {
         QueryKind::EdgeEdge => written::<EdgeEdge>(py, rows),
         QueryKind::VertexFace => written::<VertexFace>(py, rows),
-    }
+    })
 }
 
 /// A kind of query.

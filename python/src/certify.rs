@@ -6,8 +6,10 @@ use numpy::{PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use tunnelproof_cli::report::page;
+use tunnelproof_float_env::with_default;
 use tunnelproof_reference::certify::findings::{Findings, Settings};
 use tunnelproof_reference::certify::judged::Judged;
+use tunnelproof_reference::certify::permitted::Permitted;
 use tunnelproof_reference::certify::run::Panel;
 use tunnelproof_reference::certify::shard::Shard;
 use tunnelproof_reference::certify::source::Source;
@@ -60,7 +62,8 @@ pub(crate) fn certify(
     }
     for (name, kind, points, radii) in own {
         let rows = Rows::new(&points, &radii)?;
-        let queries: Arc<[_]> = rows.queries(queries::kind(&kind)?)?.into();
+        let kind = queries::kind(&kind)?;
+        let queries: Arc<[_]> = with_default(|| rows.queries(kind))?.into();
         sources.push(Source::Queries { name, queries });
     }
     let shard: Shard = format!("{}/{}", shard.0, shard.1)
@@ -76,11 +79,13 @@ pub(crate) fn certify(
         subjects: vec![Judged {
             subject: &subject,
             explain: None,
+            permitted: Permitted::NOTHING,
         }],
     };
     let mut blocks = Vec::new();
     for source in &sources {
-        let block = py.detach(|| panel.run_shard(source, shard, |_| {}));
+        let run = || panel.run_shard(source, shard, |_| {});
+        let block = py.detach(|| with_default(run));
         blocks.push(block.map_err(|error| PyValueError::new_err(error.to_string()))?);
         py.check_signals()?;
     }
@@ -90,17 +95,21 @@ pub(crate) fn certify(
         count,
         shard,
     };
-    let findings = Findings::new(panel, settings, blocks, Vec::new());
-    Ok(py.detach(|| written(&findings)))
+    let certificate = || written(&Findings::new(panel, settings, blocks, Vec::new()));
+    Ok(py.detach(|| with_default(certificate)))
 }
 
 /// The certificate of the whole, from those of all its shards as JSON.
 #[pyfunction]
 pub(crate) fn merge(parts: Vec<String>) -> PyResult<Certificate> {
+    with_default(|| merged(&parts))
+}
+
+fn merged(parts: &[String]) -> PyResult<Certificate> {
     let names: Vec<_> = (1..=parts.len()).map(|i| format!("part {i}")).collect();
     let refuse = |name: &str, error| PyValueError::new_err(format!("{name}: {error}"));
     let mut kept = Vec::new();
-    for (name, text) in names.iter().zip(&parts) {
+    for (name, text) in names.iter().zip(parts) {
         let part = Results::read(text).and_then(|results| Kept::new(&results));
         kept.push((name.as_str(), part.map_err(|error| refuse(name, error))?));
     }
@@ -110,5 +119,9 @@ pub(crate) fn merge(parts: Vec<String>) -> PyResult<Certificate> {
 
 fn written(findings: &Findings<'_>) -> Certificate {
     let json = Results::new(findings).text();
-    (json, table::text(findings), page::certificate(findings))
+    (
+        json,
+        table::text(findings, table::INSTALLED),
+        page::certificate(findings),
+    )
 }

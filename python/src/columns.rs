@@ -1,6 +1,6 @@
 //! Answers as NumPy arrays with a row for each query.
 
-use numpy::{PyArray1, PyArrayMethods};
+use numpy::{Element, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use tunnelproof::{Case, ContactKind};
@@ -24,8 +24,26 @@ impl<'a, 'py, H> Columns<'a, 'py, H> {
         name: &str,
         of: impl Fn(&H) -> [f64; N],
     ) -> PyResult<()> {
+        self.rows(name, [f64::NAN; N], of)
+    }
+
+    /// `N` indices of each hit, 0 where there is none; shaped as numbers are.
+    pub(crate) fn indices<const N: usize>(
+        &mut self,
+        name: &str,
+        of: impl Fn(&H) -> [u32; N],
+    ) -> PyResult<()> {
+        self.rows(name, [0; N], of)
+    }
+
+    fn rows<T: Copy + Element, const N: usize>(
+        &mut self,
+        name: &str,
+        nothing: [T; N],
+        of: impl Fn(&H) -> [T; N],
+    ) -> PyResult<()> {
         let rows = self.hits.iter();
-        let rows = rows.map(|hit| hit.as_ref().map_or([f64::NAN; N], &of));
+        let rows = rows.map(|hit| hit.as_ref().map_or(nothing, &of));
         let array = PyArray1::from_vec(self.py, rows.collect::<Vec<_>>().into_flattened());
         match N {
             1 => self.dict.set_item(name, array),

@@ -4,6 +4,8 @@ use numpy::{PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
+use tunnelproof::query::QueryKind;
+use tunnelproof_float_env::with_default;
 use tunnelproof_reference::answer::{Enclosure, ExactHit};
 use tunnelproof_reference::{field, oracle};
 
@@ -20,6 +22,10 @@ pub(crate) fn exact<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let kind = queries::kind(kind)?;
     let rows = Rows::new(&points, &radii)?;
+    with_default(|| written(py, kind, rows))
+}
+
+fn written(py: Python<'_>, kind: QueryKind, rows: Rows) -> PyResult<Bound<'_, PyDict>> {
     let hits = py.detach(|| {
         let queries = rows.queries(kind)?;
         let exact = |query| oracle::decide::<field::Default>(query).written().hit;

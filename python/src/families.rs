@@ -3,6 +3,7 @@
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use tunnelproof_float_env::with_default;
 use tunnelproof_reference::generate;
 
 use crate::queries::row;
@@ -14,7 +15,7 @@ pub(crate) fn families() -> Vec<(&'static str, &'static str, &'static str)> {
         let kind = family.query(0, 0).kind().name();
         (family.name(), kind, family.description())
     };
-    generate::all().map(row).collect()
+    with_default(|| generate::all().map(row).collect())
 }
 
 /// Points of shape `(count, 8, 3)` and radii of shape `(count, 2)`.
@@ -33,7 +34,7 @@ pub(crate) fn family<'py>(
         .ok_or_else(|| PyValueError::new_err(format!("there is no family {name:?}")))?;
     let (points, radii): (Vec<_>, Vec<_>) = py.detach(|| {
         let queries = (start..).take(count).map(|index| family.query(seed, index));
-        queries.map(|query| row(&query)).unzip()
+        with_default(|| queries.map(|query| row(&query)).unzip())
     });
     let points = PyArray1::from_vec(py, points.into_flattened().into_flattened());
     let radii = PyArray1::from_vec(py, radii.into_flattened());

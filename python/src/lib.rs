@@ -1,18 +1,26 @@
 //! The extension module behind the Python package `tunnelproof`, which documents and checks what comes in.
+//!
+//! Everything that computes does so in the default floating-point environment (`with_default`), once for each call. The
+//! pool of threads is started there as well. What it runs besides is a method to be judged, whose changes of the
+//! environment end with its call (`with_restored`).
 
 use pyo3::prelude::*;
 
+mod advance;
 mod certified;
 mod certify;
 mod columns;
 mod exact;
 mod families;
+mod mesh;
 mod method;
 mod queries;
 
 /// The functions that `tunnelproof/__init__.py` calls.
 #[pymodule]
 mod _tunnelproof {
+    #[pymodule_export]
+    use crate::advance::advance;
     #[pymodule_export]
     use crate::certified::decide;
     #[pymodule_export]
@@ -21,6 +29,8 @@ mod _tunnelproof {
     use crate::exact::exact;
     #[pymodule_export]
     use crate::families::{families, family};
+    #[pymodule_export]
+    use crate::mesh::Mesh;
 
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");

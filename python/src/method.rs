@@ -4,6 +4,7 @@ use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use tunnelproof::narrow::Unsupported;
 use tunnelproof::query::{Query, QueryKind};
+use tunnelproof_float_env::with_restored;
 use tunnelproof_reference::answer::Enclosure;
 use tunnelproof_reference::subject::{Answer, Lapse, LapseKind, NoAnswer, Said, Subject};
 
@@ -60,7 +61,9 @@ impl Method {
             let points = points.reshape([queries.len(), 8, 3])?;
             let radii = PyArray1::from_vec(py, radii.into_flattened());
             let radii = radii.reshape([queries.len(), 2])?;
-            let answer = self.call.bind(py).call1((kind.name(), points, radii))?;
+            // What it imports may change the floating-point environment of this thread.
+            let call = || self.call.bind(py).call1((kind.name(), points, radii));
+            let answer = with_restored(call)?;
             if answer.is_none() {
                 let refused = queries.iter().map(|query| Err(not_taken(query).into()));
                 return Ok(refused.collect());

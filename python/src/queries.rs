@@ -59,6 +59,12 @@ pub(crate) fn row(query: &Query) -> ([[f64; 3]; 8], [f64; 2]) {
 /// What is wrong with a query.
 pub(crate) struct Refused(String);
 
+impl Refused {
+    pub(crate) fn new(error: &impl std::fmt::Display) -> Self {
+        Refused(error.to_string())
+    }
+}
+
 impl From<Refused> for PyErr {
     fn from(Refused(text): Refused) -> Self {
         PyValueError::new_err(text)

@@ -123,7 +123,7 @@ def test_what_is_no_query_is_named():
     bad[1, 6, 2] = np.nan
     with pytest.raises(ValueError, match="query 1: .*NaN"):
         tunnelproof.decide("edge-edge", bad)
-    with pytest.raises(ValueError, match="query 0: radius is -1"):
+    with pytest.raises(ValueError, match="query 0: the radius is -1"):
         tunnelproof.decide("vertex-face", FALLING, -1)
     with pytest.raises(ValueError, match=r"points have the shape \(8, 3\), not \(n, 8, 3\)"):
         tunnelproof.decide("edge-edge", FALLING[0])

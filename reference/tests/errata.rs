@@ -32,7 +32,7 @@ struct Witness {
 
 impl Witness {
     fn new(line: &str) -> Self {
-        let fields: Value = serde_json::from_str(line).expect(line);
+        let fields = &serde_json::from_str::<Value>(line).expect(line)["note"];
         let time = |field: &str| match &fields[field] {
             Value::Null if fields.get(field).is_some() => None,
             value => Some(value.as_f64().expect(field)),

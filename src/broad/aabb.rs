@@ -160,7 +160,7 @@ mod tests {
         );
         assert_eq!(
             text(Aabb::swept(&[ORIGIN], &[], -1.0)),
-            "radius is -1, not a finite number of at least 0"
+            "the radius is -1; it has to be finite, and 0 or more"
         );
         assert_eq!(
             text(Aabb::swept(&[], &[], 0.0)),

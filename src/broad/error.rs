@@ -53,7 +53,10 @@ impl fmt::Display for BroadError {
                 )
             }
             BroadError::Radius(value) => {
-                write!(f, "radius is {value}, not a finite number of at least 0")
+                write!(
+                    f,
+                    "the radius is {value}; it has to be finite, and 0 or more"
+                )
             }
             BroadError::NoPoints => f.write_str("a box needs at least one point"),
             BroadError::Bounds { axis, low, high } => {

@@ -381,7 +381,7 @@ fn slow_pairs_refuse_what_is_not_finite_and_pass_on_what_they_do_not_know() {
     assert_eq!(
         slow.place(first, along_x(), f64::NAN)
             .map_err(|e| e.to_string()),
-        Err("radius is NaN, not a finite number of at least 0".to_owned())
+        Err("the radius is NaN; it has to be finite, and 0 or more".to_owned())
     );
     assert_eq!(SlowPairs::default().remaining(&[pair]), [pair]);
     assert!(slow.remaining(&[pair]).is_empty());

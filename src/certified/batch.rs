@@ -8,13 +8,13 @@ use std::marker::PhantomData;
 use std::ops::Range;
 
 use super::block::{BLOCK, Block};
-use super::cascade::{decide_all, decide_rest};
+use super::cascade::{decide_motion, decide_rest};
 use super::kind::Kind;
 use super::motion::Positions;
 use super::stage::Stage;
-use super::thick;
 use crate::contact::Hit;
-use crate::query::{Point, QueryError, Radius};
+use crate::environment;
+use crate::query::{Point, QueryError, Radius, check};
 
 /// How many blocks are not screened after one for which that did not pay.
 const UNSCREENED: u32 = 15;
@@ -86,7 +86,7 @@ impl<K: Kind> Batch<K> {
 
     /// Adds a query.
     pub fn push(&mut self, query: &K) {
-        let ([start, end], radius) = query.parts();
+        let (start, end, radius) = (query.start(), query.end(), query.radius());
         if !(radius.is_zero() && self.radii.is_empty()) {
             self.radii.resize(self.len(), Radius::ZERO);
             self.radii.push(radius);
@@ -138,8 +138,8 @@ impl<K: Kind> Batch<K> {
             });
         }
         for index in 0..length {
-            batch
-                .query(index)
+            let Positions { start, end } = batch.positions(index);
+            check(&start.map(Point::from), &end.map(Point::from), radius)
                 .map_err(|error| BatchError::Query { index, error })?;
         }
         Ok(batch)
@@ -184,6 +184,8 @@ impl<K: Kind> Batch<K> {
         mut hit: impl FnMut(usize, Hit<K::Place>),
         mut observe: impl FnMut(Stage),
     ) {
+        // By each thread that takes a part.
+        debug_assert_eq!(environment::check(), Ok(()));
         let mut block = Block::new();
         let mut unscreened = 0;
         for start in range.clone().step_by(BLOCK) {
@@ -199,13 +201,13 @@ impl<K: Kind> Batch<K> {
                 continue;
             }
             block.fill(self.coordinates.each_ref().map(|array| &array[start..end]));
-            if !block.screen::<K>(&mut observe) {
+            if !block.screen::<K::Stages>(&mut observe) {
                 unscreened = UNSCREENED;
             }
             for &i in block.open() {
                 let index = start + usize::from(i);
                 let positions = || self.positions(index);
-                if let Some(found) = decide_rest::<K>(positions, &mut observe) {
+                if let Some(found) = decide_rest::<K::Stages>(positions, &mut observe) {
                     hit(index, found);
                 }
             }
@@ -213,12 +215,7 @@ impl<K: Kind> Batch<K> {
     }
 
     fn decide_one(&self, index: usize, observe: &mut impl FnMut(Stage)) -> Option<Hit<K::Place>> {
-        let radius = self.radius(index);
-        if radius.is_zero() {
-            decide_all::<K>(|| self.positions(index), observe)
-        } else {
-            thick::decide::<K>(|| self.positions(index), radius, observe)
-        }
+        decide_motion::<K::Stages>(|| self.positions(index), self.radius(index), observe)
     }
 
     fn radius(&self, index: usize) -> Radius {
@@ -233,15 +230,6 @@ impl<K: Kind> Batch<K> {
             start: [at(0), at(3), at(6), at(9)],
             end: [at(12), at(15), at(18), at(21)],
         }
-    }
-
-    fn query(&self, index: usize) -> Result<K, QueryError> {
-        let Positions { start, end } = self.positions(index);
-        K::of_points(
-            start.map(Point::from),
-            end.map(Point::from),
-            self.radius(index),
-        )
     }
 }
 

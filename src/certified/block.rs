@@ -11,7 +11,7 @@ use pulp::{Arch, WithSimd};
 
 use super::cubic::Cubic;
 use super::ends::{Ends, Plain};
-use super::kind::Kind;
+use super::kind::Stages;
 use super::stage::Stage;
 
 /// How many queries go through a stage together: enough that few lanes are idle in the later
@@ -63,7 +63,7 @@ impl Block {
     /// The first three stages, and the fourth as far as it goes without a branch: a miss at the
     /// only root. Stops after the first two where they decide little: then most of these pairs
     /// touch, and one by one is faster. Returns whether it went on.
-    pub(super) fn screen<K: Kind>(&mut self, observe: &mut impl FnMut(Stage)) -> bool {
+    pub(super) fn screen<K: Stages>(&mut self, observe: &mut impl FnMut(Stage)) -> bool {
         let all = self.count;
         let apart = self.test(Apart::<K>(PhantomData));
         self.take_out([Stage::Boxes, Stage::Direction], &apart, observe);
@@ -93,7 +93,7 @@ trait Test<const N: usize> {
 /// Stages 1 and 2.
 struct Apart<K>(PhantomData<K>);
 
-impl<K: Kind> Test<2> for Apart<K> {
+impl<K: Stages> Test<2> for Apart<K> {
     #[inline(always)]
     fn of(&self, points: &[[Plain; 3]; 4]) -> [bool; 2] {
         let boxes = K::boxes(points, 0.0);
@@ -105,7 +105,7 @@ impl<K: Kind> Test<2> for Apart<K> {
 /// Stage 3.
 struct Signs<K>(PhantomData<K>);
 
-impl<K: Kind> Test<1> for Signs<K> {
+impl<K: Stages> Test<1> for Signs<K> {
     #[inline(always)]
     fn of(&self, points: &[[Plain; 3]; 4]) -> [bool; 1] {
         let cubic = Cubic::unchecked(&K::motion(points));
@@ -116,7 +116,7 @@ impl<K: Kind> Test<1> for Signs<K> {
 /// Stage 4, for a miss at the only root in each half of the step.
 struct Roots<K>(PhantomData<K>);
 
-impl<K: Kind> Test<1> for Roots<K> {
+impl<K: Stages> Test<1> for Roots<K> {
     #[inline(always)]
     fn of(&self, points: &[[Plain; 3]; 4]) -> [bool; 1] {
         let motion = K::motion(points);

@@ -4,12 +4,14 @@ use wide::f64x2;
 
 use super::cubic::Cubic;
 use super::ends::Ends;
-use super::kind::Kind;
+use super::kind::{Kind, Stages};
 use super::motion::{Motion, Positions};
 use super::separate::SweptBoxes;
 use super::stage::Stage;
 use super::thick;
 use crate::contact::{Case, Hit};
+use crate::environment;
+use crate::query::Radius;
 
 /// Whether and when the two sides of a query touch: certified, without thresholds.
 ///
@@ -20,8 +22,12 @@ use crate::contact::{Case, Hit};
 /// # Guarantee
 ///
 /// No hit is false, no contact is missed, and [`toi`](Hit::toi) is the exact time of impact rounded
-/// down, for every finite query. The proofs assume rounding to nearest and gradual underflow, which
-/// is what Rust sets up.
+/// down, for every finite query. The proofs assume rounding to nearest and gradual underflow, as
+/// Rust does: [`environment::check`] says whether the current thread has them.
+///
+/// # Panics
+///
+/// In debug builds, if it has not.
 ///
 /// # Example
 ///
@@ -47,12 +53,9 @@ pub fn decide_observed<K: Kind>(
     query: &K,
     observe: &mut impl FnMut(Stage),
 ) -> Option<Hit<K::Place>> {
-    let ([start, end], radius) = query.parts();
-    let positions = || Positions::of(start, end);
-    if !radius.is_zero() {
-        return thick::decide::<K>(positions, radius, observe);
-    }
-    decide_all::<K>(positions, observe)
+    debug_assert_eq!(environment::check(), Ok(()));
+    let positions = || Positions::of(query.start(), query.end());
+    decide_motion::<K::Stages>(positions, query.radius(), observe)
 }
 
 /// As [`decide`], by integer arithmetic alone.
@@ -61,24 +64,37 @@ pub fn decide_observed<K: Kind>(
 /// milliseconds where their exponents span the range of `f64`; with a radius above 0, about fifty
 /// times that.
 pub fn decide_exactly<K: Kind>(query: &K) -> Option<Hit<K::Place>> {
-    let ([start, end], radius) = query.parts();
-    let positions = Positions::of(start, end);
+    debug_assert_eq!(environment::check(), Ok(()));
+    let (positions, radius) = (Positions::of(query.start(), query.end()), query.radius());
     if radius.is_zero() {
-        K::decide_exactly(&positions)
+        K::Stages::decide_exactly(&positions)
     } else {
-        K::decide_thick_exactly(&positions, radius)
+        K::Stages::decide_thick_exactly(&positions, radius)
     }
 }
 
 /// The case of the motion, whether the two sides touch or not. Exact; the radius has no part in it.
 pub fn classify<K: Kind>(query: &K) -> Case {
-    let ([start, end], _) = query.parts();
-    K::case(&Positions::of(start, end))
+    K::Stages::case(&Positions::of(query.start(), query.end()))
 }
 
-/// All stages.
+/// The first contact of a motion within a radius, by all stages.
 #[inline(always)]
-pub(super) fn decide_all<K: Kind>(
+pub(super) fn decide_motion<K: Stages>(
+    positions: impl Fn() -> Positions,
+    radius: Radius,
+    observe: &mut impl FnMut(Stage),
+) -> Option<Hit<K::Place>> {
+    if radius.is_zero() {
+        decide_all::<K>(positions, observe)
+    } else {
+        thick::decide::<K>(positions, radius, observe)
+    }
+}
+
+/// All stages, without a radius.
+#[inline(always)]
+fn decide_all<K: Stages>(
     positions: impl Fn() -> Positions,
     observe: &mut impl FnMut(Stage),
 ) -> Option<Hit<K::Place>> {
@@ -97,7 +113,7 @@ pub(super) fn decide_all<K: Kind>(
 }
 
 /// The stages after the first two, for a query that those leave open.
-pub(super) fn decide_rest<K: Kind>(
+pub(super) fn decide_rest<K: Stages>(
     positions: impl Fn() -> Positions,
     observe: &mut impl FnMut(Stage),
 ) -> Option<Hit<K::Place>> {
@@ -107,7 +123,7 @@ pub(super) fn decide_rest<K: Kind>(
 }
 
 #[inline(always)]
-fn decide_open<K: Kind, E: Ends>(
+fn decide_open<K: Stages, E: Ends>(
     positions: impl Fn() -> Positions,
     boxes: &SweptBoxes,
     motion: &Motion<E>,

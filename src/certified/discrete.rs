@@ -11,6 +11,7 @@ use super::motion::{Vector, add, cross, dot, largest, sub};
 use super::separate::U;
 use super::vector::{between, normalised};
 use crate::contact::EdgePoint;
+use crate::environment;
 use crate::query::{EdgeEdge, Point};
 
 /// How near two edges are at one instant.
@@ -46,6 +47,7 @@ pub struct Proximity {
 ///
 /// [`EdgeEdge::at_rest`] makes a query of edges at one instant.
 pub fn decide_discrete(query: &EdgeEdge) -> Proximity {
+    debug_assert_eq!(environment::check(), Ok(()));
     let (points, radius) = (query.start(), query.radius());
     let corners = points.each_ref().map(|p| [p.x, p.y, p.z]);
     let edges = Edges::new(&corners);

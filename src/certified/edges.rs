@@ -3,7 +3,7 @@
 use super::cubic::Cubic;
 use super::ends::Ends;
 use super::exact::{self, Passage};
-use super::kind::{Kind, Stages, query_parts};
+use super::kind::{Kind, Sealed, Stages, query_parts};
 use super::locate::Place;
 use super::motion::{Motion, Positions};
 use super::nearest::{self, Gram, Spot};
@@ -14,20 +14,23 @@ use super::separate::SweptBoxes;
 use super::stage::{Finding, Stage};
 use super::start;
 use crate::contact::{Case, ContactKind, EdgePlace, EdgePoint, Flags, Hit, PLACE_ERROR};
-use crate::query::{EdgeEdge, Point, QueryError, Radius};
+use crate::query::{EdgeEdge, Point, Radius};
 
+impl Sealed for EdgeEdge {}
+
+#[allow(private_interfaces, reason = "as of the trait")]
 impl Kind for EdgeEdge {
     type Place = EdgePlace;
+    query_parts!();
 }
 
-#[allow(private_bounds, private_interfaces, reason = "as of the trait")]
-impl Stages<EdgePlace> for EdgeEdge {
+impl Stages for EdgeEdge {
+    type Place = EdgePlace;
+
     const FIRST: usize = 2;
 
-    query_parts!();
-
-    fn normal(&self, hit: &Hit<EdgePlace>) -> Option<Normal> {
-        normal::of_edges(self, hit)
+    fn normal(positions: &Positions, radius: Radius, hit: &Hit<EdgePlace>) -> Option<Normal> {
+        normal::of_edges(positions, radius, hit)
     }
 
     fn weights(place: &EdgePlace) -> ([f64; 4], Option<[f64; 4]>) {

@@ -12,57 +12,51 @@ use super::root::{Bracket, Half};
 use super::separate::SweptBoxes;
 use super::stage::Stage;
 use crate::contact::{Case, Hit, Place};
-use crate::query::{Point, QueryError, Radius};
+use crate::query::{Point, Radius};
 
 /// A kind of query that the certified path decides: [`EdgeEdge`](crate::query::EdgeEdge) or
 /// [`VertexFace`](crate::query::VertexFace).
 ///
 /// The trait is sealed: no other type can be one. `decide(&query)` and `Batch` take either.
-pub trait Kind: Stages<<Self as Kind>::Place> + Copy + Send + Sync + 'static {
+pub trait Kind: Sealed + Copy + Send + Sync + 'static {
     /// Where the two sides touch: [`EdgePlace`](crate::contact::EdgePlace) or
     /// [`FacePlace`](crate::contact::FacePlace).
     type Place: Copy + Debug + PartialEq + Send + Sync + Into<Place> + 'static;
 
+    #[doc(hidden)]
+    #[allow(private_bounds, reason = "only the stages of this module use it")]
+    type Stages: Stages<Place = Self::Place>;
+
     /// The four points at `t = 0`.
-    fn start(&self) -> &[Point; 4] {
-        self.parts().0[0]
-    }
+    fn start(&self) -> &[Point; 4];
 
     /// The four points at `t = 1`.
-    fn end(&self) -> &[Point; 4] {
-        self.parts().0[1]
-    }
+    fn end(&self) -> &[Point; 4];
 
     /// The distance at which the two sides count as touching.
-    fn radius(&self) -> Radius {
-        self.parts().1
-    }
+    fn radius(&self) -> Radius;
 }
 
-/// A kind of query, as the stages see it. `P` is its place.
+/// Implemented for the two kinds alone.
+pub trait Sealed {}
+
+/// A kind of query, as the stages see it: functions of its motion. They are apart from [`Kind`], so
+/// that code generic over a kind meets no names but those of the interface.
 ///
-/// The first methods are of a query, those after them of a motion without a radius, the last ones
-/// of a motion with one.
-#[allow(
-    private_bounds,
-    private_interfaces,
-    reason = "it seals `Kind`: nobody outside can name it"
-)]
-pub trait Stages<P>: Sized {
+/// The first are of a query, those after them of a motion without a radius, the last ones of a
+/// motion with one.
+pub(super) trait Stages: 'static {
+    /// Where the two sides touch.
+    type Place: Copy + 'static;
+
     /// How many of the four points are of the first side.
     const FIRST: usize;
 
-    /// The query of four points given at `t = 0` and `t = 1`.
-    fn of_points(start: [Point; 4], end: [Point; 4], radius: Radius) -> Result<Self, QueryError>;
-
-    /// The points at both ends of the step and the radius.
-    fn parts(&self) -> ([&[Point; 4]; 2], Radius);
-
     /// The direction in which they touch, and where they do.
-    fn normal(&self, hit: &Hit<P>) -> Option<Normal>;
+    fn normal(positions: &Positions, radius: Radius, hit: &Hit<Self::Place>) -> Option<Normal>;
 
     /// The weights of A, B, C and D in the places of a contact.
-    fn weights(place: &P) -> ([f64; 4], Option<[f64; 4]>);
+    fn weights(place: &Self::Place) -> ([f64; 4], Option<[f64; 4]>);
 
     /// The swept boxes, disjoint if they are farther apart than a distance.
     fn boxes<E: Ends>(points: &[[E; 3]; 4], distance: f64) -> SweptBoxes;
@@ -83,10 +77,10 @@ pub trait Stages<P>: Sized {
         motion: &Motion<E>,
         cubic: Option<&Cubic>,
         observe: &mut impl FnMut(Stage),
-    ) -> Option<Hit<P>>;
+    ) -> Option<Hit<Self::Place>>;
 
     /// The answer of integers.
-    fn decide_exactly(positions: &Positions) -> Option<Hit<P>>;
+    fn decide_exactly(positions: &Positions) -> Option<Hit<Self::Place>>;
 
     /// The case of the motion, decided in integers.
     fn case(positions: &Positions) -> Case;
@@ -108,7 +102,7 @@ pub trait Stages<P>: Sized {
     fn nearest(gram: &Gram) -> Spot;
 
     /// The place of `(u, v)` up to an error.
-    fn place(u: f64, v: f64, error: f64) -> P;
+    fn place(u: f64, v: f64, error: f64) -> Self::Place;
 
     /// Whether the two sides without their radius touch strictly inside at a root of `f`, if that
     /// is certain.
@@ -118,22 +112,24 @@ pub trait Stages<P>: Sized {
     fn passage(positions: &Positions) -> Passage;
 
     /// The answer of integers with a radius above 0.
-    fn decide_thick_exactly(positions: &Positions, radius: Radius) -> Option<Hit<P>>;
+    fn decide_thick_exactly(positions: &Positions, radius: Radius) -> Option<Hit<Self::Place>>;
 }
 
 /// The parts of a query that its type itself knows.
 macro_rules! query_parts {
     () => {
-        fn of_points(
-            start: [Point; 4],
-            end: [Point; 4],
-            radius: Radius,
-        ) -> Result<Self, QueryError> {
-            Self::new(start, end, radius)
+        type Stages = Self;
+
+        fn start(&self) -> &[Point; 4] {
+            self.start()
         }
 
-        fn parts(&self) -> ([&[Point; 4]; 2], Radius) {
-            ([self.start(), self.end()], self.radius())
+        fn end(&self) -> &[Point; 4] {
+            self.end()
+        }
+
+        fn radius(&self) -> Radius {
+            self.radius()
         }
     };
 }

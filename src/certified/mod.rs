@@ -42,6 +42,8 @@
 //! of the step, up to the contact, where double-double arithmetic settles the time; and integers
 //! again.
 //!
+//! [`advance`] moves two sides as far as they may go, and gives the positions to store (`step`).
+//!
 //! [`decide_discrete`] is the question at one instant, with a radius (`discrete`).
 //!
 //! No stage has a threshold: an error bound is a proof, and what it cannot prove it hands on.
@@ -73,6 +75,7 @@ mod root;
 mod separate;
 mod stage;
 mod start;
+mod step;
 #[cfg(test)]
 mod testing;
 mod thick;
@@ -82,6 +85,11 @@ pub use batch::{Batch, BatchError};
 pub use cascade::{classify, decide, decide_exactly, decide_observed};
 pub use discrete::{Proximity, decide_discrete};
 pub use kind::Kind;
+pub(crate) use motion::Positions;
 pub use narrow::Certified;
 pub use normal::Normal;
 pub use stage::Stage;
+pub use step::{Advance, Blocked, Clearance, ClearanceError, advance, interpolate};
+pub(crate) use step::{
+    Limit, first_toi, halved, is_apart_until, is_apart_with_room, limit, rounding_of, stored,
+};

@@ -4,13 +4,13 @@ use super::ends::{Ends, Scalar, larger};
 use crate::query::Point;
 
 /// A vector in `f64`.
-pub(super) type Vector = [f64; 3];
+pub(crate) type Vector = [f64; 3];
 
 /// The points A, B, C, D at `t = 0` and at `t = 1`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Positions {
-    pub(super) start: [Vector; 4],
-    pub(super) end: [Vector; 4],
+pub(crate) struct Positions {
+    pub(crate) start: [Vector; 4],
+    pub(crate) end: [Vector; 4],
 }
 
 impl Positions {

@@ -44,7 +44,7 @@ use nalgebra::Vector3;
 use super::exact::{normal_of_edges_exactly, normal_of_face_exactly};
 use super::motion::{Positions, Vector, cross, sub};
 use crate::contact::{EdgePlace, EdgePoint, FacePlace, Hit};
-use crate::query::{EdgeEdge, Radius, VertexFace};
+use crate::query::Radius;
 
 mod bounded;
 
@@ -180,31 +180,32 @@ fn exact(direction: Vector) -> Normal {
 }
 
 /// The normal of a hit of two edges.
-pub(super) fn of_edges(query: &EdgeEdge, hit: &Hit<EdgePlace>) -> Option<Normal> {
+pub(super) fn of_edges(
+    positions: &Positions,
+    radius: Radius,
+    hit: &Hit<EdgePlace>,
+) -> Option<Normal> {
     let plain = |EdgePoint { u, v }: EdgePoint| [u, v];
-    let Positions { start, end } = Positions::of(query.start(), query.end());
+    let Positions { start, end } = positions;
     let EdgePlace {
         first,
         second,
         error,
     } = hit.place;
     let at = At::new(hit, error);
-    normal_of_edges(
-        &start,
-        &end,
-        query.radius(),
-        &at,
-        plain(first),
-        second.map(plain),
-    )
+    normal_of_edges(start, end, radius, &at, plain(first), second.map(plain))
 }
 
 /// The normal of a hit of a vertex and a face.
-pub(super) fn of_face(query: &VertexFace, hit: &Hit<FacePlace>) -> Option<Normal> {
-    let Positions { start, end } = Positions::of(query.start(), query.end());
+pub(super) fn of_face(
+    positions: &Positions,
+    radius: Radius,
+    hit: &Hit<FacePlace>,
+) -> Option<Normal> {
+    let Positions { start, end } = positions;
     let FacePlace { weights, error } = hit.place;
     let at = At::new(hit, error);
-    normal_of_face(&start, &end, query.radius(), &at, weights)
+    normal_of_face(start, end, radius, &at, weights)
 }
 
 impl At {

@@ -103,6 +103,7 @@ impl Cubic {
         let [b0, _, _, b3] = part.bernstein;
         // Of the pieces one starts or ends there again, and so stays open.
         let has_open_end = !(b0.abs() > error) || !(b3.abs() > error);
+        // Ends: at this depth, in any rounding mode.
         let may_halve = part.depth < MAX_DEPTH;
         if (has_open_end || !may_halve) && self.is_settled(&part, is_apart)? {
             return Some(());
@@ -253,6 +254,7 @@ impl Cubic {
     pub(super) fn sharpen(&self, bracket: &Bracket) -> Option<(Bracket, f64)> {
         let mut bracket = *bracket;
         let mut t = 0.5 * (bracket.low + bracket.high);
+        // Ends: after so many steps, converged or not.
         for _ in 0..MAX_NEWTON {
             let (value, slope) = self.evaluate(t);
             let is_converged = value.abs() <= self.value_error();

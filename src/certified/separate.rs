@@ -127,6 +127,7 @@ impl<E: Ends> Motion<E> {
         let corners = [*m, to_d, sub(m, k), sub(&to_d, k)];
         let [p, q, r, s] = &corners;
         let mut nearest = add(&add(p, q), &add(r, s)).map(|sum| sum.sum() / 8.0);
+        // Ends: after so many steps.
         for _ in 0..SEARCH_STEPS {
             let direction = both(&nearest);
             let along = corners.each_ref().map(|corner| dot(corner, &direction));

@@ -49,12 +49,28 @@ impl From<[f64; 2]> for Radius {
     }
 }
 
+/// A number in an error or a table: with an exponent where it would have many digits.
+pub(crate) struct Short(pub(crate) f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Short(value) = *self;
+        let is_ordinary = (1e-6..1e16).contains(&value.abs()) || !value.is_finite();
+        match value {
+            // Of either sign.
+            0.0 => f.write_str("0"),
+            _ if is_ordinary => write!(f, "{value}"),
+            _ => write!(f, "{value:e}"),
+        }
+    }
+}
+
 impl fmt::Display for Radius {
     /// The number, or the two whose sum it is.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.parts {
-            [radius, 0.0] => write!(f, "{radius}"),
-            [first, second] => write!(f, "{first} + {second}"),
+            [radius, 0.0] => Short(radius).fmt(f),
+            [first, second] => write!(f, "{} + {}", Short(first), Short(second)),
         }
     }
 }

@@ -12,6 +12,7 @@
 //! ambiguous. So they are if sums in several positions differ.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use serde::Serialize;
 
@@ -20,7 +21,14 @@ use super::aside::{POSITIONS, Passages};
 /// Passages by pair of wires.
 #[derive(Default)]
 pub(super) struct Ledger {
-    sums: BTreeMap<[usize; 2], Passages>,
+    sums: BTreeMap<[usize; 2], Sum>,
+}
+
+/// What two wires have come to.
+struct Sum {
+    passages: Passages,
+    /// Whether the run starts or ends with a contact of the two.
+    cut: bool,
 }
 
 /// Two wires of which it cannot be said how often they have passed through each other: a contact is
@@ -33,6 +41,31 @@ pub struct Ambiguous {
     pub least: i64,
     /// The largest.
     pub most: i64,
+    /// Whether a contact is at the end of a wire.
+    pub at_wire_end: bool,
+    /// Whether the run starts or ends with a contact.
+    pub at_run_end: bool,
+}
+
+impl fmt::Display for Ambiguous {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [a, b] = self.wires;
+        let why = match (self.at_wire_end, self.at_run_end) {
+            (true, true) => "at the end of a wire, and as the run starts or ends",
+            (true, false) => "at the end of a wire",
+            (false, true) => "as the run starts or ends",
+            (false, false) => "next to a point that both share",
+        };
+        write!(
+            f,
+            "wires {a} and {b} met {why}: they passed through each other "
+        )?;
+        match (self.least, self.most) {
+            (0, 0) => f.write_str("or not, counted as 0"),
+            (least, most) if least == most => write!(f, "or not, counted as {least:+}"),
+            (least, most) => write!(f, "from {least:+} to {most:+} times"),
+        }
+    }
 }
 
 impl Ledger {
@@ -46,18 +79,20 @@ impl Ledger {
     /// Pairs of wires whose number of passages depends on where wires are moved.
     pub(super) fn ambiguous(&self) -> Vec<Ambiguous> {
         let sums = self.sums.iter();
-        let differ = sums.filter(|(_, sums)| agreed(sums).is_none());
-        let ambiguous = differ.map(|(&wires, sums)| Ambiguous {
+        let differ = sums.filter(|(_, sum)| agreed(sum).is_none());
+        let ambiguous = differ.map(|(&wires, sum)| Ambiguous {
             wires,
-            least: known(sums).min().unwrap_or(0),
-            most: known(sums).max().unwrap_or(0),
+            least: known(sum).min().unwrap_or(0),
+            most: known(sum).max().unwrap_or(0),
+            at_wire_end: sum.passages.at_end,
+            at_run_end: sum.cut,
         });
         ambiguous.collect()
     }
 
     /// Adds the passages of two segments.
     pub(super) fn enter(&mut self, wires: [usize; 2], passages: &Passages) {
-        let sums = self.of(wires);
+        let sums = &mut self.of(wires).passages;
         sums.at_end |= passages.at_end;
         for (sum, passages) in sums.by_position.iter_mut().zip(passages.by_position) {
             *sum = sum.zip(passages).map(|(sum, passages)| sum + passages);
@@ -66,25 +101,32 @@ impl Ledger {
 
     /// Notes that the run starts or ends with a contact of two wires.
     pub(super) fn cut(&mut self, wires: [usize; 2]) {
-        self.of(wires).at_end = true;
+        self.of(wires).cut = true;
     }
 
-    fn of(&mut self, wires: [usize; 2]) -> &mut Passages {
+    fn of(&mut self, wires: [usize; 2]) -> &mut Sum {
         let wires = [wires[0].min(wires[1]), wires[0].max(wires[1])];
-        self.sums.entry(wires).or_insert(Passages {
-            by_position: [Some(0); POSITIONS],
-            at_end: false,
+        self.sums.entry(wires).or_insert(Sum {
+            passages: Passages {
+                by_position: [Some(0); POSITIONS],
+                at_end: false,
+            },
+            cut: false,
         })
     }
 }
 
-fn known(sums: &Passages) -> impl Iterator<Item = i64> {
-    sums.by_position.iter().flatten().copied()
+fn known(sum: &Sum) -> impl Iterator<Item = i64> {
+    sum.passages.by_position.iter().flatten().copied()
 }
 
 /// The sum that every position gives, and every other one would.
-fn agreed(sums: &Passages) -> Option<i64> {
-    let first = sums.by_position[0]?;
-    let same = sums.by_position.iter().all(|sum| *sum == Some(first));
-    (same && !sums.at_end).then_some(first)
+fn agreed(sum: &Sum) -> Option<i64> {
+    let Passages {
+        by_position,
+        at_end,
+    } = sum.passages;
+    let first = by_position[0]?;
+    let same = by_position.iter().all(|other| *other == Some(first));
+    (same && !at_end && !sum.cut).then_some(first)
 }

@@ -8,11 +8,11 @@ use std::process::ExitCode;
 use clap::Args;
 use serde::Serialize;
 use tunnelproof::wire::recording::Recording;
-use tunnelproof_cli::audit::{Audit as Auditor, Report};
+use tunnelproof_cli::audit::Audit as Auditor;
 use tunnelproof_cli::replay::Replay;
 use tunnelproof_cli::report::audit;
 
-use super::output::{OutputFile, print};
+use super::output::{JsonOutput, OutputFile};
 use super::{Failure, progress};
 
 /// Check a recording of a simulation for missed tunnels by the exact oracle
@@ -32,7 +32,7 @@ pub(super) struct Audit {
     /// Fail as well if a time of impact is not exact, or a contact is none
     #[arg(long)]
     exact: bool,
-    /// Write what was found to this file as JSON
+    /// Write what was found to this file, as JSON; - is the standard output, in place of the text
     #[arg(long, value_name = "OUT")]
     json: Option<PathBuf>,
     /// Write a page to watch the run, what was found marked on it, to this file
@@ -42,7 +42,7 @@ pub(super) struct Audit {
 
 impl Audit {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
-        let json = self.json.as_deref().map(OutputFile::create).transpose()?;
+        let json = JsonOutput::create(self.json.as_deref())?;
         let page = self.replay.as_deref().map(OutputFile::create).transpose()?;
         let mut replay = page.is_some().then(|| self.empty_page()).transpose()?;
         let recording = self.open()?;
@@ -62,10 +62,7 @@ impl Audit {
         if let Some((page, replay)) = page.zip(replay) {
             page.write(&replay.page(Some(&report)).map_err(no_json)?)?;
         }
-        show(&report)?;
-        if let Some(json) = json {
-            json.write(&as_json(&report)?)?;
-        }
+        json.write(|| as_json(&report), || audit::text(&report))?;
         let good = if self.exact {
             report.is_exact()
         } else {
@@ -98,11 +95,6 @@ impl Audit {
             problem: error.to_string(),
         }
     }
-}
-
-/// Prints what an audit came to.
-pub(super) fn show(report: &Report) -> Result<(), Failure> {
-    print(&audit::text(report))
 }
 
 /// A document as JSON, with a line end.

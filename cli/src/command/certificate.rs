@@ -11,12 +11,12 @@ use tunnelproof_reference::certify::table;
 use tunnelproof_reference::report::results::Results;
 
 use super::Failure;
-use super::output::{OutputFile, print};
+use super::output::{JsonOutput, OutputFile, is_standard_output, print};
 
 /// Where the findings are written, and whether they decide the exit code.
 #[derive(Args)]
 pub(super) struct Certificate {
-    /// Write the whole result to this file, as JSON
+    /// Write the whole result to this file, as JSON; - is the standard output, in place of the tables
     #[arg(long, value_name = "OUT")]
     pub(super) json: Option<PathBuf>,
     /// Write the certificate to this file: a page with pictures of the worst; it needs no network
@@ -32,7 +32,7 @@ pub(super) struct Certificate {
 
 /// The files, seen to be writable.
 pub(super) struct Prepared {
-    json: Option<OutputFile>,
+    json: JsonOutput,
     html: Option<OutputFile>,
     junit: Option<OutputFile>,
 }
@@ -42,7 +42,7 @@ impl Certificate {
     pub(super) fn prepare(&self) -> Result<Prepared, Failure> {
         let file = |path: &Option<PathBuf>| path.as_deref().map(OutputFile::create).transpose();
         Ok(Prepared {
-            json: file(&self.json)?,
+            json: JsonOutput::create(self.json.as_deref())?,
             html: file(&self.html)?,
             junit: file(&self.junit)?,
         })
@@ -52,20 +52,29 @@ impl Certificate {
 impl Prepared {
     /// Writes the findings, to the standard output as well.
     pub(super) fn write(self, findings: &Findings) -> Result<(), Failure> {
-        if let Some(file) = self.json {
-            file.write(&Results::new(findings).text())?;
-        }
         if let Some(file) = self.html {
             file.write(&page::certificate(findings))?;
         }
         if let Some(file) = self.junit {
             file.write(&junit::text(findings))?;
         }
-        print(&table::text(findings))
+        self.json.write(
+            || Ok(Results::new(findings).text()),
+            || table::text(findings, table::CHECKOUT),
+        )
     }
 }
 
 impl Certificate {
+    /// Prints lines after the certificate: to the standard error where the standard output is JSON.
+    pub(super) fn print_after(&self, text: &str) -> Result<(), Failure> {
+        if self.json.as_deref().is_some_and(is_standard_output) {
+            eprint!("{text}");
+            return Ok(());
+        }
+        print(text)
+    }
+
     /// How the command ends.
     pub(super) fn code(&self, findings: &Findings) -> ExitCode {
         let failures = failures(&findings.panel, &findings.total);

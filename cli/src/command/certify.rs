@@ -6,6 +6,7 @@ use clap::Args;
 use tunnelproof_reference::certify::block::Block;
 use tunnelproof_reference::certify::findings::{Findings, Settings};
 use tunnelproof_reference::certify::judged::Judged;
+use tunnelproof_reference::certify::permitted::permitted;
 use tunnelproof_reference::certify::run::Panel;
 use tunnelproof_reference::certify::shard::Shard;
 use tunnelproof_reference::certify::source::Source;
@@ -19,7 +20,6 @@ use tunnelproof_reference::shrink::{Disagreement, MOST_CALLS};
 use tunnelproof_reference::subject::Subject;
 
 use super::certificate::Certificate;
-use super::output::print;
 use super::sources::{family, of_families, of_files};
 use super::subjects::{Answering, AskedList, Programs, asked_list};
 use super::{Failure, Reading, merge, progress};
@@ -94,6 +94,7 @@ pub(super) struct Certify {
 
 impl Certify {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
+        self.reading.check(&self.files)?;
         let sources = self.sources();
         if sources.is_empty() {
             return Err(Failure::Nothing);
@@ -111,7 +112,7 @@ impl Certify {
         let findings = Findings::new(panel, settings, blocks, finish(&answering));
         files.write(&findings)?;
         if self.shrink {
-            print(&shrunk_witnesses(&findings))?;
+            self.certificate.print_after(&shrunk_witnesses(&findings))?;
         }
         Ok(self.certificate.code(&findings))
     }
@@ -131,7 +132,7 @@ impl Certify {
 
     /// What is judged, and the command that does it again.
     fn settings(&self, answering: &[Answering]) -> Settings {
-        let mut words = vec![table::CERTIFY.to_owned()];
+        let mut words = vec![format!("{} certify", table::CHECKOUT)];
         let mut option = |name: &str, value: String| {
             words.push(format!("--{name} {}", table::quoted(&value)));
         };
@@ -243,6 +244,7 @@ pub(super) fn judged(subject: &dyn Subject) -> Judged<'_> {
     Judged {
         subject,
         explain: is_published.then_some(&registry::errata),
+        permitted: permitted(subject.name()),
     }
 }
 

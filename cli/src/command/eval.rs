@@ -85,7 +85,7 @@ fn answer_lines(
         .collect()
 }
 
-fn write_lines(output: &mut impl Write, lines: &[String]) -> Result<(), Failure> {
+pub(super) fn write_lines(output: &mut impl Write, lines: &[String]) -> Result<(), Failure> {
     lines
         .iter()
         .try_for_each(|line| writeln!(output, "{line}"))

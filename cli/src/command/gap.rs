@@ -7,7 +7,7 @@ use tunnelproof_reference::corpus::locate::locate;
 use tunnelproof_reference::oracle::least_gap_to;
 
 use super::output::print;
-use super::{Failure, Reading};
+use super::{Failure, Reading, not_negative};
 
 /// Enclose the least distance during the step of one query, beyond its radius
 #[derive(Args)]
@@ -25,7 +25,7 @@ pub(super) struct Gap {
     /// standard input
     query: String,
     /// How far the two numbers may be apart, in metres
-    #[arg(long, value_name = "W", default_value = "1e-9", value_parser = width)]
+    #[arg(long, value_name = "W", default_value = "1e-9", value_parser = not_negative, allow_negative_numbers = true)]
     width: f64,
     #[command(flatten)]
     reading: Reading,
@@ -37,12 +37,5 @@ impl Gap {
         let gap = least_gap_to(&entry.query, self.width);
         print(&format!("{} {}\n", gap.below, gap.above))?;
         Ok(ExitCode::SUCCESS)
-    }
-}
-
-fn width(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(width) if width.is_finite() && width >= 0.0 => Ok(width),
-        _ => Err("not a finite number of at least 0".to_owned()),
     }
 }

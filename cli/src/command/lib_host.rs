@@ -21,7 +21,7 @@ pub(super) struct LibHost {
 
 impl LibHost {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
-        let host = Host::load(&self.path).map_err(|error| Failure::Program {
+        let mut host = Host::load(&self.path).map_err(|error| Failure::Program {
             name: self.path.clone(),
             reason: error.to_string(),
         })?;

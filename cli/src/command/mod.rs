@@ -6,18 +6,20 @@
 
 use std::fmt;
 use std::io;
-use std::num::{NonZeroUsize, ParseFloatError};
 use std::process::ExitCode;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, value_parser};
+use tunnelproof::certified::ClearanceError;
 use tunnelproof::query::{QueryKind, Radius};
+use tunnelproof_cli::meshes::MeshFileError;
 use tunnelproof_cli::scenes::SceneError;
 use tunnelproof_cli::sweep::{AxisError, DomainError};
 use tunnelproof_reference::certify::run::RunError;
 use tunnelproof_reference::corpus::{CorpusError, ReadOptions};
 use tunnelproof_reference::report::merge::MergeError;
 
+mod advance;
 mod audit;
 mod axes;
 mod certificate;
@@ -25,9 +27,11 @@ mod certify;
 mod eval;
 mod explain;
 mod gap;
+mod keep;
 mod keeping;
 mod lib_host;
 mod merge;
+mod mesh_step;
 mod output;
 mod pages;
 mod progress;
@@ -45,9 +49,9 @@ mod vectors;
 #[derive(Parser)]
 #[command(name = "tunnelproof", version, arg_required_else_help = true)]
 pub(crate) struct Cli {
-    /// Threads to work on; by default RAYON_NUM_THREADS, or one for each core
-    #[arg(long, global = true, value_name = "N")]
-    threads: Option<NonZeroUsize>,
+    /// Threads to work on, at most 1024; by default RAYON_NUM_THREADS, or one for each core
+    #[arg(long, global = true, value_name = "N", value_parser = value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
     #[command(subcommand)]
     command: Command,
 }
@@ -61,6 +65,8 @@ enum Command {
     LibHost(lib_host::LibHost),
     Explain(explain::Explain),
     Gap(gap::Gap),
+    Advance(advance::Advance),
+    MeshStep(mesh_step::MeshStep),
     Shrink(shrink::Shrink),
     Replay(replay::Replay),
     Vectors(vectors::Vectors),
@@ -77,10 +83,10 @@ struct Reading {
     /// The kind of the queries, where neither the file's path nor the query says it
     #[arg(long, value_parser = kind())]
     kind: Option<QueryKind>,
-    /// Ask for a distance of at most R metres, whatever the queries say
+    /// Ask for a distance of at most R metres, whatever the queries of files say
     ///
     /// A number, or two whose exact sum is meant: 0.01+0.02
-    #[arg(long, value_name = "R", value_parser = radius)]
+    #[arg(long, value_name = "R", value_parser = radius, allow_negative_numbers = true)]
     radius: Option<Radius>,
 }
 
@@ -118,12 +124,18 @@ enum Failure {
     },
     /// There is nothing to do.
     Nothing,
+    /// An option is about files, and there is none.
+    NoFile(&'static str),
     /// Nothing says which fuzz target the file at this path is for.
     Target(String),
     /// The thresholds cannot be swept like that.
     Axis(AxisError),
     /// There is no such scene.
     Domain(DomainError),
+    /// Two sides cannot be kept apart like that.
+    Clearance(ClearanceError),
+    /// A file is no mesh, or two are no motion of one.
+    Mesh(MeshFileError),
     /// How bad a missed crossing is, is no such number.
     Penalty(f64),
     /// Ctrl-C cannot be listened to.
@@ -149,7 +161,7 @@ impl Cli {
     fn start(self) -> Result<ExitCode, Failure> {
         if let Some(threads) = self.threads {
             rayon::ThreadPoolBuilder::new()
-                .num_threads(threads.get())
+                .num_threads(threads.into())
                 .build_global()
                 .map_err(Failure::Threads)?;
         }
@@ -160,6 +172,8 @@ impl Cli {
             Command::LibHost(host) => host.run(),
             Command::Explain(explain) => explain.run(),
             Command::Gap(gap) => gap.run(),
+            Command::Advance(advance) => advance.run(),
+            Command::MeshStep(step) => step.run(),
             Command::Shrink(shrink) => shrink.run(),
             Command::Replay(replay) => replay.run(),
             Command::Vectors(vectors) => vectors.run(),
@@ -180,6 +194,18 @@ impl Failure {
 }
 
 impl Reading {
+    /// Whether an option says how to read files that there are none of.
+    fn check(&self, files: &[String]) -> Result<(), Failure> {
+        let options = [
+            ("--radius", self.radius.is_some()),
+            ("--kind", self.kind.is_some()),
+        ];
+        match options.into_iter().find(|(_, is_given)| *is_given) {
+            Some((option, _)) if files.is_empty() => Err(Failure::NoFile(option)),
+            _ => Ok(()),
+        }
+    }
+
     fn options(&self) -> ReadOptions {
         ReadOptions {
             kind: self.kind,
@@ -188,11 +214,19 @@ impl Reading {
     }
 }
 
-fn radius(text: &str) -> Result<Radius, ParseFloatError> {
+fn radius(text: &str) -> Result<Radius, String> {
     Ok(match text.split_once('+') {
-        Some((first, second)) => [first.trim().parse()?, second.trim().parse()?].into(),
-        None => text.parse::<f64>()?.into(),
+        Some((first, second)) => [not_negative(first.trim())?, not_negative(second.trim())?].into(),
+        None => not_negative(text)?.into(),
     })
+}
+
+/// A finite number of at least 0, as options give it.
+fn not_negative(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
+        _ => Err("it has to be a finite number, 0 or more".to_owned()),
+    }
 }
 
 fn kind() -> impl TypedValueParser<Value = QueryKind> {
@@ -228,6 +262,18 @@ impl From<AxisError> for Failure {
     }
 }
 
+impl From<ClearanceError> for Failure {
+    fn from(error: ClearanceError) -> Self {
+        Failure::Clearance(error)
+    }
+}
+
+impl From<MeshFileError> for Failure {
+    fn from(error: MeshFileError) -> Self {
+        Failure::Mesh(error)
+    }
+}
+
 impl From<DomainError> for Failure {
     fn from(error: DomainError) -> Self {
         Failure::Domain(error)
@@ -248,6 +294,12 @@ impl fmt::Display for Failure {
             }
             Failure::Axis(error) => error.fmt(f),
             Failure::Domain(error) => error.fmt(f),
+            Failure::NoFile(option) => write!(
+                f,
+                "{option} says how files are read, and no file of queries is named"
+            ),
+            Failure::Clearance(error) => error.fmt(f),
+            Failure::Mesh(error) => error.fmt(f),
             Failure::Penalty(value) => {
                 write!(f, "--penalty is {value}, not a finite number above 0")
             }

@@ -42,17 +42,72 @@ enum Target {
 impl OutputFile {
     /// Sees to it that the file can be made.
     pub(super) fn create(path: &Path) -> Result<Self, Failure> {
-        let target = Target::create(path).map_err(|error| unwritable(path, error))?;
-        let path = path.to_owned();
+        // A link stays one: what it stands for is written.
+        let path = match path.is_symlink() {
+            true => fs::canonicalize(path).unwrap_or_else(|_| path.to_owned()),
+            false => path.to_owned(),
+        };
+        let target = Target::create(&path).map_err(|error| unwritable(&path, error))?;
         Ok(OutputFile { path, target })
     }
 
     /// Writes the file, with a line end after the last line.
     pub(super) fn write(self, text: &str) -> Result<(), Failure> {
+        self.write_bytes(text.as_bytes())
+    }
+
+    /// Writes a file that is no text.
+    pub(super) fn write_bytes(self, bytes: &[u8]) -> Result<(), Failure> {
         self.target
-            .write(&self.path, text.as_bytes())
+            .write(&self.path, bytes)
             .map_err(|error| unwritable(&self.path, error))
     }
+}
+
+/// Where a result goes: to the standard output as text, and to a file as JSON if `--json` names one.
+/// JSON on the standard output, `-`, takes the place of the text.
+pub(super) enum JsonOutput {
+    /// Nowhere.
+    None,
+    File(OutputFile),
+    StandardOutput,
+}
+
+impl JsonOutput {
+    /// Sees to it that the file can be made.
+    pub(super) fn create(path: Option<&Path>) -> Result<Self, Failure> {
+        Ok(match path {
+            None => JsonOutput::None,
+            Some(path) if is_standard_output(path) => JsonOutput::StandardOutput,
+            Some(path) => JsonOutput::File(OutputFile::create(path)?),
+        })
+    }
+
+    /// Writes the result.
+    pub(super) fn write(
+        self,
+        json: impl FnOnce() -> Result<String, Failure>,
+        text: impl FnOnce() -> String,
+    ) -> Result<(), Failure> {
+        match self {
+            JsonOutput::StandardOutput => return print(&with_line_end(json()?)),
+            JsonOutput::File(file) => file.write(&json()?)?,
+            JsonOutput::None => {}
+        }
+        print(&text())
+    }
+}
+
+/// Whether the value of `--json` stands for the standard output.
+pub(super) fn is_standard_output(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+fn with_line_end(mut text: String) -> String {
+    if !text.ends_with('\n') {
+        text.push('\n');
+    }
+    text
 }
 
 impl Target {
@@ -68,7 +123,10 @@ impl Target {
         if let Some(permissions) = permissions() {
             builder.permissions(permissions);
         }
-        builder.tempfile_in(folder).map(Target::New)
+        fs::metadata(folder)?;
+        // Its error would name the temporary file.
+        let file = builder.tempfile_in(folder);
+        file.map(Target::New).map_err(|error| error.kind().into())
     }
 
     fn write(self, path: &Path, bytes: &[u8]) -> io::Result<()> {

@@ -7,12 +7,12 @@ use clap::Args;
 use tunnelproof_cli::report::page::Figure;
 
 use super::Failure;
-use super::output::{OutputFile, unwritable};
+use super::output::{JsonOutput, OutputFile, unwritable};
 
 /// Where results are written.
 #[derive(Args)]
 pub(super) struct Pages {
-    /// Write the whole result to this file, as JSON
+    /// Write the whole result to this file, as JSON; - is the standard output, in place of the tables
     #[arg(long, value_name = "OUT")]
     json: Option<PathBuf>,
     /// Write a page with charts to this file; it needs no network
@@ -25,7 +25,7 @@ pub(super) struct Pages {
 
 /// The files, seen to be writable.
 pub(super) struct Prepared {
-    json: Option<OutputFile>,
+    json: JsonOutput,
     html: Option<OutputFile>,
     figures: Option<PathBuf>,
 }
@@ -37,7 +37,7 @@ impl Pages {
             fs::create_dir_all(folder).map_err(|error| unwritable(folder, error))?;
         }
         Ok(Prepared {
-            json: self.json.as_deref().map(OutputFile::create).transpose()?,
+            json: JsonOutput::create(self.json.as_deref())?,
             html: self.html.as_deref().map(OutputFile::create).transpose()?,
             figures: self.figures.clone(),
         })
@@ -45,20 +45,16 @@ impl Pages {
 }
 
 impl Prepared {
-    /// Writes the files that are asked for.
+    /// Writes the text and the files that are asked for.
     pub(super) fn write(
         self,
+        text: impl FnOnce() -> String,
         json: impl FnOnce() -> String,
         figures: impl FnOnce() -> Vec<Figure>,
         html: impl FnOnce(&[Figure]) -> String,
     ) -> Result<(), Failure> {
-        if let Some(file) = self.json {
-            file.write(&json())?;
-        }
-        if self.html.is_none() && self.figures.is_none() {
-            return Ok(());
-        }
-        let drawn = figures();
+        let is_drawn = self.html.is_some() || self.figures.is_some();
+        let drawn = if is_drawn { figures() } else { Vec::new() };
         if let Some(folder) = self.figures {
             for figure in &drawn {
                 let path = folder.join(format!("{}.svg", figure.name));
@@ -68,6 +64,6 @@ impl Prepared {
         if let Some(file) = self.html {
             file.write(&html(&drawn))?;
         }
-        Ok(())
+        self.json.write(|| Ok(json()), text)
     }
 }

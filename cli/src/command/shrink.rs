@@ -44,7 +44,7 @@ pub(super) struct Shrink {
     programs: Programs,
     /// Who is right
     #[arg(long, default_value = "oracle", value_parser = truth())]
-    truth: Truth,
+    truth: NamedTruth,
     /// How many queries are tried at most
     #[arg(long, value_name = "N", default_value_t = MOST_CALLS)]
     calls: u64,
@@ -52,17 +52,20 @@ pub(super) struct Shrink {
     reading: Reading,
 }
 
+/// What follows the name of a query in that of the smallest one found.
+const SHRUNK: &str = "/shrunk";
+
 impl Shrink {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
         let answering = self.programs.start(&self.subject)?;
         let disagreement = Disagreement {
             subject: answering.subject(),
-            truth: self.truth,
+            truth: self.truth.truth,
         };
         for entry in self.entries()? {
             let entry = entry?;
             let refused = |reason: Unsupported| RunError::NoAnswer {
-                place: entry.id.clone(),
+                place: format!("{}: {} as the truth", entry.id, self.truth.name),
                 reason: reason.into(),
             };
             let Some(fault) = disagreement.fault(&entry.query).map_err(refused)? else {
@@ -70,7 +73,8 @@ impl Shrink {
             };
             let shrunk = disagreement.shrink(&entry.query, fault, self.calls);
             eprintln!("{}: {}: {shrunk}", entry.id, fault.name());
-            print(&format!("{}\n", shrunk.line(&entry.id)))?;
+            let id = entry.id.strip_suffix(SHRUNK).unwrap_or(&entry.id);
+            print(&format!("{}\n", shrunk.line(&format!("{id}{SHRUNK}"))))?;
             return Ok(ExitCode::SUCCESS);
         }
         eprintln!(
@@ -90,10 +94,19 @@ impl Shrink {
     }
 }
 
-fn truth() -> impl TypedValueParser<Value = Truth> {
-    PossibleValuesParser::new(registry::truths().map(|(name, _)| name)).try_map(|name| {
+/// Who is right, by name.
+#[derive(Clone, Copy)]
+struct NamedTruth {
+    name: &'static str,
+    truth: Truth,
+}
+
+fn truth() -> impl TypedValueParser<Value = NamedTruth> {
+    PossibleValuesParser::new(registry::truths().map(|(name, _)| name)).try_map(|asked| {
         let mut truths = registry::truths().into_iter();
-        let named = truths.find(|(own, _)| *own == name);
-        named.map(|(_, truth)| truth).ok_or("unknown truth")
+        let named = truths.find(|(name, _)| *name == asked);
+        named
+            .map(|(name, truth)| NamedTruth { name, truth })
+            .ok_or("unknown truth")
     })
 }

@@ -12,11 +12,12 @@ use tunnelproof::wire::{self, StepRecord, World};
 use tunnelproof_cli::audit::{self, Audit};
 use tunnelproof_cli::perturb;
 use tunnelproof_cli::replay::Replay;
+use tunnelproof_cli::report;
 use tunnelproof_cli::scenes::{EMBEDDED, Scene};
 use tunnelproof_cli::simulate::{Narrow, Run, Summary};
 use tunnelproof_cli::vtk;
 
-use super::output::{OutputFile, print, unwritable};
+use super::output::{JsonOutput, OutputFile, print, unwritable};
 use super::{Failure, progress};
 
 /// Run a scene, and check every step of it for missed tunnels
@@ -65,7 +66,8 @@ pub(super) struct Simulate {
     /// Write every step to this folder for ParaView: steps.pvd and a .vtp for each step
     #[arg(long, value_name = "FOLDER")]
     vtk: Option<PathBuf>,
-    /// Write the summary, and the audit, to this file as JSON
+    /// Write the summary, and the audit, to this file, as JSON; - is the standard output, in place
+    /// of the text
     #[arg(long, value_name = "OUT")]
     json: Option<PathBuf>,
 }
@@ -97,7 +99,7 @@ impl Simulate {
         }
         let scene = self.scene()?;
         let world = scene.world().map_err(|error| self.wrong(error))?;
-        let json = self.json.as_deref().map(OutputFile::create).transpose()?;
+        let json = JsonOutput::create(self.json.as_deref())?;
         let page = self.replay.as_deref().map(OutputFile::create).transpose()?;
         let narrow = self.narrow.phase();
         let mut watch = Watch::new(&self, &scene, &world)?;
@@ -119,19 +121,17 @@ impl Simulate {
         if let Some((page, replay)) = page.zip(watch.replay) {
             page.write(&replay.page(audit.as_ref()).map_err(super::audit::no_json)?)?;
         }
-        print(&summary.to_string())?;
-        if let Some(audit) = &audit {
-            super::audit::show(audit)?;
-        }
-        if let Some(json) = json {
-            let document = Document {
-                narrow: self.narrow.name(),
-                mode: self.mode.name(),
-                summary: &summary,
-                audit: audit.as_ref(),
-            };
-            json.write(&super::audit::as_json(&document)?)?;
-        }
+        let document = Document {
+            narrow: self.narrow.name(),
+            mode: self.mode.name(),
+            summary: &summary,
+            audit: audit.as_ref(),
+        };
+        let audited = || audit.as_ref().map_or(String::new(), report::audit::text);
+        json.write(
+            || super::audit::as_json(&document),
+            || format!("{summary}{}", audited()),
+        )?;
         let clean = audit.is_none_or(|audit| audit.is_clean());
         Ok(match clean && summary.stopped.is_none() {
             true => ExitCode::SUCCESS,

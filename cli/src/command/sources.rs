@@ -6,7 +6,7 @@ use tunnelproof_cli::sweep::{Domain, DomainError, Precision};
 use tunnelproof_reference::certify::source::Source;
 use tunnelproof_reference::generate::{self, FAMILIES, Family};
 
-use super::Reading;
+use super::{Failure, Reading};
 
 /// Queries of families and files.
 #[derive(Args)]
@@ -39,7 +39,11 @@ pub(super) struct Scene {
 }
 
 impl Sources {
-    pub(super) fn sources(&self, seed: u64, count: u64) -> Vec<Source> {
+    /// # Errors
+    ///
+    /// An option that says how to read files, without any.
+    pub(super) fn sources(&self, seed: u64, count: u64) -> Result<Vec<Source>, Failure> {
+        self.reading.check(&self.corpus)?;
         let families = match self.family.is_empty() && self.corpus.is_empty() {
             true => FAMILIES
                 .iter()
@@ -49,7 +53,7 @@ impl Sources {
         };
         let families = of_families(&families, seed, count);
         let files = of_files(&self.corpus, &self.reading);
-        families.into_iter().chain(files).collect()
+        Ok(families.into_iter().chain(files).collect())
     }
 }
 

@@ -32,7 +32,7 @@ pub(super) struct Programs {
     #[arg(long, value_name = "FORM", default_value = "lines", value_parser = wire())]
     wire: Wire,
     /// How long a program may take for an answer, in seconds
-    #[arg(long, value_name = "SECONDS", default_value_t = program::TIME_LIMIT.as_secs_f64(), value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", default_value_t = program::TIME_LIMIT.as_secs_f64(), value_parser = seconds, allow_negative_numbers = true)]
     time_limit: f64,
 }
 
@@ -51,6 +51,9 @@ const LIBRARY: &str = "lib:";
 
 /// The command of a process that hosts a library, which is seen to have what it needs.
 fn hosted(path: &str, time_limit: Duration) -> Result<Command, String> {
+    if path.is_empty() {
+        return Err(format!("no path after {LIBRARY}"));
+    }
     let own = std::env::current_exe().map_err(|error| error.to_string())?;
     let own = own.to_string_lossy().into_owned();
     let check = process::Command::new(&own)

@@ -10,7 +10,6 @@ use tunnelproof_cli::sweep::{Cache, Evaluated, Interrupted, Setting, Watch, run}
 
 use super::axes::Axes;
 use super::keeping::{Keeping, NoSample, interrupted, interruption, save_truths};
-use super::output::print;
 use super::pages::Pages;
 use super::sources::{Scene, Sources};
 use super::{Failure, progress};
@@ -66,7 +65,7 @@ impl Sweep {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
         let domain = self.scene.domain()?;
         let grid = self.axes.grid(&domain)?;
-        let sources = self.sources.sources(self.seed, self.count);
+        let sources = self.sources.sources(self.seed, self.count)?;
         if sources.is_empty() {
             return Err(Failure::Nothing);
         }
@@ -113,11 +112,11 @@ impl Sweep {
         save_truths(cache.as_ref(), &sample);
         let prices = Prices::new(&sample, &grid, &evaluated);
         files.write(
+            || prices.text(),
             || prices.json(),
             || page::of_sweep(&prices),
             |figures| page::sweep_page(&prices, figures, &sample),
         )?;
-        print(&prices.text())?;
         if !is_complete {
             let (done, all) = (evaluated.len(), settings.len());
             eprintln!("interrupted: {done} of {all} settings were judged; --resume goes on");

@@ -11,7 +11,6 @@ use tunnelproof_cli::tune::{Advice, Cost, Judge, Lattice, Penalty, advise, valid
 use tunnelproof_reference::generate::{FAMILIES, Family};
 
 use super::keeping::{Keeping, NoSample, interrupted, interruption};
-use super::output::print;
 use super::pages::Pages;
 use super::sources::{Scene, family, has_a_scale, of_families};
 use super::{Failure, progress};
@@ -111,11 +110,11 @@ impl Tune {
             }
         };
         files.write(
+            || tuning.text(),
             || tuning.json(),
             || page::of_search(&tuning),
             |figures| page::search_page(&tuning, figures),
         )?;
-        print(&tuning.text())?;
         Ok(ExitCode::SUCCESS)
     }
 

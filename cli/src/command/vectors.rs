@@ -39,11 +39,13 @@ pub(super) struct Vectors {
 
 impl Vectors {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
-        let files = vectors::files();
+        // The folder first: making the vectors takes a while.
         if self.check {
-            return self.check(&files);
+            fs::read_dir(&self.out).map_err(|error| unreadable(&self.out, error))?;
+            return self.check(&vectors::files());
         }
         fs::create_dir_all(&self.out).map_err(|error| unwritable(&self.out, error))?;
+        let files = vectors::files();
         for file in &files {
             OutputFile::create(&self.out.join(&file.name))?.write(&file.text)?;
         }
@@ -77,11 +79,7 @@ impl Vectors {
 
     /// The names of `.json` files in the folder that are neither vectors nor their schema.
     fn surplus(&self, files: &[VectorFile]) -> Result<BTreeSet<String>, Failure> {
-        let entries = match fs::read_dir(&self.out) {
-            Ok(entries) => entries,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(BTreeSet::new()),
-            Err(error) => return Err(unreadable(&self.out, error)),
-        };
+        let entries = fs::read_dir(&self.out).map_err(|error| unreadable(&self.out, error))?;
         let mut surplus = BTreeSet::new();
         for entry in entries {
             let entry = entry.map_err(|error| unreadable(&self.out, error))?;

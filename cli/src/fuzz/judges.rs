@@ -43,7 +43,7 @@ pub(super) fn certified_vs_oracle(query: &Query) -> Option<String> {
 }
 
 /// Whether the coordinates and radii other than 0 are within a factor of `2^200` of each other.
-fn is_ordinary(query: &Query) -> bool {
+pub(super) fn is_ordinary(query: &Query) -> bool {
     let points = query.start().iter().chain(query.end());
     let coordinates = points.flat_map(|point| point.iter().copied());
     let numbers = coordinates.chain(query.radius().parts());

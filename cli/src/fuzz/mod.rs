@@ -27,6 +27,7 @@ pub mod input;
 mod judges;
 mod parsers;
 mod poly;
+mod step;
 
 #[cfg(test)]
 mod tests;
@@ -62,6 +63,11 @@ pub const TARGETS: &[Target] = &[
         name: "certified_vs_oracle",
         description: "the certified path against the oracle, in all that it promises",
         check: Check::Query(judges::certified_vs_oracle),
+    },
+    Target {
+        name: "step_vs_oracle",
+        description: "the motion to the positions of a certified step against the oracle",
+        check: Check::Query(step::check),
     },
     Target {
         name: "oracle_vs_shadow",

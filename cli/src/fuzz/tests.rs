@@ -195,7 +195,13 @@ fn thesis_vs_shadow_reports_confined_motion_that_is_wrong() {
 fn thesis_is_right_on_confined_motion_in_small_integers() {
     let mut rng = ChaCha8Rng::seed_from_u64(5);
     let mut judged = HashMap::new();
-    for _ in 0..30_000 {
+    // A third where Rust checks its arithmetic.
+    let count = if cfg!(debug_assertions) {
+        10_000
+    } else {
+        30_000
+    };
+    for _ in 0..count {
         let largest = rng.random_range(1..=16);
         let unit = 2f64.powi(rng.random_range(-4..=4));
         let query = planar(&mut rng, largest, unit);
@@ -206,7 +212,7 @@ fn thesis_is_right_on_confined_motion_in_small_integers() {
     }
     eprintln!("{judged:?}");
     for case in [Case::Coplanar, Case::Parallel, Case::Collinear] {
-        assert!(judged[&(case, false)] > 500, "{judged:?}");
+        assert!(judged[&(case, false)] > count / 60, "{judged:?}");
     }
 }
 
@@ -237,13 +243,6 @@ fn thesis_is_excused_seldom_in_general_position() {
         let excuses = |query: &Query| permitted("thesis").excuses(query);
         1000 * queries.filter(excuses).count() as u64 / count
     };
-    for family in FAMILIES {
-        eprintln!(
-            "{}: {} of 1000",
-            family.name(),
-            excused(family.name(), 4000)
-        );
-    }
     assert!(excused("uniform", 4000) < 20);
     assert!(excused("lattice", 4000) < 300);
 }

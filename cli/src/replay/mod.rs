@@ -172,9 +172,10 @@ impl Replay {
                 format!("step {step:.4} s, audited: nothing passed unnoticed")
             }
             Some(report) => format!(
-                "step {step:.4} s, audited: {} contacts missed, {} standing tunnels",
+                "step {step:.4} s, audited: {} contacts missed, {} standing tunnels, {} ambiguous",
                 report.missed.iter().sum::<u64>(),
-                report.standing.len()
+                report.standing.len(),
+                report.ambiguous.len()
             ),
         }
     }

@@ -1,6 +1,6 @@
 //! What an audit came to, as text.
 
-use crate::audit::{Ambiguous, Report};
+use crate::audit::Report;
 use tunnelproof_reference::certify::table::grouped;
 
 /// Findings that are shown.
@@ -45,11 +45,8 @@ pub fn text(report: &Report) -> String {
     for ([a, b], passages) in &report.standing {
         text += &format!("  wires {a} and {b} have passed through each other: {passages:+}\n");
     }
-    for Ambiguous { wires, least, most } in &report.ambiguous {
-        let [a, b] = wires;
-        text += &format!(
-            "  wires {a} and {b} met at an end, and may have passed: {least:+} to {most:+}\n"
-        );
+    for ambiguous in &report.ambiguous {
+        text += &format!("  {ambiguous}\n");
     }
     let (tunnels, others): (Vec<_>, Vec<_>) = report
         .findings

@@ -22,7 +22,9 @@ pub fn text(findings: &Findings) -> String {
                     false => Outcome::new(strict::failures_of(judged, block, tally)),
                 };
                 let witnesses = tally.faults.values().filter_map(|f| f.worst.as_ref());
-                let commands: Vec<_> = witnesses.map(command).collect();
+                let name = Some(judged.subject.name());
+                let commands = witnesses.map(|witness| command(witness, name));
+                let commands: Vec<_> = commands.collect();
                 (block, outcome, commands)
             });
             suite(judged.subject.name(), &cases.collect::<Vec<_>>())

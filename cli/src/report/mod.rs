@@ -1,15 +1,17 @@
-//! What is written down about certificates, sweeps, searches and audits: pages, pictures, text and
-//! JSON.
+//! What is written down about certificates, sweeps, searches, audits and steps: pages, pictures,
+//! text and JSON.
 
 pub mod audit;
 mod caption;
 pub mod explanation;
 pub mod junit;
 mod labels;
+pub mod mesh;
 mod number;
 pub mod page;
 pub mod picture;
 pub mod prices;
+pub mod step;
 mod svg;
 pub mod tuning;
 mod view;

@@ -1,4 +1,4 @@
-//! Exact numbers as text.
+//! Numbers as text, exact ones above all.
 
 use tunnelproof_reference::algebraic::Algebraic;
 use tunnelproof_reference::field::{Integer, Ratio};
@@ -94,6 +94,11 @@ pub(super) fn short(value: f64) -> String {
         true => exponential,
         false => plain,
     }
+}
+
+/// How many there are of something.
+pub(super) fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
 }
 
 #[cfg(test)]

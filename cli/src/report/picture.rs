@@ -287,11 +287,14 @@ mod tests {
     #[test]
     fn picture_of_every_figure_and_family_stays_on_the_sheet() {
         let figures = FIGURES.iter().map(|case| Query::EdgeEdge(case.query()));
+        // A tenth where Rust checks its arithmetic.
+        let count = if cfg!(debug_assertions) { 15 } else { 150 };
         let drawn = FAMILIES
             .iter()
-            .flat_map(|family| (0..150).map(|i| family.query(5, i)));
+            .flat_map(|family| (0..count).map(|i| family.query(5, i)));
         let thick_or_face = OTHER_KINDS.iter();
-        let thick_or_face = thick_or_face.flat_map(|family| (0..50).map(|i| family.query(5, i)));
+        let thick_or_face =
+            thick_or_face.flat_map(|family| (0..count / 3).map(|i| family.query(5, i)));
         for query in figures.chain(drawn).chain(thick_or_face) {
             for value in coordinates(&query) {
                 assert!((0.0..=WIDTH).contains(&value), "{value} in {query:?}");

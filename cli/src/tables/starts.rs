@@ -28,7 +28,14 @@ pub fn starts(scenes: &[OfThesis], count: u64, most: f64) -> Result<String, Scen
     let mut text = format!(
         "Guard mode, certified path, by the audit; starts moved by up to {most} m along each axis\n"
     );
-    let names = ["steps", "prevented", "missed", "not exact", "standing"];
+    let names = [
+        "steps",
+        "prevented",
+        "missed",
+        "not exact",
+        "standing",
+        "ambiguous",
+    ];
     for OfThesis { scene, .. } in scenes {
         let runs = (0..=count)
             .into_par_iter()
@@ -43,7 +50,15 @@ pub fn starts(scenes: &[OfThesis], count: u64, most: f64) -> Result<String, Scen
             };
             let standing = report.standing.len() as u64;
             let (missed, inexact) = (report.unnoticed(), report.inexact());
-            let cells = [summary.steps, report.prevented, missed, inexact, standing];
+            let ambiguous = report.ambiguous.len() as u64;
+            let cells = [
+                summary.steps,
+                report.prevented,
+                missed,
+                inexact,
+                standing,
+                ambiguous,
+            ];
             text += &row(&name, cells.map(grouped));
         }
         text += &super::stopped(&runs);

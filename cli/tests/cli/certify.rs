@@ -178,3 +178,22 @@ fn certify_faces_and_radii_asks_only_those_who_take_them() {
         stdout(&explained)
     );
 }
+
+#[test]
+fn certify_refuses_to_read_no_files_in_another_way() {
+    for (option, value) in [("--radius", "0.5"), ("--kind", "vertex-face")] {
+        let output = tunnelproof(&["certify", option, value, "--family", "lattice"]);
+        assert_eq!(output.status.code(), Some(2));
+        let error = format!("{option} says how files are read, and no file of queries is named\n");
+        assert_eq!(String::from_utf8_lossy(&output.stderr), error);
+    }
+    for radius in ["nan", "-1", "1e999", "0.1+inf"] {
+        let output = tunnelproof(&["certify", &format!("--radius={radius}"), "a.jsonl"]);
+        assert_eq!(output.status.code(), Some(2));
+        let error = String::from_utf8_lossy(&output.stderr);
+        assert!(
+            error.contains("it has to be a finite number, 0 or more"),
+            "{error}"
+        );
+    }
+}

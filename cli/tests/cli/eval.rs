@@ -77,7 +77,7 @@ fn eval_unsupported_queries_are_refused_with_their_place() {
         CROSSING.replace("edge-edge", "vertex-face"),
     );
     let output = tunnelproof(&["eval", "--subject", "thesis", &path]);
-    let reason = "vertex-face queries are not supported yet";
+    let reason = "vertex-face queries are not supported";
     assert_refused(&output, &path, Some(1), reason);
     let (_folder, path) = file("a.jsonl", CROSSING);
     let thick = ["eval", "--subject", "shadow", "--radius", "0.5", &path];

@@ -58,12 +58,49 @@ fn names_that_are_unknown_are_answered_with_the_known_ones() {
 }
 
 #[test]
+fn json_dash_is_the_standard_output_in_place_of_the_text() {
+    let folder = tempfile::tempdir().unwrap();
+    let short = ["simulate", "basic-collision", "--duration", "0.05"];
+    let recording = folder.path().join("run.tps");
+    let recording = recording.to_str().unwrap();
+    tunnelproof(&[&short[..], &["--record", recording]].concat());
+    for arguments in [
+        &["certify", "--family", "lattice", "--count", "20"][..],
+        &[
+            "certify", "--family", "lattice", "--count", "20", "--shrink",
+        ],
+        &[
+            "sweep",
+            "--family",
+            "lattice",
+            "--count",
+            "20",
+            "--threshold",
+            "t",
+            "--steps",
+            "3",
+        ],
+        &short,
+        &["audit", recording],
+    ] {
+        let json = [arguments, &["--json", "-"]].concat();
+        let output = command(&json).current_dir(folder.path()).output().unwrap();
+        let printed = serde_json::from_slice::<serde_json::Value>(&output.stdout);
+        assert!(printed.is_ok_and(|json| json.is_object()), "{arguments:?}");
+        assert!(output.stdout.ends_with(b"}\n"), "{arguments:?}");
+        assert!(!folder.path().join("-").exists(), "{arguments:?}");
+    }
+}
+
+#[test]
 fn help_and_version_are_there() {
     for command in [
         &["--help"][..],
         &["help", "eval"],
         &["certify", "--help"],
         &["explain", "-h"],
+        &["advance", "--help"],
+        &["mesh-step", "--help"],
         &["shrink", "--help"],
         &["replay", "--help"],
         &["vectors", "--help"],

@@ -6,6 +6,7 @@
     reason = "a test fails by panicking"
 )]
 
+mod advance;
 mod certificate;
 mod certify;
 mod eval;
@@ -13,6 +14,7 @@ mod explain;
 mod general;
 #[cfg(unix)]
 mod lib_subject;
+mod mesh_step;
 #[cfg(unix)]
 mod program;
 mod run;

@@ -38,4 +38,6 @@ fn vectors_that_cannot_be_written_are_refused() {
     let (_folder, path) = file("taken", "");
     let output = tunnelproof(&["vectors", "--out", &path]);
     assert_refused(&output, &path, None, "cannot be written");
+    let output = tunnelproof(&["vectors", "--check", "--out", "no/such/folder"]);
+    assert_refused(&output, "no/such/folder", None, "no such file");
 }

@@ -9,6 +9,8 @@ pub(crate) enum Culprit {
     Certified,
     /// The certified path with a radius above 0.
     Thick,
+    /// Certified steps, of pairs and of meshes.
+    Step,
 }
 
 /// A fault: a text that occurs once in a file, and what takes its place.
@@ -159,8 +161,36 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     Mutant {
         culprit: Culprit::Thick,
         file: "src/certified/thick/nearness.rs",
-        text: "if !(square > SMALLEST && least > 0.0) {",
-        replacement: "if square.is_nan() {",
+        text: "(square > SMALLEST && least > 0.0).then_some(least)",
+        replacement: "(!square.is_nan()).then(|| square.sqrt())",
         fault: "edges that may be parallel where they touch are said to be not",
+    },
+    Mutant {
+        culprit: Culprit::Step,
+        file: "src/certified/step.rs",
+        text: "(side(0..K::FIRST) + side(K::FIRST..4)) * (1.0 + 8.0 * f64::EPSILON)",
+        replacement: "(side(0..K::FIRST) + side(K::FIRST..4)) * 0.0",
+        fault: "the time of impact is used as it is, without room for rounding",
+    },
+    Mutant {
+        culprit: Culprit::Step,
+        file: "src/certified/step.rs",
+        text: "first_contact::<K>(&stored, kept).is_none()",
+        replacement: "first_contact::<K>(&stored, Radius::ZERO).is_none()",
+        fault: "stored motions are decided without the radius",
+    },
+    Mutant {
+        culprit: Culprit::Step,
+        file: "src/mesh/candidates.rs",
+        text: "if !is_shared && !self.question.mesh.is_left_out(a, b) {",
+        replacement: "if !is_shared && a[0] != 0 && !self.question.mesh.is_left_out(a, b) {",
+        fault: "pairs of a mesh are dropped",
+    },
+    Mutant {
+        culprit: Culprit::Step,
+        file: "src/mesh/step.rs",
+        text: "let largest = roomy_step.chain(tight_step).fold(1.0, f64::min);",
+        replacement: "let largest = tight_step.chain(roomy_step).fold(0.0, f64::max);",
+        fault: "a mesh takes the largest step of its pairs",
     },
 ];

@@ -8,12 +8,14 @@ use std::time::{Duration, Instant};
 use super::table::Mutant;
 
 /// What the program needs to be built.
-const SOURCES: [&str; 9] = [
+const SOURCES: [&str; 11] = [
     "Cargo.toml",
     "Cargo.lock",
     "src",
     "reference",
     "benches",
+    "examples",
+    "tests",
     "docs",
     "hosts",
     "cli",

@@ -75,7 +75,7 @@ fn translated(query: &Query) -> Query {
 fn main() -> Result<(), RunError> {
     let lattice = generate::by_name("lattice").expect("the family is there");
     let queries = (0..20_000).map(|index| translated(&lattice.query(1, index)));
-    let trial = tunnelproof_reference::certify(Parry).families([]);
+    let trial = tunnelproof_reference::certify(Parry).families([""; 0]);
     let outcome = trial.queries("translations", queries).run()?;
     println!("{}", outcome.text);
     outcome

@@ -11,13 +11,18 @@ A query is one time step of four points that move on straight lines. ``points``,
 of shape ``(n,)``, or two of shape ``(n, 2)``, whose sum is meant exactly, such as the radii of two
 wires. With 0 contact is a common point.
 
-:func:`decide` is the certified path, for simulators: never wrong, and fast. :func:`exact` is the
-oracle in rational arithmetic, by another method. :func:`certify` judges a method of your own
+:func:`decide` is the certified path, for simulators: it misses no contact and invents none, and its
+time of impact is the exact one rounded down. Positions at that time are rounded, and may already be
+past the contact. :func:`advance` gives positions to store instead: straight motion to them touches
+nothing. :class:`Mesh` does the same for whole meshes, whose pairs it finds itself. :func:`exact` is
+the oracle in exact arithmetic, by another method. :func:`certify` judges a method of your own
 against it on :func:`families` of queries, each of which aims at a weakness.
 
-All functions run without the global interpreter lock and on all cores. What comes in is copied.
-Arrays of other types are converted to ``float64``. The proofs assume rounding to nearest and
-gradual underflow: a library that switches on flush-to-zero for the calling process breaks that.
+All functions release the global interpreter lock and use all cores. Arrays of other types are
+converted to ``float64``. Arguments are copied, but for positions of meshes: these are read where
+they are, so no other thread may change them during a call. The proofs assume rounding to nearest
+and gradual underflow. Each function sets that for itself, on x86-64 and AArch64, and restores what
+the calling thread had: a library that switches on flush-to-zero changes no answer.
 """
 
 from __future__ import annotations
@@ -26,21 +31,35 @@ import json
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _tunnelproof
+from ._arrays import Bools, Codes, Floats, Kind, query_arrays
+from ._kinds import Blocked, ContactKind, Feature
+from ._mesh import Mesh, MeshContacts, MeshLimits, MeshStep, NearPairs, Pairs
+from ._step import Advances, advance
 
 __all__ = [
+    "Advances",
+    "Blocked",
     "Case",
     "Certificate",
     "ContactKind",
     "ContactPoints",
     "ExactHits",
     "Family",
+    "Feature",
     "Hits",
+    "Mesh",
+    "MeshContacts",
+    "MeshLimits",
+    "MeshStep",
+    "NearPairs",
+    "Pairs",
+    "advance",
     "certify",
     "decide",
     "exact",
@@ -51,25 +70,12 @@ __all__ = [
 
 __version__ = _tunnelproof.VERSION
 
-Kind = Literal["edge-edge", "vertex-face"]
-Floats = npt.NDArray[np.float64]
-Bools = npt.NDArray[np.bool_]
-Codes = npt.NDArray[np.int8]
 Method = Callable[[Kind, Floats, Floats], "tuple[npt.ArrayLike, npt.ArrayLike] | None"]
 
 
-class ContactKind(IntEnum):
-    """Whether a simulator that misses the contact lets the two sides through each other."""
-
-    CROSSING = 1
-    """They swap sides: a tunnel if missed."""
-    GRAZE = 2
-    """They touch without swapping sides."""
-
-
 class Case(IntEnum):
-    """How the two sides move against each other during the whole step. Of several, the last
-    here."""
+    """How the two sides move relative to each other during the whole step. If several hold, the
+    last here."""
 
     GENERAL = 1
     """None of those below."""
@@ -95,12 +101,12 @@ class ContactPoints:
     Of two edges they are ``1 - u, u, 1 - v, v`` with u on AB and v on CD. Of a vertex and a face
     they are 1 and the weights of B, C and D."""
     point: Floats
-    """The point on the first side at ``toi``, in metres, float64 of shape ``(n, 3)``."""
+    """The point on the first side at ``toi``, in metres, rounded, float64 of shape ``(n, 3)``."""
 
 
 @dataclass(frozen=True, eq=False)
 class Hits:
-    """The first contacts of ``n`` queries of either kind, proved.
+    """The first contacts of ``n`` queries of either kind, by the certified path.
 
     Where ``hit`` is false, floats are NaN, integers 0 and the rest is false.
     """
@@ -112,11 +118,11 @@ class Hits:
     """The largest float that is not above the time of impact, in ``[0, 1]``, float64 of shape
     ``(n,)``.
 
-    Positions that are rounded to floats at this time may already be past the contact."""
+    Positions at this time are rounded to floats, and may already be past the contact."""
     toi_above: Floats
     """The smallest float that is not below the time of impact, float64 of shape ``(n,)``."""
     kind: Codes
-    """Values of :class:`ContactKind`, exact, int8 of shape ``(n,)``."""
+    """Values of :class:`ContactKind`, of the first contact, exact, int8 of shape ``(n,)``."""
     side: Codes
     """The sign of f just before the contact, exact, int8 of shape ``(n,)``; 0 if always 0, or at
     time 0.
@@ -154,20 +160,20 @@ class ExactHits:
     """The first contacts of ``n`` queries by the oracle, without the points in space and the
     normal.
 
-    Of each exact number the two floats between which it is are given; they are equal where it is a
-    float. Where ``hit`` is false, floats are NaN, integers 0 and the rest is false. """
+    Each exact number is given as the two floats around it, which are equal if it is a float. Where
+    ``hit`` is false, floats are NaN, integers 0 and the rest is false. """
 
     hit: Bools
     """Whether they touch in the step, bool of shape ``(n,)``."""
     toi: Floats
     """The time of impact, float64 of shape ``(n, 2)``."""
     kind: Codes
-    """Values of :class:`ContactKind`, int8 of shape ``(n,)``."""
+    """Values of :class:`ContactKind`, of the first contact, int8 of shape ``(n,)``."""
     crosses: Bools
     """Whether any contact of the step, the first or a later one, is a crossing, bool of shape
     ``(n,)``.
 
-    Then a method that finds none lets them tunnel."""
+    Then a method that reports no contact lets them tunnel."""
     side: Codes
     """The side they come from, as in :class:`Hits`, int8 of shape ``(n,)``."""
     weights: Floats
@@ -200,7 +206,7 @@ def decide(kind: Kind, points: npt.ArrayLike, radius: npt.ArrayLike = 0.0) -> Hi
     >>> hits.normal.round(9) + 0.0
     array([[0., 0., 1.]])
     """
-    columns = _tunnelproof.decide(kind, *_arrays(points, radius))
+    columns = _tunnelproof.decide(kind, *query_arrays(points, radius))
     first, second = (
         ContactPoints(columns.pop(f"{name}_weights"), columns.pop(f"{name}_point"))
         for name in ("first", "second")
@@ -217,7 +223,7 @@ def exact(kind: Kind, points: npt.ArrayLike, radius: npt.ArrayLike = 0.0) -> Exa
     :param radius: a number, shape ``(n,)``, or shape ``(n, 2)`` for exact sums of two, in metres.
     :raises ValueError: for other kinds and shapes, and for a number that is not finite or a radius
         below 0, which is named. """
-    columns = _tunnelproof.exact(kind, *_arrays(points, radius))
+    columns = _tunnelproof.exact(kind, *query_arrays(points, radius))
     weights = columns.pop("weights").reshape(-1, 2, 2)
     return ExactHits(weights=weights, **columns)
 
@@ -239,14 +245,14 @@ def queries(family: str, count: int, *, seed: int = 1, start: int = 0) -> tuple[
 
 @dataclass(frozen=True, eq=False)
 class Certificate:
-    """What came of certification."""
+    """The result of :func:`certify`."""
 
     json: str
     """All that was found, as ``tunnelproof certify --json`` writes it."""
     text: str
     """The table, with the worst witness of each kind."""
     html: str
-    """A page that needs nothing else, with pictures of the worst."""
+    """A page without other files, with pictures of the worst."""
 
     @property
     def results(self) -> dict[str, Any]:
@@ -256,7 +262,7 @@ class Certificate:
 
     @property
     def failures(self) -> list[str]:
-        """What the method fails by; empty if it passes."""
+        """Why the method fails; empty if it passes."""
         failures: list[str] = self.results["failures"]
         return failures
 
@@ -279,16 +285,17 @@ def certify(
         ``toi``, each of shape ``(n,)``; ``toi`` counts where ``hit`` is true. ``None`` says that
         it does not take such queries. An exception counts as no answer to the query that raises it
         by itself.
-    :param name: what it is called in tables.
-    :param families: names of :func:`families`; all if left out.
+    :param name: its name in tables.
+    :param families: names of :func:`families`; by default all.
     :param own: queries of your own by a name: kind, points and radius, as :func:`exact` takes
         them.
     :param count: how many queries of each family.
-    :param seed: which ones.
-    :param declared_distance: false hits of two that come as near as this, in metres, count apart.
-    :param shard: which part is judged, ``(i, n)`` with ``i`` from 1 to ``n``; :func:`merge` puts
-        all parts together.
-    :raises ValueError: if there is no such family or part, or one of your own queries is none.
+    :param seed: the seed of the families.
+    :param declared_distance: a false hit of two that come within this distance, in metres, is
+        counted as a near hit.
+    :param shard: the part to judge, ``(i, n)`` with ``i`` from 1 to ``n``; :func:`merge` puts all
+        parts together.
+    :raises ValueError: if there is no such family or part, or one of your own queries is not valid.
 
     >>> def blind(kind, points, radii):
     ...     return np.zeros(len(points), bool), np.zeros(len(points))
@@ -310,7 +317,7 @@ def certify(
 
     chosen = [family for family, _, _ in _tunnelproof.families()] if families is None else families
     rows = [
-        (key, kind, *_arrays(points, radius)) for key, (kind, points, radius) in (own or {}).items()
+        (key, kind, *query_arrays(points, radius)) for key, (kind, points, radius) in (own or {}).items()
     ]
     return Certificate(
         *_tunnelproof.certify(
@@ -322,25 +329,8 @@ def certify(
 def merge(parts: Iterable[str]) -> Certificate:
     """The certificate of the whole, from :attr:`Certificate.json` of all its parts, in any order.
 
-    It is what :func:`certify` gives without parts, to the last byte.
+    It is the result of :func:`certify` without parts, to the last byte.
 
-    :raises ValueError: if a part is of another certification, there twice, or missing.
+    :raises ValueError: if a part is of another certification, given twice, or missing.
     """
     return Certificate(*_tunnelproof.merge(list(parts)))
-
-
-def _arrays(points: npt.ArrayLike, radius: npt.ArrayLike) -> tuple[Floats, Floats]:
-    """Points and radii in the shapes that the extension takes."""
-    of_points = np.asarray(points, dtype=np.float64)
-    if of_points.ndim != 3 or of_points.shape[1:] != (8, 3):
-        raise ValueError(f"points have the shape {of_points.shape}, not (n, 8, 3)")
-    of_radii = np.asarray(radius, dtype=np.float64)
-    count = len(of_points)
-    if of_radii.shape not in [(), (count,), (count, 2)]:
-        raise ValueError(
-            f"radius has the shape {of_radii.shape}, not (), ({count},) or ({count}, 2)"
-        )
-    if of_radii.ndim < 2:
-        single = np.broadcast_to(of_radii, (count,))
-        of_radii = np.stack([single, np.zeros(count)], axis=1)
-    return of_points, of_radii

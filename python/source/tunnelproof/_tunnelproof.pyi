@@ -1,29 +1,63 @@
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-import numpy.typing as npt
-
-from . import Kind
+from ._arrays import Floats, Indices, Kind
 
 VERSION: str
 
+class Mesh:
+    def __new__(
+        cls,
+        vertices: int,
+        edges: Indices,
+        faces: Indices,
+        groups: Indices | None,
+        left_out: list[tuple[int, int]],
+    ) -> Mesh: ...
+    @property
+    def vertex_count(self) -> int: ...
+    @property
+    def group_count(self) -> int: ...
+    @property
+    def edges(self) -> Indices: ...
+    @property
+    def faces(self) -> Indices: ...
+    def first_contact(
+        self, start: Floats, end: Floats, thickness: float | Floats
+    ) -> dict[str, Any]: ...
+    def all_contacts(
+        self, start: Floats, end: Floats, thickness: float | Floats
+    ) -> dict[str, Any]: ...
+    def is_free(self, start: Floats, end: Floats, thickness: float | Floats) -> bool: ...
+    def step(
+        self,
+        start: Floats,
+        end: Floats,
+        thickness: float | Floats,
+        clearance: float,
+        share: float | None,
+    ) -> dict[str, Any]: ...
+
+def advance(
+    kind: Kind, points: Floats, radii: Floats, clearance: float, share: float | None
+) -> dict[str, Any]: ...
+
 def decide(
-    kind: Kind, points: npt.NDArray[np.float64], radii: npt.NDArray[np.float64]
+    kind: Kind, points: Floats, radii: Floats
 ) -> dict[str, Any]: ...
 def exact(
-    kind: Kind, points: npt.NDArray[np.float64], radii: npt.NDArray[np.float64]
+    kind: Kind, points: Floats, radii: Floats
 ) -> dict[str, Any]: ...
 def families() -> list[tuple[str, Kind, str]]: ...
 def family(
     name: str, seed: int, start: int, count: int
-) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]: ...
+) -> tuple[Floats, Floats]: ...
 def certify(
     call: Callable[..., Any],
     name: str,
     declared_distance: float,
     families: list[str],
-    own: list[tuple[str, Kind, npt.NDArray[np.float64], npt.NDArray[np.float64]]],
+    own: list[tuple[str, Kind, Floats, Floats]],
     count: int,
     seed: int,
     shard: tuple[int, int],

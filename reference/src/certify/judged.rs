@@ -6,6 +6,7 @@ use crate::answer::ExactAnswer;
 use crate::oracle;
 use crate::subject::{Answer, Lapse, LapseKind, Subject};
 
+use super::permitted::Permitted;
 use super::reply::{Reply, ask};
 use super::tally::Fault;
 use super::verdict::{Verdict, judge};
@@ -20,6 +21,8 @@ pub struct Judged<'a> {
     pub subject: &'a dyn Subject,
     /// For a subject with known errata: which of them explain an answer that differs.
     pub explain: Option<Explain<'a>>,
+    /// How far it may be off and pass.
+    pub permitted: Permitted,
 }
 
 /// What was found of one subject on one query.

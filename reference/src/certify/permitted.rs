@@ -31,19 +31,22 @@ pub const PERMITTED: &[Permitted] = &[Permitted {
     source: "thresholds for distance and time, thesis table 3.1; borders: the rounding of f64",
 }];
 
-/// What the subject of this name is permitted.
+/// What the [registry](crate::registry)'s subject of this name is permitted.
 pub fn permitted(subject: &str) -> Permitted {
     let row = PERMITTED.iter().find(|row| row.subject == subject);
-    row.copied().unwrap_or(Permitted {
+    row.copied().unwrap_or(Permitted::NOTHING)
+}
+
+impl Permitted {
+    /// No deviation.
+    pub const NOTHING: Permitted = Permitted {
         subject: "",
         distance: 0.0,
         late: 0.0,
         borders: false,
         source: "none: every deviation counts",
-    })
-}
+    };
 
-impl Permitted {
     /// Whether a query is so near to a border between two answers that either is permitted.
     pub fn excuses(&self, query: &Query) -> bool {
         match query {

@@ -6,6 +6,7 @@ use std::iter;
 use tunnelproof::query::Query;
 
 use crate::corpus::{CorpusError, Entry};
+use crate::generate;
 use crate::oracle;
 use crate::subject::{Answer, NoAnswer, Subject};
 
@@ -29,6 +30,8 @@ pub struct Panel<'a> {
 /// Why judging ended early.
 #[derive(Debug)]
 pub enum RunError {
+    /// No family has this name.
+    Family(String),
     /// The corpus is wrong.
     Corpus(CorpusError),
     /// A query that whoever has to answer it does not.
@@ -43,6 +46,14 @@ pub enum RunError {
 impl fmt::Display for RunError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            RunError::Family(name) => {
+                let names: Vec<_> = generate::all().map(|family| family.name()).collect();
+                write!(
+                    f,
+                    "no family is called {name}; there are {}",
+                    names.join(", ")
+                )
+            }
             RunError::Corpus(error) => error.fmt(f),
             RunError::NoAnswer { place, reason } => write!(f, "{place}: {reason}"),
         }

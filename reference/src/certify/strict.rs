@@ -2,7 +2,6 @@
 
 use super::block::Block;
 use super::judged::Judged;
-use super::permitted::permitted;
 use super::run::Panel;
 use super::table::grouped;
 use super::tally::{Fault, Tally};
@@ -12,8 +11,9 @@ use super::tally::{Fault, Tally};
 ///
 /// A subject fails if it takes none of the queries, or only some of one sort; by a tunnel, one at a
 /// joint, a missed graze, a false hit or a missing answer, and by a near hit or a late time of
-/// impact beyond what it is [`permitted`]; an exact one by any other field that differs. A wrong
-/// case alone does not fail an engine: it is a way to an answer, not the answer.
+/// impact beyond what it is [permitted](super::permitted::Permitted); an exact one by any other field
+/// that differs. A wrong case alone does not fail an engine: it is a way to an answer, not the
+/// answer.
 pub fn failures(panel: &Panel, total: &Block) -> Vec<String> {
     let subjects = panel.subjects.iter().zip(&total.tallies);
     let lines = subjects.filter_map(|(judged, tally)| {
@@ -47,7 +47,7 @@ pub fn disagreements(panel: &Panel, total: &Block) -> Vec<String> {
     lines
 }
 
-/// Who does not answer each query once does not pass.
+/// A subject that does not answer each query once does not pass.
 fn refusals(total: &Block, tally: &Tally) -> impl Iterator<Item = String> {
     let refused = tally.refused_of_taken();
     let of_taken = (refused > 0).then(|| {
@@ -65,7 +65,7 @@ fn refusals(total: &Block, tally: &Tally) -> impl Iterator<Item = String> {
 
 fn faults<'a>(judged: &Judged, tally: &'a Tally) -> impl Iterator<Item = String> + use<'a> {
     let declared = judged.subject.declared_distance();
-    let permitted = permitted(judged.subject.name());
+    let permitted = judged.permitted;
     let counted = [
         (Fault::Tunnel, "tunnels"),
         (Fault::JointTunnel, "joint tunnels"),

@@ -3,6 +3,7 @@
 use super::block::Block;
 use super::findings::Findings;
 use super::run::Panel;
+use super::strict;
 use super::tally::{Explained, Fault, Finding, Tally, Witness};
 use crate::corpus::Entry;
 use crate::corpus::jsonl::{self, Numbers};
@@ -31,8 +32,8 @@ const COLUMNS: [Column; 9] = [
     (["worst", "early"], 10, |tally| worst(tally, Fault::Early)),
 ];
 
-/// All that was found, as text.
-pub fn text(findings: &Findings) -> String {
+/// All that was found, as text. Its commands begin with `program`, [`CHECKOUT`] or [`INSTALLED`].
+pub fn text(findings: &Findings, program: &str) -> String {
     let Findings {
         panel,
         settings,
@@ -55,7 +56,8 @@ pub fn text(findings: &Findings) -> String {
         heading,
         blocks(panel, &all),
         agreement(panel, total),
-        witnesses(panel, total) + &programs(&findings.programs),
+        verdicts(panel, total),
+        witnesses(panel, total, program) + &programs(&findings.programs),
     ]
     .join("\n")
 }
@@ -187,6 +189,26 @@ pub fn agreement(panel: &Panel, total: &Block) -> String {
     lines.join("\n")
 }
 
+/// Who passes and who fails, as `--strict` counts it.
+pub fn verdicts(panel: &Panel, total: &Block) -> String {
+    let width = name_width(panel);
+    let mut lines = vec!["Verdict:".to_owned()];
+    for (judged, tally) in panel.subjects.iter().zip(&total.tallies) {
+        let failures = strict::failures_of(judged, total, tally);
+        let mut name = cut(judged.subject.name());
+        if failures.is_empty() {
+            lines.push(format!("  {name:<width$}passes"));
+        }
+        // A line for each thing that it fails by.
+        for failure in failures {
+            lines.push(format!("  {name:<width$}fails: {failure}"));
+            name.clear();
+        }
+    }
+    lines.push(String::new());
+    lines.join("\n")
+}
+
 /// In which ways a subject gives no answer, and how often.
 pub fn lapse_counts(tally: &Tally) -> String {
     let kinds = tally.lapses.iter();
@@ -269,7 +291,7 @@ fn first(finding: &Finding) -> &str {
 }
 
 /// The worst witness of each fault of each subject, with the command that explains it.
-pub fn witnesses(panel: &Panel, total: &Block) -> String {
+pub fn witnesses(panel: &Panel, total: &Block, program: &str) -> String {
     let width = name_width(panel);
     let mut lines = Vec::new();
     for (judged, tally) in panel.subjects.iter().zip(&total.tallies) {
@@ -282,7 +304,7 @@ pub fn witnesses(panel: &Panel, total: &Block) -> String {
                 cut(judged.subject.name()),
                 fault.name(),
                 measure(*fault, witness.severity),
-                command(witness)
+                command_of(witness, Some(judged.subject.name()), program)
             ));
         }
     }
@@ -302,24 +324,42 @@ pub fn measure(fault: Fault, severity: f64) -> String {
     }
 }
 
-/// The command that explains a witness, ready to paste into a shell.
-pub fn command(witness: &Witness) -> String {
-    if witness.id.starts_with(STANDARD_INPUT) {
-        return explain_line(&witness.entry());
+/// The command that explains a witness against a subject, ready to paste into a shell in a checkout.
+pub fn command(witness: &Witness, subject: Option<&str>) -> String {
+    command_of(witness, subject, CHECKOUT)
+}
+
+fn command_of(witness: &Witness, subject: Option<&str>, program: &str) -> String {
+    let explain = if witness.id.starts_with(STANDARD_INPUT) {
+        line_of(&witness.entry(), program)
+    } else {
+        format!("{program} explain {}", quoted(&witness.id))
+    };
+    // The others are asked without being named.
+    match subject.filter(|name| PROGRAMS.iter().any(|program| name.starts_with(program))) {
+        Some(name) => format!("{explain} --subject {}", quoted(name)),
+        None => explain,
     }
-    format!("{EXPLAIN} {}", quoted(&witness.id))
 }
 
-/// The command that explains a query that is in no file, ready to paste into a shell.
+/// The command that explains a query that is in no file, ready to paste into a shell in a checkout.
 pub fn explain_line(entry: &Entry) -> String {
-    let line = jsonl::write(entry, Numbers::Decimal);
-    format!("echo {} | {EXPLAIN} -", quoted(&line))
+    line_of(entry, CHECKOUT)
 }
 
-const EXPLAIN: &str = "cargo run --release -- explain";
+fn line_of(entry: &Entry, program: &str) -> String {
+    let line = jsonl::write(entry, Numbers::Decimal);
+    format!("echo {} | {program} explain -", quoted(&line))
+}
 
-/// What commands that judge again begin with.
-pub const CERTIFY: &str = "cargo run --release -- certify";
+/// What commands begin with in a checkout of the project.
+pub const CHECKOUT: &str = "cargo run --release --";
+
+/// What commands begin with where the program is installed.
+pub const INSTALLED: &str = "tunnelproof";
+
+/// What the names of programs and of shared libraries begin with on the command line.
+const PROGRAMS: [&str; 2] = ["cmd:", "lib:"];
 
 /// What the identifiers of queries begin with that no file holds.
 const STANDARD_INPUT: &str = "-#";

@@ -8,6 +8,7 @@ use tunnelproof::query::{Point, Query};
 
 use super::block::Block;
 use super::judged::Judged;
+use super::permitted::permitted;
 use super::run::Panel;
 use super::source::Source;
 use super::strict::failures;
@@ -100,6 +101,7 @@ fn panel(subject: &dyn Subject) -> Panel<'_> {
         subjects: vec![Judged {
             subject,
             explain: None,
+            permitted: permitted(subject.name()),
         }],
     }
 }

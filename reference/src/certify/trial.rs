@@ -5,11 +5,12 @@ use std::sync::Arc;
 use tunnelproof::narrow::NarrowPhase;
 use tunnelproof::query::Query;
 
-use crate::generate::{FAMILIES, Family};
+use crate::generate::{self, FAMILIES};
 use crate::subject::{Engine, Subject};
 
 use super::findings::{Findings, Settings};
 use super::judged::Judged;
+use super::permitted::Permitted;
 use super::run::{Panel, RunError};
 use super::shard::Shard;
 use super::source::Source;
@@ -30,7 +31,10 @@ pub fn certify<N: NarrowPhase>(engine: N) -> Trial<N> {
     Trial {
         engine,
         sources: Vec::new(),
-        families: FAMILIES.iter().collect(),
+        families: FAMILIES
+            .iter()
+            .map(|family| family.name().to_owned())
+            .collect(),
         count: 1000,
         seed: 1,
     }
@@ -40,7 +44,7 @@ pub fn certify<N: NarrowPhase>(engine: N) -> Trial<N> {
 pub struct Trial<N> {
     engine: N,
     sources: Vec<Source>,
-    families: Vec<&'static Family>,
+    families: Vec<String>,
     count: u64,
     seed: u64,
 }
@@ -67,9 +71,13 @@ impl<N: NarrowPhase> Trial<N> {
         self
     }
 
-    /// Judges these families alone; [`generate::by_name`](crate::generate::by_name) finds them.
-    pub fn families(mut self, families: impl IntoIterator<Item = &'static Family>) -> Self {
-        self.families = families.into_iter().collect();
+    /// Judges the families of these names alone, such as `lattice`, `face_lattice` for vertices and
+    /// faces, or `thick_lattice` for radii. `docs/families.md` has all.
+    pub fn families<S: AsRef<str>>(mut self, names: impl IntoIterator<Item = S>) -> Self {
+        self.families = names
+            .into_iter()
+            .map(|name| name.as_ref().to_owned())
+            .collect();
         self
     }
 
@@ -86,7 +94,8 @@ impl<N: NarrowPhase> Trial<N> {
     ///
     /// # Errors
     ///
-    /// [`RunError`] for the first query that the oracle does not take.
+    /// [`RunError`] for a name that is no family's, and for the first query that the oracle does not
+    /// take.
     pub fn run(self) -> Result<Outcome, RunError> {
         let subject = Engine(self.engine);
         let panel = Panel {
@@ -94,15 +103,21 @@ impl<N: NarrowPhase> Trial<N> {
             subjects: vec![Judged {
                 subject: &subject,
                 explain: None,
+                permitted: Permitted::NOTHING,
             }],
         };
         let (seed, count) = (self.seed, self.count);
-        let families = self.families.into_iter().map(|family| Source::Family {
-            family,
-            seed,
-            count,
-        });
-        let sources = families.chain(self.sources);
+        let family = |name: String| {
+            let family = generate::by_name(&name).ok_or(RunError::Family(name))?;
+            Ok::<_, RunError>(Source::Family {
+                family,
+                seed,
+                count,
+            })
+        };
+        let families = self.families.into_iter().map(family);
+        let sources = families.collect::<Result<Vec<_>, _>>()?;
+        let sources = sources.into_iter().chain(self.sources);
         let blocks = sources.map(|source| panel.run(&source, |_| {}));
         let blocks = blocks.collect::<Result<_, _>>()?;
         let settings = Settings {
@@ -118,7 +133,8 @@ impl<N: NarrowPhase> Trial<N> {
         }
         Ok(Outcome {
             failures,
-            text: table::text(&findings),
+            // The test is in a package of its own.
+            text: table::text(&findings, table::INSTALLED),
         })
     }
 
@@ -127,8 +143,9 @@ impl<N: NarrowPhase> Trial<N> {
     /// # Panics
     ///
     /// If it does not pass.
+    #[allow(clippy::panic, reason = "it is an assertion")]
     pub fn assert_passes(self) {
-        let outcome = self.run().expect("the oracle takes every query");
+        let outcome = self.run().unwrap_or_else(|error| panic!("{error}"));
         let failures = outcome.failures.join("\n");
         assert!(failures.is_empty(), "{}\n{failures}", outcome.text);
     }
@@ -137,10 +154,12 @@ impl<N: NarrowPhase> Trial<N> {
 #[cfg(test)]
 mod tests {
     use tunnelproof::additive::Additive;
-    use tunnelproof::certified::Certified;
+    use tunnelproof::certified::{Certified, decide};
+    use tunnelproof::narrow::{Report, Unsupported};
+    use tunnelproof::query::EdgeEdge;
 
     use super::*;
-    use crate::generate::by_name;
+    use crate::generate::{Family, by_name};
 
     fn slow() -> &'static Family {
         by_name("slow").unwrap()
@@ -148,7 +167,7 @@ mod tests {
 
     #[test]
     fn trial_of_an_engine_that_is_right_passes() {
-        let trial = certify(Certified).families([slow()]).count(50).seed(3);
+        let trial = certify(Certified).families(["slow"]).count(50).seed(3);
         let queries = (0..7).map(|index| slow().query(9, index));
         let outcome = trial.queries("mine", queries).run().unwrap();
         assert_eq!(outcome.failures, [""; 0]);
@@ -167,8 +186,7 @@ mod tests {
     #[test]
     fn trial_without_a_query_fails() {
         for trial in [
-            certify(Certified).families([]),
-            certify(Certified).families(by_name("no such family")),
+            certify(Certified).families([""; 0]),
             certify(Certified).count(0),
         ] {
             let failures = trial.run().unwrap().failures;
@@ -177,14 +195,44 @@ mod tests {
     }
 
     #[test]
+    fn trial_of_a_family_that_does_not_exist_names_it() {
+        let error = certify(Certified).families(["no such"]).run().unwrap_err();
+        let text = error.to_string();
+        assert!(
+            text.starts_with("no family is called no such; there are uniform,"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn trial_permits_nothing_to_an_engine_of_a_known_name() {
+        struct Late;
+        impl NarrowPhase for Late {
+            fn name(&self) -> &str {
+                "thesis"
+            }
+            fn edge_edge(&self, query: &EdgeEdge) -> Result<Report, Unsupported> {
+                let toi = decide(query).map(|hit| (hit.toi + 1e-10).min(1.0));
+                Ok(toi.map_or(Report::miss(), Report::hit))
+            }
+        }
+        let failures = certify(Late).families(["uniform"]).run().unwrap().failures;
+        assert!(failures[0].contains("late times of impact"), "{failures:?}");
+    }
+
+    #[test]
     fn trial_of_an_engine_that_is_wrong_fails() {
-        let trial = || certify(Additive::default()).families([slow()]).count(50);
+        let trial = || certify(Additive::default()).families(["slow"]).count(50);
         let outcome = trial().run().unwrap();
         let [failure] = &outcome.failures[..] else {
             panic!("{:?}", outcome.failures)
         };
         assert!(failure.starts_with("additive: ") && failure.contains(" tunnels"));
-        assert!(outcome.text.contains("explain slow:1:"), "{}", outcome.text);
+        assert!(
+            outcome.text.contains("  tunnelproof explain slow:1:"),
+            "{}",
+            outcome.text
+        );
         let panic = std::panic::catch_unwind(|| trial().assert_passes()).unwrap_err();
         assert!(
             panic

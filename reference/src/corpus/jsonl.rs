@@ -12,11 +12,14 @@
 //! - `radius`: in metres, a number, or two in brackets whose exact sum it is; 0 if left out.
 //! - `label`: whether it is known to be a hit, `0`, `1`, `false` or `true`; may be left out.
 //!
-//! Other fields are ignored, so that a line can carry notes of its own.
+//! - `note`: anything; not read.
+//!
+//! Other fields are refused: a misspelt `radius` would be a wrong answer. `null` stands for no `id`
+//! and for no `label`, and is refused elsewhere.
 
 use std::fmt;
 
-use serde::de::{Deserialize, Deserializer, Error as _, Visitor};
+use serde::de::{Deserialize, Deserializer, Error as _, IgnoredAny, Visitor};
 use serde_json::{Value, json};
 use serde_path_to_error::{Path, Segment};
 use tunnelproof::query::{Point, Query, QueryKind, Radius};
@@ -133,12 +136,24 @@ fn point(index: usize, coordinates: Vec<Number>) -> Result<Point, Problem> {
 
 /// The line as JSON has it.
 #[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Record {
     id: Option<String>,
+    #[serde(default, deserialize_with = "given")]
     kind: Option<String>,
     points: Vec<Vec<Number>>,
+    #[serde(default, deserialize_with = "given")]
     radius: Option<Radii>,
     label: Option<Label>,
+    #[serde(default, rename = "note")]
+    _note: IgnoredAny,
+}
+
+/// A value that is not `null`.
+fn given<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+    deserializer: D,
+) -> Result<Option<T>, D::Error> {
+    T::deserialize(deserializer).map(Some)
 }
 
 impl Record {

@@ -46,11 +46,26 @@ pub(super) fn entries<I: Iterator<Item = Result<Line, CorpusError>>>(
     Ok((1..).zip(document.vectors).map(entry))
 }
 
+/// What a vector has beside the fields of a query.
+const ANSWER_FIELDS: [&str; 7] = [
+    "comment",
+    "flags",
+    "wire",
+    "radius_hex",
+    "points_hex",
+    "result",
+    "exact_toi",
+];
+
 /// One vector; the number names it if it has no `id`.
 fn entry(number: u64, vector: &Value, options: ReadOptions) -> Result<Entry, Problem> {
+    let mut query = vector.clone();
+    if let Some(fields) = query.as_object_mut() {
+        fields.retain(|name, _| !ANSWER_FIELDS.contains(&name.as_str()));
+    }
     let line = Line {
         number,
-        text: vector.to_string(),
+        text: query.to_string(),
     };
     let unstated = vector["kind"].is_null().then_some(QueryKind::EdgeEdge);
     let kind = options.kind.or(unstated);

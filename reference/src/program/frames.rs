@@ -75,7 +75,12 @@ pub(super) fn parse(frame: &[u8]) -> Result<Message, String> {
             case: None,
         }),
         2 => Reply::Unsupported,
-        other => return Err(format!("the verdict is {other}, not 0, 1 or 2")),
+        other => {
+            // A C `int`, unless the four bytes after it are not 0.
+            let verdict = u32::try_from(other).map(u32::cast_signed);
+            let verdict = verdict.map_or(other.to_string(), |verdict| verdict.to_string());
+            return Err(format!("the verdict is {verdict}, not 0, 1 or 2"));
+        }
     };
     let id = Some(id);
     Ok(Message { id, reply })

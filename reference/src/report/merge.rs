@@ -8,6 +8,7 @@ use tunnelproof::query::{Query, QueryKind};
 use crate::certify::block::{Agreement, Block};
 use crate::certify::findings::{Findings, Settings};
 use crate::certify::judged::Judged;
+use crate::certify::permitted::permitted;
 use crate::certify::run::Panel;
 use crate::certify::shard::Shard;
 use crate::certify::tally::{Explained, Fault, Finding, Sort, Statement, Tally, Witness};
@@ -198,6 +199,7 @@ impl Kept {
                 .map(|subject| Judged {
                     subject,
                     explain: None,
+                    permitted: permitted(subject.name()),
                 })
                 .collect(),
         };

@@ -239,7 +239,10 @@ fn subject(judged: &Judged, tally: &Tally) -> SubjectRow {
             count: 0,
             worst: None,
         };
-        tally.faults.get(&fault).map_or(nothing, FindingRow::from)
+        let found = tally.faults.get(&fault);
+        found.map_or(nothing, |found| {
+            FindingRow::new(found, Some(judged.subject.name()))
+        })
     };
     let refused = tally.refused.iter().map(|(sort, queries)| RefusedRow {
         sort: sort.into(),
@@ -294,12 +297,19 @@ impl From<&Permitted> for PermittedRow {
     }
 }
 
-impl From<&Finding> for FindingRow {
-    fn from(finding: &Finding) -> Self {
+impl FindingRow {
+    fn new(finding: &Finding, subject: Option<&str>) -> Self {
+        let worst = finding.worst.as_ref();
         FindingRow {
             count: finding.count,
-            worst: finding.worst.as_ref().map(WitnessRow::from),
+            worst: worst.map(|witness| WitnessRow::new(witness, subject)),
         }
+    }
+}
+
+impl From<&Finding> for FindingRow {
+    fn from(finding: &Finding) -> Self {
+        FindingRow::new(finding, None)
     }
 }
 
@@ -312,8 +322,8 @@ impl From<&Explained> for ExplainedRow {
     }
 }
 
-impl From<&Witness> for WitnessRow {
-    fn from(witness: &Witness) -> Self {
+impl WitnessRow {
+    fn new(witness: &Witness, subject: Option<&str>) -> Self {
         let entry = witness.entry();
         let query = |numbers| {
             let line = jsonl::write(&entry, numbers);
@@ -324,7 +334,7 @@ impl From<&Witness> for WitnessRow {
             rank: witness.rank,
             place: witness.place,
             id: witness.id.clone(),
-            command: command(witness),
+            command: command(witness, subject),
             query: query(Numbers::Decimal),
             query_hexadecimal: query(Numbers::Hexadecimal),
             truth: json!(Fields::exact(&witness.truth)),

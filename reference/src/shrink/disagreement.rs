@@ -42,8 +42,9 @@ impl<'a> Disagreement<'a> {
         let judged = Judged {
             subject: self.subject,
             explain: None,
+            permitted: permitted(self.subject.name()),
         };
-        let permitted = permitted(self.subject.name()).late;
+        let permitted = judged.permitted.late;
         let counts = |&(fault, severity): &(Fault, f64)| match fault {
             Fault::Late | Fault::Early => severity > permitted,
             _ => true,

@@ -4,6 +4,21 @@
 //! chord says in which of `2^bits` cells the root should be, exact signs at the cell's ends say
 //! whether it is. A cell that is right squares the number of cells, one that is wrong takes its
 //! root; two cells are halving, which always goes on.
+//!
+//! # Why it ends
+//!
+//! The chord only chooses a cell, by an index that is clamped; everything else is integers. So
+//! [`Bracket::refine`] narrows the bracket whatever floating point says, in any rounding mode. With
+//! `b` the logarithm of the number of cells and `e` that of the common denominator of the ends:
+//! a cell that is right narrows by `b` bits, adds `b` to `e` and at most doubles `b`; one that is
+//! wrong adds `b` to `e` and halves `b`; two cells narrow by a bit either way. So `e + 2 b` grows by
+//! at most three times the bits that are gained.
+//!
+//! How many bits are needed is bounded by the polynomials ([`Bracket::most_exponent`]), if there is
+//! a root. That there is one is proved in floating point as well (`isolate_f64`), which a host that
+//! rounds otherwise may mislead. Then the signs at both ends are not those around a root, or it
+//! narrows towards an end that is another root, until the exponent is larger than any that is
+//! needed: it is taken for what it has become, and the answer is as wrong as its premise.
 
 use std::cmp::Ordering;
 
@@ -72,20 +87,54 @@ impl<'a, const N: usize> Bracket<'a, N> {
 
     /// Narrows it to between two neighbours in `f64`, and such that neither end is a root.
     pub(super) fn settle(&mut self) -> Settled {
+        let most = self.most_exponent(1, self.exponent());
+        // Ends: each turn narrows it, and the exponent has a bound. The neighbours of the ends are
+        // taken in integers, so that a number between them is between the ends.
         loop {
             let (below, above) = (self.low.below(), self.high.above());
+            let is_spent = self.exponent() > most;
             let met = match between(below, above) {
-                None if self.is_low_proved && self.is_high_proved => {
+                None if is_spent || self.is_low_proved && self.is_high_proved => {
                     return Settled::Between(below, above);
                 }
+                Some(_) if is_spent => return Settled::At(self.low.clone()),
                 // The root may be the only one that there is between them.
-                Some(cut) if below.next_up() == cut => self.meet(Dyadic::from_f64(cut)),
+                Some(cut) if below.to_bits() + 1 == cut.to_bits() => {
+                    self.meet(Dyadic::from_f64(cut))
+                }
                 _ => self.refine(),
             };
             if let Some(at) = met {
                 return Settled::At(at);
             }
         }
+    }
+
+    /// The larger one of the exponents of the ends.
+    fn exponent(&self) -> u64 {
+        self.low.exponent.max(self.high.exponent)
+    }
+
+    /// An exponent of the ends that narrowing does not reach before it shows the sign of a
+    /// polynomial `q` of this degree `n` and so many bits at the root `r`, if that is not 0.
+    ///
+    /// With `m` the degree of the bracket's polynomial `p` and `h` the bits of its coefficients: the
+    /// polynomial of least degree with the root `r` divides `p`, so that its coefficients have at
+    /// most `h + 2 m` bits (Mignotte), their norm no more than two more. Its resultant with `q` is an
+    /// integer and not 0: `|q(r)|` is at least 2 to the minus `(m - 1) (bits + 3) + n (h + 2 m + 2)`,
+    /// as a polynomial of degree up to 7 is at most eight times its largest coefficient. Up to the
+    /// root `q` changes by no more than `2^(bits + 6)` times the width. So many bits, and those that
+    /// the quotients of numbers of 64 bits need beyond the sign, are below `w`.
+    ///
+    /// For `q = 2^e t - k`, the distance of the root from a number with the exponent `e`, the bits
+    /// are `e + 1`: it bounds what it takes to move an end away from another root, and to part the
+    /// root from a neighbour in `f64` at which it is not. The exponent grows by three times the
+    /// width's bits, and by 144 more for one cell too narrow and the first cells.
+    pub(super) fn most_exponent(&self, degree: usize, bits: u64) -> u64 {
+        let (m, n) = (self.poly.degree() as u64, degree as u64);
+        let h = most_bits(self.poly);
+        let w = m * (bits + 4) + n * (h + 2 * m + 4) + 128;
+        self.exponent().max(1074) + 4 * w + 1074 * 4 + 256
     }
 
     /// Numbers between which the root is.
@@ -101,15 +150,19 @@ impl<'a, const N: usize> Bracket<'a, N> {
     }
 
     /// Narrows it to one of its cells, or to what lies on one side of that. Returns the root if it
-    /// is met.
+    /// is met, and the lower end if the signs at the ends are not those around a root.
     pub(super) fn refine(&mut self) -> Option<Dyadic> {
-        let own = self.low.exponent.max(self.high.exponent);
+        let own = self.exponent();
         let exponent = own + u64::from(self.bits);
         let start = self.low.numerator.shifted(exponent - self.low.exponent);
         let mut width = self.high.numerator.shifted(own - self.high.exponent);
         width.sub_shifted(&self.low.numerator, own - self.low.exponent);
         let cells = 1u64 << self.bits;
-        let index = ((self.chord() * cells as f64) as u64).min(cells - 1);
+        let Some(chord) = self.chord() else {
+            return Some(self.low.clone());
+        };
+        // 0 for what is not a number.
+        let index = ((chord * cells as f64) as u64).min(cells - 1);
         let end = |index: u64| {
             let mut at = start.clone();
             at.add_shifted(&Integer::product(&width, &i128::from(index).into()), 0);
@@ -135,15 +188,18 @@ impl<'a, const N: usize> Bracket<'a, N> {
     }
 
     /// Where between the ends the chord of the polynomial is 0; not a number if it is 0 at both
-    /// ends.
-    fn chord(&self) -> f64 {
-        let value = |at: &Dyadic| {
-            let (value, exponent) = self.poly.evaluate(at).approximate();
+    /// ends. `None` if the sign at an end is that of the other side of the root.
+    fn chord(&self) -> Option<f64> {
+        let value = |at: &Dyadic, other_side: Ordering| {
+            let value = self.poly.evaluate(at);
+            let is_around = value.is_zero() || value.sign() != other_side;
+            let (value, exponent) = value.approximate();
             let degree = self.poly.degree() as i64;
-            (value.abs(), exponent - at.exponent as i64 * degree)
+            is_around.then_some((value.abs(), exponent - at.exponent as i64 * degree))
         };
-        let ((low, low_exponent), (high, high_exponent)) = (value(&self.low), value(&self.high));
-        1.0 / (1.0 + scale(high / low, high_exponent - low_exponent))
+        let (low, low_exponent) = value(&self.low, self.before.reverse())?;
+        let (high, high_exponent) = value(&self.high, self.before)?;
+        Some(1.0 / (1.0 + scale(high / low, high_exponent - low_exponent)))
     }
 
     /// Compares the root with a number strictly between the ends, which becomes one of them unless
@@ -200,11 +256,11 @@ impl<'a, const N: usize> Bracket<'a, N> {
     /// remainders, whose numbers are many times as long, tell.
     pub(super) fn sign_of(&self, q: Poly<N>) -> Ordering {
         self.plain_sign_of(&q).unwrap_or_else(|| {
+            let bits = most_bits(&q);
             let limit = if are_coprime(self.poly, &q) {
-                u64::MAX
+                self.most_exponent(q.degree(), bits)
             } else {
-                let bits = q.coefficients().iter().map(Integer::bits).max();
-                LEAST_EXPONENT + bits.unwrap_or(0)
+                LEAST_EXPONENT + bits
             };
             self.sign_by_narrowing(&q, limit)
                 .unwrap_or_else(|| self.sturm_sign_of(q))
@@ -221,7 +277,8 @@ impl<'a, const N: usize> Bracket<'a, N> {
     /// it is not 0, it is shown in the end.
     fn sign_by_narrowing(&self, q: &Poly<N>, most_bits: u64) -> Option<Ordering> {
         let mut bracket = self.clone();
-        while bracket.low.exponent.max(bracket.high.exponent) < most_bits {
+        // Ends: each turn narrows it, so that its exponent comes to be as large.
+        while bracket.exponent() < most_bits {
             if let Some(at) = bracket.refine() {
                 return Some(q.sign_at(&at));
             }
@@ -267,10 +324,13 @@ impl<'a, const N: usize> Bracket<'a, N> {
     ///
     /// It ends: the denominator is not 0 at the root, so that narrowing brings the two numbers
     /// together as near as one likes. What is known of each then differs by a unit in the last
-    /// place, 2^-52, in numerator, denominator and quotient: by not more than 3 2^-52.
+    /// place, 2^-52, in numerator, denominator and quotient: by not more than 3 2^-52. Where a host
+    /// rounds otherwise it may be more, and the lower end is taken for the root in the end.
     pub(super) fn quotient(&self, n: &Poly<N>, d: &Poly<N>) -> f64 {
         let mut bracket = self.clone();
-        loop {
+        let most = self.most_exponent(common_degree(n, d), most_bits(n).max(most_bits(d)));
+        // Ends: each turn narrows it, so that its exponent comes to be as large.
+        while bracket.exponent() < most {
             if let Some(value) = bracket.try_quotient(n, d) {
                 return value;
             }
@@ -278,6 +338,7 @@ impl<'a, const N: usize> Bracket<'a, N> {
                 return exact_ratio(n, d, &at);
             }
         }
+        exact_ratio(n, d, &bracket.low)
     }
 
     fn try_quotient(&self, n: &Poly<N>, d: &Poly<N>) -> Option<f64> {
@@ -319,6 +380,15 @@ pub(super) fn exact_ratio<const N: usize>(n: &Poly<N>, d: &Poly<N>, at: &Dyadic)
     ratio(&n, &d).min(1.0)
 }
 
+/// The bits of the longest coefficient.
+pub(super) fn most_bits<const N: usize>(poly: &Poly<N>) -> u64 {
+    let bits = poly.coefficients().iter().map(Integer::bits);
+    bits.max().unwrap_or(0)
+}
+
 fn common_degree<const N: usize>(n: &Poly<N>, d: &Poly<N>) -> usize {
     n.degree().max(d.degree())
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::integer::{Integer, scale};
+use super::integer::Integer;
 
 /// `numerator / 2^exponent`, in `[0, 1]`.
 #[derive(Clone, Debug)]
@@ -60,10 +60,10 @@ impl Dyadic {
         if dropped <= 0 {
             // At most 53 bits, and none of them below the unit.
             let (mantissa, _) = self.numerator.window(0);
-            return (scale(mantissa as f64, -own), true);
+            return (compose(mantissa << dropped.unsigned_abs(), unit), true);
         }
         let (mantissa, is_exact) = self.numerator.window(dropped.unsigned_abs());
-        (scale(mantissa as f64, unit), is_exact)
+        (compose(mantissa, unit), is_exact)
     }
 
     /// `self` compared with `other`.
@@ -72,6 +72,17 @@ impl Dyadic {
         let own = self.numerator.shifted(common - self.exponent);
         own.cmp(&other.numerator.shifted(common - other.exponent))
     }
+}
+
+/// `mantissa 2^exponent` for a mantissa of 53 bits, or less if the exponent is -1074 or it is 0: in
+/// integers, and so the same in any floating-point environment.
+fn compose(mantissa: u64, exponent: i64) -> f64 {
+    if mantissa == 0 {
+        return 0.0;
+    }
+    // The lowest bit of the biased exponent is the implicit one of the mantissa.
+    let biased = (exponent + 1074) as u64;
+    f64::from_bits((biased << 52) + mantissa)
 }
 
 /// A finite `f64` as `mantissa 2^exponent`, the mantissa below `2^53`.

@@ -7,6 +7,7 @@ use std::cmp::Ordering;
 pub(super) fn estimate_root(c: &[f64; 4], low: f64, high: f64, before: Ordering) -> f64 {
     let (mut low, mut high) = (low, high);
     let mut t = 0.5 * (low + high);
+    // Ends: after so many steps, converged or not.
     for _ in 0..60 {
         let value = ((c[3] * t + c[2]) * t + c[1]) * t + c[0];
         if (value < 0.0) == before.is_lt() {

@@ -22,12 +22,14 @@ impl Fraction {
     pub(super) fn near(time: f64) -> Option<Self> {
         let (mut last, mut current) = ((1, 0), (0, 1));
         let mut rest = time;
+        // Ends: whatever the rest is, a whole number of at least 1 is taken, so that the
+        // denominators grow as Fibonacci's numbers do, up to the limit.
         loop {
             rest = rest.recip();
             // Saturates where it is infinite.
             let whole = u64::from(rest as u32);
             rest -= whole as f64;
-            // 0 for NaN; otherwise the denominators grow and it ends.
+            // 0 for NaN, and for what rounding has made negative.
             if !(1..Self::LIMIT).contains(&whole) {
                 return None;
             }

@@ -193,6 +193,8 @@ impl Isolated {
     fn add_by_halving(&mut self, bernstein: &[Integer], sign: &mut Ordering) {
         let mut current = Piece::unit(bernstein);
         let mut later: SmallVec<[Found; 3]> = SmallVec::new();
+        // Ends: the roots are simple, by the discriminant, so that they part (two circles theorem);
+        // all of it in integers.
         loop {
             let (left, right) = current.halves();
             let middle = right.starts_at_root().then(|| right.low());

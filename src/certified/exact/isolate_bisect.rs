@@ -32,6 +32,7 @@ pub(super) fn isolate_bisect<L: Width>(c: &Cubic<L>) -> Option<SmallVec<[Interva
     let mut piece: Bernstein<L> = [thrice(&c0), second, third, last];
     let mut found: SmallVec<[Interval; 3]> = SmallVec::new();
     let mut index = 0;
+    // Ends: after so many halvings.
     for depth in 1..=DEPTH {
         let (left, right) = halves::<L>(&piece);
         if right[0].is_zero() {

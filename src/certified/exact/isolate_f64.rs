@@ -56,6 +56,7 @@ fn part_piece(
             return Some(());
         }
     }
+    // Ends: here at the latest.
     if depth == DEPTH {
         return None;
     }

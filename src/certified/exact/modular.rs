@@ -22,9 +22,10 @@ pub(super) fn are_coprime<const N: usize>(p: &Poly<N>, q: &Poly<N>) -> bool {
     if !keep_degree(&p) || !keep_degree(&q) {
         return false;
     }
-    // Euclid's algorithm.
+    // Euclid's algorithm. Ends: what is left of `p` is shorter than `q`.
     while q.len() > 1 {
         let inverse = power(q[q.len() - 1], PRIME - 2);
+        // Ends: the leading coefficient becomes 0 and is trimmed.
         while p.len() >= q.len() {
             let factor = times(p[p.len() - 1], inverse);
             let shift = p.len() - q.len();
@@ -67,6 +68,7 @@ fn times(a: u64, b: u64) -> u64 {
 
 fn power(mut base: u64, mut exponent: u64) -> u64 {
     let mut power = 1;
+    // Ends: after 64 turns at most.
     while exponent > 0 {
         if exponent & 1 == 1 {
             power = times(power, base);

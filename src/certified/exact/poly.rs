@@ -96,6 +96,7 @@ impl<const N: usize> Poly<N> {
         let Some((leading, lower)) = divisor.coefficients().split_last() else {
             return self;
         };
+        // Ends: each turn takes a coefficient away.
         while self.coefficients.len() > divisor.degree() {
             let Some(mut own) = self.coefficients.pop() else {
                 break;
@@ -140,6 +141,7 @@ impl<const N: usize> Poly<N> {
             .for_each(|c| c.mul_assign(&leading));
         let degree = divisor.degree();
         let mut quotient = SmallVec::new();
+        // Ends: each turn takes a coefficient away.
         while self.coefficients.len() > degree
             && let Some(mut own) = self.coefficients.pop()
         {

@@ -136,6 +136,7 @@ impl<L: Width> Sides<'_, L> {
         } else {
             at.0.checked_add(offset as u128)
         }?;
+        // Ends: the reach is at least 1 and grows by 12 bits each time, up to 85 bits.
         while reach < ulp(at) << 10 {
             let low = GridTime(centre.checked_sub(reach)?);
             let high = GridTime(centre.checked_add(reach)?);
@@ -161,6 +162,9 @@ impl<L: Width> Sides<'_, L> {
         let mut low_value = value(self.low, c[0]);
         let mut high_value = value(self.high, c.iter().sum());
         let mut bits = 1;
+        // Ends: the values only choose a cell. A cell that is right narrows what is between the
+        // sides by its bits, one that is wrong halves these, and two cells halve it either way,
+        // until it is of one cell of the grid.
         loop {
             // The end of the step is 2^128, wrapped around.
             let [start, end] = [self.low, self.high].map(|side| side.map_or(0, |at| at.0));
@@ -195,6 +199,8 @@ impl<L: Width> Sides<'_, L> {
 
     /// Moves the sides until they are between neighbours in `f64`.
     fn part_from_f64(mut self) -> Option<RefinedRoot> {
+        // Ends: each turn halves how many numbers of `f64` there are between the sides. Those on
+        // the grid are converted exactly, in any rounding mode, and none of them is subnormal.
         loop {
             let (low, high) = (self.low?, self.high?);
             let (below, above) = (low.below(), high.above());

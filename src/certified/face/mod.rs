@@ -18,7 +18,7 @@ use self::place::{Place, of_edges, raw_weights};
 use super::cubic::Cubic;
 use super::ends::Ends;
 use super::exact::{self, Passage};
-use super::kind::{Kind, Stages, query_parts};
+use super::kind::{Kind, Sealed, Stages, query_parts};
 use super::motion::{Motion, Positions};
 use super::nearest::{self, Gram, Spot};
 use super::normal::{self, Normal};
@@ -27,20 +27,23 @@ use super::root::{Bracket, Half};
 use super::separate::{SweptBoxes, U};
 use super::stage::{Finding, Stage};
 use crate::contact::{Case, ContactKind, FacePlace, Flags, Hit, PLACE_ERROR};
-use crate::query::{Point, QueryError, Radius, VertexFace};
+use crate::query::{Point, Radius, VertexFace};
 
+impl Sealed for VertexFace {}
+
+#[allow(private_interfaces, reason = "as of the trait")]
 impl Kind for VertexFace {
     type Place = FacePlace;
+    query_parts!();
 }
 
-#[allow(private_bounds, private_interfaces, reason = "as of the trait")]
-impl Stages<FacePlace> for VertexFace {
+impl Stages for VertexFace {
+    type Place = FacePlace;
+
     const FIRST: usize = 1;
 
-    query_parts!();
-
-    fn normal(&self, hit: &Hit<FacePlace>) -> Option<Normal> {
-        normal::of_face(self, hit)
+    fn normal(positions: &Positions, radius: Radius, hit: &Hit<FacePlace>) -> Option<Normal> {
+        normal::of_face(positions, radius, hit)
     }
 
     fn weights(place: &FacePlace) -> ([f64; 4], Option<[f64; 4]>) {

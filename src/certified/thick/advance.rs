@@ -11,7 +11,7 @@
 use super::instant::Instant;
 use super::turning::Turning;
 use crate::certified::ends::Ends;
-use crate::certified::kind::Kind;
+use crate::certified::kind::Stages;
 use crate::certified::motion::{Motion, Vector, add, both, dot, scaled, sub};
 use crate::certified::separate::{SweptBoxes, U};
 use crate::query::Radius;
@@ -40,7 +40,7 @@ const MOST_STEPS: u32 = 24;
 
 impl<E: Ends> Moving<E> {
     #[inline(always)]
-    pub(super) fn new<K: Kind>(points: &[[E; 3]; 4], radius: f64) -> Self {
+    pub(super) fn new<K: Stages>(points: &[[E; 3]; 4], radius: f64) -> Self {
         let difference = |(from, to): (usize, usize)| sub(&points[to], &points[from]);
         let [k, l, m] = K::DIFFERENCES;
         Moving {
@@ -63,7 +63,7 @@ impl<E: Ends> Moving<E> {
     /// Error bound: the products with `n` at both ends are within [`SweptBoxes::bound`] of the
     /// exact ones, `|n|` within `4 u`. NaN and infinities prove nothing, nor does what underflows.
     #[inline(always)]
-    fn margins<K: Kind>(&self, n: &Vector) -> [f64; 2] {
+    fn margins<K: Stages>(&self, n: &Vector) -> [f64; 2] {
         let square = dot(n, n);
         let least = self.radius * square.sqrt() * (1.0 + 8.0 * U) + self.boxes.bound(n);
         let along = both(n);
@@ -79,7 +79,7 @@ impl<E: Ends> Moving<E> {
     ///
     /// What is computed from the margins passes three roundings, which `8 u` outweigh.
     #[inline(always)]
-    pub(super) fn stays_apart_by<K: Kind>(&self, n: &Vector) -> f64 {
+    pub(super) fn stays_apart_by<K: Stages>(&self, n: &Vector) -> f64 {
         let [start, end] = self.margins::<K>(n);
         match (start > 0.0, end > 0.0) {
             (true, true) => 1.0,
@@ -90,7 +90,7 @@ impl<E: Ends> Moving<E> {
 
     /// Whether it does so for the whole step.
     #[inline(always)]
-    fn is_separated_by<K: Kind>(&self, n: &Vector) -> bool {
+    fn is_separated_by<K: Stages>(&self, n: &Vector) -> bool {
         let [start, end] = self.margins::<K>(n);
         (start > 0.0) & (end > 0.0)
     }
@@ -98,7 +98,7 @@ impl<E: Ends> Moving<E> {
     /// The same as [`stays_apart_by`](Self::stays_apart_by) for the direction from the middle of
     /// one side's motion to that of the other.
     #[inline(always)]
-    pub(super) fn stays_apart_by_centres<K: Kind>(&self) -> f64 {
+    pub(super) fn stays_apart_by_centres<K: Stages>(&self) -> f64 {
         let Motion { k, l, m } = &self.motion;
         let sum = |[x, y, z]: &[E; 3]| [x.sum(), y.sum(), z.sum()];
         let (u, v) = K::MIDDLE;
@@ -106,13 +106,14 @@ impl<E: Ends> Moving<E> {
     }
 
     /// Advances from a time up to which they are apart.
-    pub(super) fn advance<K: Kind>(&self, from: f64) -> Advance {
+    pub(super) fn advance<K: Stages>(&self, from: f64) -> Advance {
         let mut t = from;
         let mut here = Instant::new::<K, E>(self, t);
         // Most sides that stay apart turn little.
         if self.is_separated_by::<K>(&here.difference) {
             return Advance::Apart;
         }
+        // Ends: after so many planes, at the end of the step or not.
         for _ in 0..MOST_STEPS {
             // Not below what is left.
             let left = (1.0 - t) * (1.0 + 2.0 * U);

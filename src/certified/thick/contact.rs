@@ -7,12 +7,12 @@ use super::advance::Moving;
 use super::refine_toi::RefinedToi;
 use crate::certified::cubic::Cubic;
 use crate::certified::exact::Passage;
-use crate::certified::kind::Kind;
+use crate::certified::kind::Stages;
 use crate::certified::motion::Positions;
 use crate::contact::{Case, ContactKind, Flags, Hit};
 
 /// The whole answer for a contact; `None` if some of it is not certain.
-pub(super) fn contact<K: Kind>(
+pub(super) fn contact<K: Stages>(
     positions: &Positions,
     moving: &Moving<f64x2>,
     &RefinedToi { below, spot, error }: &RefinedToi,
@@ -36,7 +36,7 @@ pub(super) fn contact<K: Kind>(
 }
 
 /// What the midlines do during the step.
-fn passage<K: Kind>(positions: &Positions, cubic: Option<&Cubic>) -> Passage {
+fn passage<K: Stages>(positions: &Positions, cubic: Option<&Cubic>) -> Passage {
     let quick = || {
         let cubic = cubic.filter(|cubic| cubic.is_not_identically_0())?;
         if cubic.has_no_root() {

@@ -2,7 +2,7 @@
 
 use super::advance::{Moving, difference};
 use crate::certified::ends::Ends;
-use crate::certified::kind::Kind;
+use crate::certified::kind::Stages;
 use crate::certified::locate::at;
 use crate::certified::motion::{Motion, Vector, scaled, sub};
 use crate::certified::nearest::{Direction, Gram, Spot};
@@ -23,7 +23,7 @@ pub(super) struct Instant {
 
 impl Instant {
     #[inline(always)]
-    pub(super) fn new<K: Kind, E: Ends>(moving: &Moving<E>, t: f64) -> Self {
+    pub(super) fn new<K: Stages, E: Ends>(moving: &Moving<E>, t: f64) -> Self {
         let Motion { k, l, m } = &moving.motion;
         let vectors = [at(k, t), at(l, t), at(m, t)];
         let gram = Gram::new(&vectors);

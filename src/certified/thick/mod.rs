@@ -26,7 +26,7 @@ mod turning;
 
 use wide::f64x2;
 
-use super::kind::Kind;
+use super::kind::Stages;
 use super::motion::{Positions, dot};
 use super::separate::U;
 use super::stage::{Finding, Stage};
@@ -37,9 +37,75 @@ use contact::contact;
 use instant::Instant;
 use refine_toi::{RefinedToi, refine_toi};
 
+/// The distance of the two sides at the start, about.
+pub(super) fn start_distance<K: Stages>(positions: &Positions) -> f64 {
+    let moving = Moving::new::<K>(&positions.points::<f64x2>(), 0.0);
+    let difference = Instant::new::<K, _>(&moving, 0.0).difference;
+    dot(&difference, &difference).sqrt()
+}
+
+/// Up to when the two sides are certainly farther apart than a radius above 0, as far as planes
+/// prove it: 1 for the whole step, 0 if that is not proved of any part.
+#[inline(always)]
+pub(super) fn apart_until<K: Stages>(positions: &Positions, radius: Radius) -> f64 {
+    let moving = Moving::new::<K>(&positions.points::<f64x2>(), rounded_up(radius));
+    if moving.boxes.are_disjoint {
+        return 1.0;
+    }
+    let proved = moving.stays_apart_by_centres::<K>();
+    if proved >= 1.0 {
+        return 1.0;
+    }
+    apart_until_by_planes::<K>(&moving, proved)
+}
+
+#[inline(never)]
+fn apart_until_by_planes<K: Stages>(moving: &Moving<f64x2>, proved: f64) -> f64 {
+    match moving.advance::<K>(proved) {
+        Advance::Apart => 1.0,
+        Advance::Until(proved) => proved,
+        Advance::Near => 0.0,
+    }
+}
+
+/// Whether the two sides are certainly within a radius above 0 of each other at the start.
+pub(super) fn starts_within<K: Stages>(positions: &Positions, radius: Radius) -> bool {
+    let moving = Moving::new::<K>(&positions.points::<f64x2>(), rounded_up(radius));
+    moving.is_ordinary() && moving.is_within(&Instant::new::<K, _>(&moving, 0.0), radius)
+}
+
+/// When the two sides first come within a radius above 0, rounded down: without a place, which is
+/// the dear part where they start within it and are nearest in more than one place.
+#[inline(always)]
+pub(super) fn toi<K: Stages>(positions: &Positions, radius: Radius) -> Option<f64> {
+    let moving = Moving::new::<K>(&positions.points::<f64x2>(), rounded_up(radius));
+    if moving.boxes.are_disjoint {
+        return None;
+    }
+    let proved = moving.stays_apart_by_centres::<K>();
+    if proved >= 1.0 {
+        return None;
+    }
+    toi_open::<K>(positions, &moving, radius, proved)
+}
+
+#[inline(never)]
+fn toi_open<K: Stages>(
+    positions: &Positions,
+    moving: &Moving<f64x2>,
+    radius: Radius,
+    proved: f64,
+) -> Option<f64> {
+    let is_open = proved == 0.0 && moving.is_ordinary();
+    if is_open && moving.is_within(&Instant::new::<K, _>(moving, 0.0), radius) {
+        return Some(0.0);
+    }
+    decide_open::<K>(&|| *positions, moving, radius, proved, &mut |_| {}).map(|hit| hit.toi)
+}
+
 /// The first contact within a radius above 0, by all stages.
 #[inline(always)]
-pub(super) fn decide<K: Kind>(
+pub(super) fn decide<K: Stages>(
     positions: impl Fn() -> Positions,
     radius: Radius,
     observe: &mut impl FnMut(Stage),
@@ -59,7 +125,7 @@ pub(super) fn decide<K: Kind>(
 
 /// What the first two stages leave open; not inlined, so that these stay small.
 #[inline(never)]
-fn decide_open<K: Kind>(
+fn decide_open<K: Stages>(
     positions: &impl Fn() -> Positions,
     moving: &Moving<f64x2>,
     radius: Radius,
@@ -83,7 +149,7 @@ fn decide_open<K: Kind>(
 }
 
 /// The contact, if any, as far as `f64` and double-double arithmetic prove it.
-fn decide_by_planes<K: Kind>(
+fn decide_by_planes<K: Stages>(
     positions: &impl Fn() -> Positions,
     moving: &Moving<f64x2>,
     radius: Radius,
@@ -106,17 +172,22 @@ impl Moving<f64x2> {
 
     /// The nearest place at the start, if two points are certainly within the radius of each other
     /// there.
+    fn near_start<K: Stages>(&self, radius: Radius) -> Option<RefinedToi> {
+        let start = Instant::new::<K, _>(self, 0.0);
+        let is_near = self.is_within(&start, radius);
+        let nearness = self.nearness::<K>(&start, 0.0).filter(|_| is_near)?;
+        RefinedToi::new(0.0, start.spot, &nearness)
+    }
+
+    /// Whether the points of a place at the start are certainly within the radius of each other.
     ///
     /// With the size `e` of the box around all points, a component of the difference is within
     /// `12 u e` of the exact one; its length then within `12 u |e|`, and computed with a relative
     /// error below `4 u`.
-    fn near_start<K: Kind>(&self, radius: Radius) -> Option<RefinedToi> {
-        let start = Instant::new::<K, _>(self, 0.0);
+    fn is_within(&self, start: &Instant, radius: Radius) -> bool {
         let length = dot(&start.difference, &start.difference).sqrt();
         let high = (length + 16.0 * U * self.boxes.size()) * (1.0 + 16.0 * U) + f64::MIN_POSITIVE;
-        let is_near = length.is_finite() && high <= radius.rounded().next_down();
-        let nearness = self.nearness(&start, 0.0).filter(|_| is_near)?;
-        RefinedToi::new(0.0, start.spot, &nearness)
+        length.is_finite() && high <= radius.rounded().next_down()
     }
 }
 

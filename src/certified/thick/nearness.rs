@@ -9,6 +9,7 @@ use super::advance::{LARGEST, Moving, SMALLEST};
 use super::instant::Instant;
 use crate::certified::cubic::permanents;
 use crate::certified::ends::Ends;
+use crate::certified::kind::Stages;
 use crate::certified::motion::{Motion, Vector, add, cross, dot, reach, scaled};
 use crate::certified::nearest::Direction;
 use crate::certified::separate::U;
@@ -18,7 +19,8 @@ use crate::certified::separate::U;
 pub(super) struct Nearness {
     /// The squared distance is below that of the place by no more than this.
     pub(super) excess: f64,
-    /// `u` and `v` of the nearest place, which is a single one, differ by no more than this.
+    /// `u` and `v` of the nearest place, which is a single one but for directions of no length,
+    /// differ by no more than this.
     pub(super) error: f64,
 }
 
@@ -51,7 +53,8 @@ impl<E: Ends> Moving<E> {
     }
 
     /// What is certain about the nearest place at a time, up to a time at most `while_` later.
-    /// `None` unless `N = K x L` is certainly not 0 all the while.
+    /// `None` unless `N = K x L` is certainly not 0 all the while, or a direction is 0 throughout the
+    /// step: then it has no part in the difference.
     ///
     /// # Proof
     ///
@@ -68,6 +71,8 @@ impl<E: Ends> Moving<E> {
     ///   distance larger, in the norm of `Q`: `s . Q s` is at most that too, and
     ///   `|s1| <= |V2| / |N|` times its root, `|s2|` likewise.
     ///
+    /// Along one direction alone it falls by at most `g^2 / V^2`, at most `|g| / V^2` away.
+    ///
     /// # Error bounds
     ///
     /// With the larger magnitudes `v` of a direction at both ends, their sum `s` for `K`, `L` and
@@ -77,7 +82,7 @@ impl<E: Ends> Moving<E> {
     /// `(8 u + 3 T) |v|` and `8 u` of themselves; `N`, up to its sign the product of the
     /// directions, within `(16 u + 5 T)` of the permanents of their `v`. Everything here passes
     /// fewer than 30 roundings.
-    pub(super) fn nearness(&self, here: &Instant, while_: f64) -> Option<Nearness> {
+    pub(super) fn nearness<K: Stages>(&self, here: &Instant, while_: f64) -> Option<Nearness> {
         let ([k, l], size) = self.reaches();
         let directions = here.spot.directions;
         let along = here.along();
@@ -103,30 +108,52 @@ impl<E: Ends> Moving<E> {
         if !((0.0..0.125).contains(&while_) && first.size() < LARGEST && second.size() < LARGEST) {
             return None;
         }
-        let normal = cross(&along[0], &along[1]);
-        let permanent: f64 = permanents(&reaches[0], &reaches[1]).iter().sum();
-        let error = (16.0 * U + 5.0 * while_) * permanent * (1.0 + 8.0 * U);
-        let square = dot(&normal, &normal);
-        let least = square.sqrt() * (1.0 - 8.0 * U) - error;
-        if !(square > SMALLEST && least > 0.0) {
-            return None;
-        }
+        // Of a face with corners in one place, which weights are meant is for integers to say.
+        let is_point = reaches.map(|reach| reach == [0.0; 3] && K::FIRST == 2);
         let is_uphill = [
             first.is_uphill(&directions[0]),
             second.is_uphill(&directions[1]),
         ];
-        let held = match is_uphill {
-            [true, true] => Some((0.0, 0.0)),
-            [false, true] => beside(first, second),
-            [true, false] => beside(second, first),
-            [false, false] => None,
+        let (excess, error) = match is_point {
+            [true, true] => (0.0, 0.0),
+            [true, false] => alone(second, is_uphill[1])?,
+            [false, true] => alone(first, is_uphill[0])?,
+            [false, false] => {
+                let normal = least_normal(&along, &reaches, while_)?;
+                let held = match is_uphill {
+                    [true, true] => Some((0.0, 0.0)),
+                    [false, true] => beside(first, second),
+                    [true, false] => beside(second, first),
+                    [false, false] => None,
+                };
+                held.unwrap_or_else(|| inside(first, second, normal))
+            }
         };
-        let (excess, error) = held.unwrap_or_else(|| inside(first, second, least));
         Some(Nearness {
             excess: excess * (1.0 + 64.0 * U),
             error: error * (1.0 + 64.0 * U),
         })
     }
+}
+
+/// A length above 0 that the normal of two directions certainly has all the while.
+fn least_normal(along: &[Vector; 2], reaches: &[Vector; 2], while_: f64) -> Option<f64> {
+    let normal = cross(&along[0], &along[1]);
+    let permanent: f64 = permanents(&reaches[0], &reaches[1]).iter().sum();
+    let error = (16.0 * U + 5.0 * while_) * permanent * (1.0 + 8.0 * U);
+    let square = dot(&normal, &normal);
+    let least = square.sqrt() * (1.0 - 8.0 * U) - error;
+    (square > SMALLEST && least > 0.0).then_some(least)
+}
+
+/// Bounds on the fall of the squared distance and on `|s|` along one direction.
+fn alone(slope: Slope, is_uphill: bool) -> Option<(f64, f64)> {
+    if is_uphill {
+        return Some((0.0, 0.0));
+    }
+    let Slope { least, .. } = slope;
+    let fall = (slope.size() / least) * (slope.size() / least);
+    (least > SHORTEST).then(|| (fall, slope.size() / (least * least)))
 }
 
 /// Bounds on the fall of the squared distance and on `|s1| + |s2|`, where it is farther along the

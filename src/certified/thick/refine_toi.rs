@@ -12,7 +12,7 @@ use super::instant::Instant;
 use super::nearness::Nearness;
 use crate::certified::double::{Double, two_difference, two_sum};
 use crate::certified::ends::Ends;
-use crate::certified::kind::Kind;
+use crate::certified::kind::Stages;
 use crate::certified::motion::{Positions, Vector, dot};
 use crate::certified::nearest::Spot;
 use crate::certified::refine::Root;
@@ -66,7 +66,7 @@ const H: f64 = U * U;
 /// `m = -w . w'`, the root is `q (1 + b)` up to `3 b^2 q`, for `b < 1/16`. That is computed with
 /// the relative errors of `m` in `q`, once more in `b`, and fewer than 16 roundings; the error of
 /// `x` counts by `1 / 2 m`.
-pub(super) fn refine_toi<K: Kind>(
+pub(super) fn refine_toi<K: Stages>(
     positions: &Positions,
     moving: &Moving<f64x2>,
     radius: Radius,
@@ -76,6 +76,7 @@ pub(super) fn refine_toi<K: Kind>(
     let size2 = dot(&size, &size);
     let slope_error = 64.0 * U * size2;
     let mut t = proved;
+    // Ends: after so many corrections.
     for _ in 0..MOST_STEPS {
         let here = Instant::new::<K, _>(moving, t);
         let velocity = here.velocity();
@@ -92,7 +93,7 @@ pub(super) fn refine_toi<K: Kind>(
         if !(x > 0.0 && slope > 0.0 && least > 0.0 && bend < 0.0625) {
             return Finding::Undecided;
         }
-        let Some(nearness) = moving.nearness(&here, while_) else {
+        let Some(nearness) = moving.nearness::<K>(&here, while_) else {
             return Finding::Undecided;
         };
         let error = (nearness.excess + x_error) / (2.0 * least) * (1.0 + 8.0 * U)
@@ -127,7 +128,7 @@ pub(super) fn refine_toi<K: Kind>(
 /// time adds `16 h s`, the sum `24 h s`: below `160 h s`. So `w^2` is off by `320 h |w| s` and the
 /// square of that error; products, sums and the radius add `64 h` of both sides. What underflows is
 /// far below that of the radius.
-fn excess<K: Kind>(
+fn excess<K: Stages>(
     positions: &Positions,
     radius: Radius,
     t: f64,

@@ -3,7 +3,7 @@
 use wide::f64x2;
 
 use super::advance::Moving;
-use crate::certified::kind::Kind;
+use crate::certified::kind::Stages;
 use crate::certified::motion::Positions;
 use crate::certified::testing::{Exact, Number, Search, dot, layout};
 
@@ -11,7 +11,7 @@ use crate::certified::testing::{Exact, Number, Search, dot, layout};
 pub(super) fn search(seed: u64) -> Search {
     Search {
         seed,
-        climbs: 6,
+        climbs: if cfg!(debug_assertions) { 2 } else { 6 },
         starts: 200,
         steps: 1500,
     }
@@ -25,7 +25,7 @@ pub(super) struct Sample {
 
 impl Sample {
     /// From 24 coordinates.
-    pub(super) fn new<K: Kind>(coordinates: &[f64], radius: f64) -> Self {
+    pub(super) fn new<K: Stages>(coordinates: &[f64], radius: f64) -> Self {
         let positions = layout(coordinates);
         Sample {
             moving: Moving::new::<K>(&positions.points(), radius),
@@ -47,7 +47,7 @@ impl Sample {
     }
 
     /// The least exact product of a corner with a vector at a time.
-    pub(super) fn least_corner<K: Kind>(&self, t: &Number, n: &[Number; 3]) -> Number {
+    pub(super) fn least_corner<K: Stages>(&self, t: &Number, n: &[Number; 3]) -> Number {
         let corners = K::CORNERS.iter().map(|&(u, v)| {
             let difference = self.difference(t, &[u, v].map(Number::from));
             dot(&difference, n)

@@ -9,7 +9,7 @@ use super::advance::{LARGEST, Moving, SMALLEST, difference};
 use super::instant::Instant;
 use crate::certified::ends::Ends;
 use crate::certified::ends::smaller;
-use crate::certified::kind::Kind;
+use crate::certified::kind::Stages;
 use crate::certified::motion::{Vector, both, dot, scaled, sub};
 use crate::certified::nearest::{Direction, Gram};
 use crate::certified::separate::U;
@@ -93,7 +93,7 @@ impl<E: Ends> Moving<E> {
     /// [`SweptBoxes::is_certain`]: crate::certified::separate::SweptBoxes::is_certain
     /// [`SweptBoxes::bound`]: crate::certified::separate::SweptBoxes::bound
     #[inline(always)]
-    pub(super) fn stays_apart_turning<K: Kind>(
+    pub(super) fn stays_apart_turning<K: Stages>(
         &self,
         here: &Instant,
         Turning { normal, turn }: &Turning,

@@ -7,7 +7,6 @@ use tunnelproof::query::QueryKind;
 use tunnelproof_reference::certify::block::Block;
 use tunnelproof_reference::certify::findings::Findings;
 use tunnelproof_reference::certify::judged::Judged;
-use tunnelproof_reference::certify::permitted::permitted;
 use tunnelproof_reference::certify::strict;
 use tunnelproof_reference::certify::table::{command, grouped, lapse_counts, measure, short};
 use tunnelproof_reference::certify::tally::{Fault, Statement, Tally, Witness};
@@ -57,7 +56,7 @@ fn subject(findings: &Findings, index: usize, judged: &Judged) -> Markup {
             }
             @for block in blocks.into_iter().chain(all) { (row(block, index, judged)) }
         } }
-        (witnesses(tally))
+        (witnesses(name, tally))
         @for (program, conduct) in &findings.programs { @if program == name { (conduct_of(conduct)) } }
     }
 }
@@ -90,15 +89,15 @@ fn verdict(passes: bool) -> Markup {
 }
 
 /// The worst witness of each fault, with a picture.
-fn witnesses(tally: &Tally) -> Markup {
+fn witnesses(subject: &str, tally: &Tally) -> Markup {
     let worst = tally.faults.iter();
     let worst = worst.filter_map(|(fault, finding)| Some((*fault, finding.worst.as_ref()?)));
     html! {
-        .charts { @for (fault, witness) in worst { (witness_of(fault, witness)) } }
+        .charts { @for (fault, witness) in worst { (witness_of(subject, fault, witness)) } }
     }
 }
 
-fn witness_of(fault: Fault, witness: &Witness) -> Markup {
+fn witness_of(subject: &str, fault: Fault, witness: &Witness) -> Markup {
     let truth = match witness.truth.hit {
         Some(hit) => format!("hit at {}", hit.toi),
         None => "miss".to_owned(),
@@ -111,7 +110,7 @@ fn witness_of(fault: Fault, witness: &Witness) -> Markup {
                 strong { (title(fault, witness.severity)) } ". Exact answer: " (truth) "."
                 @if let Some(answer) = &witness.answer { " It says: " (said(witness.query.kind(), answer)) "." }
                 @if let Some(lapse) = &witness.lapse { " No answer: " (lapse) "." }
-                pre { (command(witness)) }
+                pre { (command(witness, Some(subject))) }
             }
         }
     }
@@ -182,7 +181,7 @@ fn settings(findings: &Findings) -> Markup {
         .table { table {
             tr { th { "subject" } th { "permitted distance, m" } th { "permitted late" } }
             @for judged in &findings.panel.subjects {
-                @let permitted = permitted(judged.subject.name());
+                @let permitted = judged.permitted;
                 tr {
                     td { (judged.subject.name()) }
                     td { (short(permitted.distance)) }

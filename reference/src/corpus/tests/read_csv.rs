@@ -186,6 +186,6 @@ fn csv_radius_option_is_checked() {
     };
     assert_eq!(
         read_text("a.csv", csv_with(ROW), options),
-        ["a.csv:1: radius is 0.5 + -1, not a finite number of at least 0"]
+        ["a.csv:1: the radius is 0.5 + -1; it has to be finite, and 0 or more"]
     );
 }

@@ -91,6 +91,20 @@ fn jsonl_errors_name_the_value() {
     let sixth = |point: &str| points(&format!("{},{point},{}", zeros(5), zeros(2)));
     let field = |field: &str| format!(r#"{{{field}, "points": {EIGHT}}}"#);
     for (line, message) in [
+        (
+            field(r#""raduis": 0.5"#),
+            "raduis: unknown field `raduis`, expected one of `id`, `kind`, `points`, `radius`, `label`, \
+             `note` at column 9",
+        ),
+        (
+            field(r#""radius": null"#),
+            "radius: neither a number nor two numbers in brackets (hexadecimal floats in quotes) \
+             at column 15",
+        ),
+        (
+            field(r#""kind": null"#),
+            "kind: invalid type: null, expected a string at column 13",
+        ),
         (points(&zeros(7)), "7 points, not 8"),
         (points(""), "0 points, not 8"),
         (points(&zeros(9)), "9 points, not 8"),
@@ -145,7 +159,7 @@ fn jsonl_errors_name_the_value() {
         ),
         (
             field(r#""radius": -1"#),
-            "radius is -1, not a finite number of at least 0",
+            "the radius is -1; it has to be finite, and 0 or more",
         ),
         (
             field(r#""radius": "inf""#),
@@ -163,7 +177,7 @@ fn jsonl_errors_name_the_value() {
         ),
         (
             field(r#""radius": [1, -2]"#),
-            "radius is 1 + -2, not a finite number of at least 0",
+            "the radius is 1 + -2; it has to be finite, and 0 or more",
         ),
         (
             field(r#""kind": "edge""#),

@@ -120,7 +120,13 @@ fn shadow_repaired_is_right_on_lattice_queries() {
     let times = times();
     let mut random = Random(1);
     let mut hits = 0;
-    for index in 0..40_000 {
+    // A quarter where Rust checks its arithmetic.
+    let count = if cfg!(debug_assertions) {
+        10_000
+    } else {
+        40_000
+    };
+    for index in 0..count {
         let points = lattice_query(&mut random);
         if let Some(fault) = fault(&points, &times, Repairs::ALL) {
             panic!("query {index}, {points:?}: {fault}");
@@ -130,7 +136,7 @@ fn shadow_repaired_is_right_on_lattice_queries() {
         assert!(gap < 1e-9, "query {index}, {points:?}: gap {gap}");
         hits += usize::from(answer.hit.is_some());
     }
-    assert!((10_000..35_000).contains(&hits), "{hits} hits");
+    assert!((count / 4..count * 7 / 8).contains(&hits), "{hits} hits");
 }
 
 #[cfg(feature = "gmp")]

@@ -1,6 +1,7 @@
 use proptest::prelude::*;
 
 use super::*;
+use crate::certified::exact::integer::scale;
 
 /// An `f64` in `[0, 1]` of any exponent.
 fn unit_f64() -> impl Strategy<Value = f64> {

@@ -223,6 +223,7 @@ fn side(f: &Poly, time: &Time, toi: [f64; 2]) -> i8 {
         return 0;
     }
     let (mut derivative, mut is_odd) = (f.clone(), false);
+    // Ends: each derivative has a lower degree, and the last one is 0.
     while !derivative.is_zero() {
         let sign = time.sign_of(&derivative);
         if sign.is_ne() {

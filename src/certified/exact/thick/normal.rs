@@ -115,6 +115,7 @@ fn at(corners: &[Vector], time: &Time) -> Option<motion::Vector> {
 /// apart.
 fn just_before(corners: &[Vector], time: &Time) -> Option<motion::Vector> {
     let mut way = nearest(corners, |poly| side(poly, time, [1.0; 2]).cmp(&0))?;
+    // Ends: each derivative has a lower degree, and the last one is 0.
     while way.iter().all(|x| time.sign_of(x).is_eq()) {
         if is_zero(&way) {
             return None;
@@ -175,11 +176,12 @@ fn direction(vector: &Vector, time: &Time) -> motion::Vector {
         Time::At(at) => values_at(vector, at),
         Time::Between(bracket) => {
             let mut bracket = bracket.clone();
+            // Ends: integers tell that some component is not 0 at the root, and each turn narrows
+            // the bracket.
             loop {
                 if let Some(values) = values_in(vector, &bracket) {
                     break values;
                 }
-                // It ends: some component is not 0 at the root, and the bracket narrows.
                 if let Some(at) = bracket.refine() {
                     break values_at(vector, &at);
                 }

@@ -70,6 +70,8 @@ fn isolate(poly: &Poly, halvings: u64) -> Option<SmallVec<[Cell; 2]>> {
     let mut cells = SmallVec::new();
     // What is still to be looked at, the last one first.
     let mut parts = vec![Part::Open(Piece::unit(&bernstein))];
+    // Ends: a piece is halved at most so many times; without a limit the polynomial is square-free,
+    // so that its roots part (two circles theorem). All of it in integers.
     while let Some(part) = parts.pop() {
         match part {
             Part::Root(at) => cells.push(Cell::At(at)),
@@ -119,6 +121,8 @@ fn two_or_none(poly: &Poly, derivative: &Poly, piece: &Piece) -> SmallVec<[Cell;
         before,
     };
     let mut turn = Bracket::new(derivative, low.clone(), high.clone(), sign.reverse());
+    // Ends: as said above; integers alone decide that the derivative has one root here, and each
+    // turn narrows its bracket.
     loop {
         let met = turn.refine();
         let ends = match &met {

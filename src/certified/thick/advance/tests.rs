@@ -5,7 +5,7 @@ use super::*;
 use crate::certified::testing::{Claim, Number, Random, dot as exact_dot, points_and_direction};
 use crate::query::{EdgeEdge, VertexFace};
 
-fn directions_are_proved<K: Kind>(seed: u64, side: &[usize]) {
+fn directions_are_proved<K: Stages>(seed: u64, side: &[usize]) {
     let parts = Cell::new(0);
     let claims = |x: &[f64; 28]| {
         let (n, radius) = ([x[24], x[25], x[26]], x[27].abs());

@@ -2,7 +2,7 @@ use std::cell::Cell;
 
 use super::super::testing::{Sample, search};
 use super::*;
-use crate::certified::kind::Kind;
+use crate::certified::kind::Stages;
 use crate::certified::testing::{Claim, Number, Random, dot as exact_dot, points};
 use crate::query::{EdgeEdge, VertexFace};
 
@@ -31,7 +31,7 @@ impl Foot {
     }
 
     /// In the plane; `None` outside, or if there is none.
-    fn inside<K: Kind>(sample: &Sample, t: &Number) -> Option<Foot> {
+    fn inside<K: Stages>(sample: &Sample, t: &Number) -> Option<Foot> {
         let [k, l, m] = sample.at(t);
         let (kk, ll, kl) = (exact_dot(&k, &k), exact_dot(&l, &l), exact_dot(&k, &l));
         let (mk, ml, mm) = (exact_dot(&m, &k), exact_dot(&m, &l), exact_dot(&m, &m));
@@ -52,7 +52,7 @@ impl Foot {
     }
 
     /// The nearest place, exactly.
-    fn nearest<K: Kind>(sample: &Sample, t: &Number) -> Foot {
+    fn nearest<K: Stages>(sample: &Sample, t: &Number) -> Foot {
         let pairs = K::CORNERS
             .iter()
             .flat_map(|from| K::CORNERS.iter().map(move |to| (from, to)));
@@ -79,14 +79,14 @@ impl Foot {
     }
 }
 
-fn nearest_places_are_within_their_bounds<K: Kind>(seed: u64) {
+fn nearest_places_are_within_their_bounds<K: Stages>(seed: u64) {
     // Inside, on a side, at a corner.
     let counts = Cell::new([0; 3]);
     let claims = |x: &[f64; 26]| {
         let (t, while_) = (x[24].abs().min(1.0), x[25].abs().min(0.1));
         let sample = Sample::new::<K>(&x[..24], 1.0);
         let here = Instant::new::<K, _>(&sample.moving, t);
-        let nearness = sample.moving.nearness(&here, while_)?;
+        let nearness = sample.moving.nearness::<K>(&here, while_)?;
         if !nearness.error.is_finite() {
             return None;
         }

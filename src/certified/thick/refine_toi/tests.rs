@@ -4,7 +4,7 @@ use crate::certified::testing::{Claim, Number, Random, dot as exact_dot, points}
 use crate::query::{EdgeEdge, VertexFace};
 
 /// The squared distance less that of the radius, to twice the precision, against the exact one.
-fn excess_is_within_its_bound<K: Kind>(seed: u64) {
+fn excess_is_within_its_bound<K: Stages>(seed: u64) {
     let claims = |x: &[f64; 29]| {
         let t = x[24].abs().min(1.0);
         let [u, v] = [x[25], x[26]].map(|x| x.abs().min(1.0));

@@ -9,7 +9,7 @@ use crate::query::{EdgeEdge, VertexFace};
 
 /// That a plane keeps all corners more than the radius away a time `s` after `t`: the square of
 /// what is asked is at most that of the least corner.
-fn separation<K: Kind>(sample: &Sample, plane: &Turning, t: f64, s: &Number) -> Claim {
+fn separation<K: Stages>(sample: &Sample, plane: &Turning, t: f64, s: &Number) -> Claim {
     let exact = |x: &Vector| x.map(Number::from);
     let (normal, turn) = (exact(&plane.normal), exact(&plane.turn));
     let n = [0, 1, 2].map(|i| &normal[i] + &(s * &turn[i]));
@@ -23,7 +23,7 @@ fn separation<K: Kind>(sample: &Sample, plane: &Turning, t: f64, s: &Number) -> 
 }
 
 /// Any planes, and those between nearest points.
-fn planes_are_proved<K: Kind>(seed: u64, is_own: bool, side: &[usize]) {
+fn planes_are_proved<K: Stages>(seed: u64, is_own: bool, side: &[usize]) {
     let parts = Cell::new(0);
     let claims = |x: &[f64; 32]| {
         let (t, radius) = (x[30].abs().min(1.0), x[31].abs());

@@ -151,8 +151,10 @@ fn wire_slides_off_an_edge() {
 #[test]
 fn wires_thrown_at_a_cube_are_stepped() {
     let rng = &mut ChaCha8Rng::seed_from_u64(1);
+    // A fifth where Rust checks its arithmetic.
+    let count = if cfg!(debug_assertions) { 60 } else { 300 };
     let (mut rode, mut left) = (0, 0);
-    for k in 0..300 {
+    for k in 0..count {
         let mut world = cube();
         let mut somewhere = |from: f64, to: f64| Vector::from_fn(|_, _| rng.random_range(from..to));
         let middle = Point::from(somewhere(-0.3, 0.3) + Vector::z() * 0.4);
@@ -174,5 +176,5 @@ fn wires_thrown_at_a_cube_are_stepped() {
             assert!(nodes.iter().all(|node| node.velocity.norm() < 30.0), "{k}");
         });
     }
-    assert!(rode > 1000 && left > 10, "{rode} {left}");
+    assert!(rode > 3 * count && left > count / 30, "{rode} {left}");
 }

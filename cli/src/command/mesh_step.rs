@@ -1,0 +1,143 @@
+//! `mesh-step`: the first contact of a mesh, the largest certified step, and the positions to store.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+use clap::Args;
+use tunnelproof::certified::Clearance;
+use tunnelproof::mesh::MeshError;
+use tunnelproof_cli::meshes::audit::{Audit, Claims};
+use tunnelproof_cli::meshes::{Motion, WritableFormat};
+use tunnelproof_cli::report::mesh::{Seconds, StepReport};
+
+use super::keep::Keep;
+use super::output::{JsonOutput, OutputFile};
+use super::{Failure, not_negative};
+
+/// Find the first contact of a mesh in motion, and the largest step that is proved to touch nothing
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  tunnelproof mesh-step start.ply end.ply
+  tunnelproof mesh-step start.obj end.obj --radius 0.001 --out safe.ply
+  tunnelproof mesh-step start.stl end.stl --json - --audit
+
+START and END are one mesh with other positions: .ply (ascii or binary), .obj or .stl (ascii or
+binary). Every vertex moves on a straight line. Every edge is compared with every edge, and every
+vertex with every face. Parts that share a vertex are left out.
+
+A polygon with more than three corners becomes a fan of triangles around its first corner.
+Triangles are numbered in the order of the file, from 0. PLY elements edge (vertex1, vertex2) and
+OBJ lines l are edges. The edges of triangles come after them. A vertex in no edge is a point.
+An STL holds f32 and has no shared vertices. Corners at the same place in START, in all three
+coordinates, become one vertex. They have to be together in END, too.
+
+Exit code 1: something touches in the whole step, or --audit finds a fault. 0: nothing does.")]
+pub(super) struct MeshStep {
+    /// The mesh at the start of the step
+    start: String,
+    /// The same mesh at its end
+    end: String,
+    /// The thickness in metres: contact is a distance of at most R
+    #[arg(long, value_name = "R", default_value_t = 0.0, value_parser = not_negative, allow_negative_numbers = true)]
+    radius: f64,
+    #[command(flatten)]
+    keep: Keep,
+    /// Write the result to this file, as JSON; - is the standard output, in place of the summary
+    #[arg(long, value_name = "OUT")]
+    json: Option<PathBuf>,
+    /// Write the mesh at the positions to store to this file: .ply (binary, 64 bits) or .obj. Not
+    /// .stl, which holds f32 and would round what is proved
+    #[arg(long, value_name = "SAFE")]
+    out: Option<String>,
+    /// Ask the exact oracle about every pair whose swept boxes meet, and about the motion to the
+    /// positions to store
+    #[arg(long)]
+    audit: bool,
+}
+
+/// The files to write, seen to be writable.
+struct Outputs {
+    json: JsonOutput,
+    safe: Option<(WritableFormat, OutputFile)>,
+}
+
+impl MeshStep {
+    pub(super) fn run(self) -> Result<ExitCode, Failure> {
+        let motion = Motion::read(&self.start, &self.end)?;
+        let outputs = self.outputs()?;
+        let (report, positions) = self.ask(&motion).map_err(|error| Failure::File {
+            path: self.start.clone(),
+            problem: error.to_string(),
+        })?;
+        if let Some((format, file)) = outputs.safe {
+            file.write_bytes(&format.write(&motion, &positions))?;
+        }
+        outputs.json.write(|| Ok(report.json()), || report.text())?;
+        Ok(match report.passes() {
+            true => ExitCode::SUCCESS,
+            false => ExitCode::FAILURE,
+        })
+    }
+
+    fn outputs(&self) -> Result<Outputs, Failure> {
+        let safe = self.out.as_deref().map(|path| {
+            let format = WritableFormat::of_path(path)?;
+            Ok::<_, Failure>((format, OutputFile::create(Path::new(path))?))
+        });
+        let json = self.json.as_deref();
+        let same = |json: &&Path| {
+            self.out
+                .as_deref()
+                .is_some_and(|out| Path::new(out) == *json)
+        };
+        if let Some(path) = json.filter(same) {
+            return Err(Failure::File {
+                path: path.display().to_string(),
+                problem: "--json and --out name the same file".to_owned(),
+            });
+        }
+        Ok(Outputs {
+            json: JsonOutput::create(json)?,
+            safe: safe.transpose()?,
+        })
+    }
+
+    /// What the engine says of a motion, and what the oracle says of that.
+    fn ask(&self, motion: &Motion) -> Result<(StepReport, Vec<[f64; 3]>), MeshError> {
+        let Motion { mesh, start, end } = motion;
+        let start = &start.vertices;
+        let clearance = self.keep.clearance();
+        let clock = Instant::now();
+        let first = mesh.first_contact(start, end, self.radius)?;
+        let first_seconds = clock.elapsed().as_secs_f64();
+        let clock = Instant::now();
+        let step = mesh.step_with_clearance(start, end, self.radius, clearance)?;
+        let seconds = Seconds {
+            first_contact: first_seconds,
+            step: clock.elapsed().as_secs_f64(),
+        };
+        let audit = self.audit.then(|| {
+            let contacts = mesh.all_contacts(start, end, self.radius)?;
+            let claims = Claims {
+                radius: self.radius,
+                clearance: beyond(clearance),
+                first: first.as_ref(),
+                contacts: &contacts,
+                step: &step,
+            };
+            Ok::<_, MeshError>(Audit::new(motion, &claims))
+        });
+        let report = StepReport::new(mesh, first.as_ref(), &step, seconds, audit.transpose()?);
+        Ok((report, step.positions))
+    }
+}
+
+/// What all pairs are kept apart beyond the radius.
+fn beyond(clearance: Clearance) -> f64 {
+    match clearance {
+        Clearance::Distance(distance) => distance,
+        _ => 0.0,
+    }
+}

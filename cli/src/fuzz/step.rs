@@ -1,0 +1,100 @@
+//! Certified steps against the oracle.
+
+use tunnelproof::certified::{Advance, Kind};
+use tunnelproof::certified::{Clearance, advance, interpolate};
+use tunnelproof::mesh::{Feature, Mesh, Pair};
+use tunnelproof::query::{EdgeEdge, Point, Query, QueryKind, Radius, VertexFace};
+use tunnelproof_reference::oracle::decide_query;
+
+use super::judges::is_ordinary;
+
+/// What a pair of sides keeps if it advances, with each sort of clearance, and what a mesh of the
+/// two does.
+pub(super) fn check(query: &Query) -> Option<String> {
+    // Radii of another size than the coordinates leave long integers alone, which take seconds.
+    if !is_ordinary(query) {
+        return None;
+    }
+    let coordinates = query.start().iter().flat_map(|point| point.iter());
+    let size = coordinates.fold(0.0, |size: f64, x| size.max(x.abs()));
+    let clearances = [
+        Clearance::None,
+        Clearance::Distance(0.01 * size),
+        Clearance::Share(0.1),
+    ];
+    let wrong = clearances.into_iter().find_map(|clearance| match query {
+        Query::EdgeEdge(pair) => wrong(query, pair, clearance),
+        Query::VertexFace(pair) => wrong(query, pair, clearance),
+    });
+    wrong.or_else(|| wrong_of_mesh(query))
+}
+
+/// What is wrong with the advance of a pair.
+fn wrong<K: Kind>(query: &Query, pair: &K, clearance: Clearance) -> Option<String> {
+    let moved = match advance(pair, clearance) {
+        Ok(moved) => moved,
+        Err(error) => return Some(error.to_string()),
+    };
+    let Advance {
+        step,
+        points,
+        kept,
+        blocked,
+        ..
+    } = moved;
+    let stored = |i: usize| interpolate(&query.start()[i], &query.end()[i], step);
+    if !(0.0..=1.0).contains(&step) || points != [0, 1, 2, 3].map(stored) {
+        return Some("points are not those of the step".to_owned());
+    }
+    if blocked.is_none() && step < 1.0 {
+        return Some("a part of the step, and nothing that blocks it".to_owned());
+    }
+    match kept {
+        Some(kept) => touches(query, points, kept).then(|| "stored motion touches".to_owned()),
+        None => (step > 0.0).then(|| "a step keeps nothing".to_owned()),
+    }
+}
+
+/// The same of the two sides as a mesh.
+fn wrong_of_mesh(query: &Query) -> Option<String> {
+    let (mesh, pair) = match query.kind() {
+        QueryKind::EdgeEdge => (
+            Mesh::new(4, &[[0, 1], [2, 3]], &[]),
+            [Feature::Edge(0), Feature::Edge(1)],
+        ),
+        QueryKind::VertexFace => (
+            Mesh::new(4, &[], &[[1, 2, 3]]),
+            [Feature::Vertex(0), Feature::Face(0)],
+        ),
+    };
+    let [first, second] = pair;
+    let pair = Pair { first, second };
+    let thickness = query.radius().rounded();
+    let [start, end] = [query.start(), query.end()].map(|points| points.map(<[f64; 3]>::from));
+    let step = mesh.and_then(|mesh| mesh.step(&start, &end, thickness));
+    let step = match step {
+        Ok(step) => step,
+        Err(error) => return Some(error.to_string()),
+    };
+    if step.step == 0.0 {
+        return step
+            .limits
+            .is_empty()
+            .then(|| "a mesh stays for no reason".to_owned());
+    }
+    let near = step.near.iter().find(|(near, _)| *near == pair);
+    let kept = near.map_or(thickness.into(), |(_, kept)| *kept);
+    let points: Vec<Point> = step.positions.iter().copied().map(Point::from).collect();
+    let points = <[Point; 4]>::try_from(points).ok()?;
+    touches(query, points, kept).then(|| "stored motion of a mesh touches".to_owned())
+}
+
+/// Whether the oracle finds a contact in the motion from the start of a query to other points.
+fn touches(query: &Query, points: [Point; 4], radius: Radius) -> bool {
+    let start = *query.start();
+    let motion = match query.kind() {
+        QueryKind::EdgeEdge => EdgeEdge::new(start, points, radius).map(Query::EdgeEdge),
+        QueryKind::VertexFace => VertexFace::new(start, points, radius).map(Query::VertexFace),
+    };
+    motion.is_ok_and(|motion| decide_query(&motion).hit.is_some())
+}

@@ -1,0 +1,57 @@
+"""Types of arrays, and what makes sure of their shapes."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+Kind = Literal["edge-edge", "vertex-face"]
+Floats = npt.NDArray[np.float64]
+Bools = npt.NDArray[np.bool_]
+Codes = npt.NDArray[np.int8]
+Indices = npt.NDArray[np.uint32]
+
+
+def query_arrays(points: npt.ArrayLike, radius: npt.ArrayLike) -> tuple[Floats, Floats]:
+    """Points and radii in the shapes that the extension takes."""
+    of_points = np.asarray(points, dtype=np.float64)
+    if of_points.ndim != 3 or of_points.shape[1:] != (8, 3):
+        raise ValueError(f"points have the shape {of_points.shape}, not (n, 8, 3)")
+    of_radii = np.asarray(radius, dtype=np.float64)
+    count = len(of_points)
+    if of_radii.shape not in [(), (count,), (count, 2)]:
+        raise ValueError(
+            f"radius has the shape {of_radii.shape}, not (), ({count},) or ({count}, 2)"
+        )
+    if of_radii.ndim < 2:
+        single = np.broadcast_to(of_radii, (count,))
+        of_radii = np.stack([single, np.zeros(count)], axis=1)
+    return of_points, of_radii
+
+
+def position_array(name: str, positions: npt.ArrayLike) -> Floats:
+    """Positions where they are, if they are float64 in the order of C; else a copy that is."""
+    array = np.require(positions, dtype=np.float64, requirements=["C", "A"])
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"{name} has the shape {array.shape}, not (n, 3)")
+    return array
+
+
+def index_array(name: str, indices: npt.ArrayLike, shape: tuple[int, ...]) -> Indices:
+    """Indices of 32 bits. In the shape, -1 stands for any length."""
+    array = np.asarray(indices)
+    if array.size == 0:
+        return np.zeros([0 if length < 0 else length for length in shape], np.uint32)
+    if array.dtype.kind not in "iu":
+        raise ValueError(f"{name} are of type {array.dtype}, not integers")
+    if array.ndim != len(shape) or array.shape[1:] != shape[1:]:
+        expected = ", ".join("n" if length < 0 else str(length) for length in shape)
+        raise ValueError(f"{name} have the shape {array.shape}, not ({expected})")
+    beyond = (array < 0) | (array > np.iinfo(np.uint32).max)
+    if beyond.any():
+        where = tuple(np.argwhere(beyond)[0])
+        place = "".join(f"[{index}]" for index in where)
+        raise ValueError(f"{name}{place} is {array[where]}, which is no index of 32 bits")
+    return np.require(array, dtype=np.uint32, requirements=["C", "A"])

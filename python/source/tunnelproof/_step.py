@@ -1,0 +1,66 @@
+"""The certified step of pairs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy.typing as npt
+
+from . import _tunnelproof
+from ._arrays import Codes, Floats, Kind, query_arrays
+
+
+@dataclass(frozen=True, eq=False)
+class Advances:
+    """The certified steps of ``n`` queries of either kind."""
+
+    step: Floats
+    """How much of the step is made, in ``[0, 1]``, float64 of shape ``(n,)``."""
+    points: Floats
+    """A, B, C and D to store, in metres, float64 of shape ``(n, 4, 3)``: at a step of 1 the end, at
+    0 the start, bit for bit."""
+    kept: Floats
+    """Straight motion from the start to ``points`` keeps a distance above this, in metres, exactly.
+
+    Float64 of shape ``(n, 2)``: the exact sum of two numbers, as a radius is. NaN where no step is
+    proved, so that the points stay."""
+    blocked: Codes
+    """Values of :class:`Blocked`, int8 of shape ``(n,)``; 0 where the step is a whole one."""
+
+
+def advance(
+    kind: Kind,
+    points: npt.ArrayLike,
+    radius: npt.ArrayLike = 0.0,
+    *,
+    clearance: float = 0.0,
+    share: float | None = None,
+) -> Advances:
+    """The largest step, within rounding, that keeps the two sides of each query apart, and the
+    positions to store.
+
+    Straight motion from the start to these positions keeps a distance above ``kept``, exactly, in
+    real arithmetic. The next step starts at them. So nothing ever passes through anything, however
+    many steps follow.
+
+    Two sides that start nearer than the radius and the clearance keep nine tenths of what they have
+    beyond the radius, or of their distance if they start within the radius; where rounding leaves
+    no room even for that, they keep the radius, or do not touch. They are free to part.
+
+    :param kind: ``"edge-edge"`` or ``"vertex-face"``.
+    :param points: shape ``(n, 8, 3)``: A, B, C, D at the start, then at the end, in metres.
+    :param radius: a number, shape ``(n,)``, or shape ``(n, 2)`` for exact sums of two, in metres.
+    :param clearance: what is kept beyond the radius, in metres.
+    :param share: instead of a clearance. Two sides that would come within the radius keep this
+        share of what they have beyond it at the start; from 0 to below 1.
+    :raises ValueError: as :func:`decide`, and for a clearance or a share that means nothing.
+
+    >>> falling = [[-1, 0, 0], [1, 0, 0], [0.5, -1, 1], [0.5, 1, 1],
+    ...            [-1, 0, 0], [1, 0, 0], [0.5, -1, -3], [0.5, 1, -3]]
+    >>> moved = advance("edge-edge", [falling], clearance=0.2)
+    >>> moved.step.round(9), moved.points[0, 2].round(9)
+    (array([0.2]), array([ 0.5, -1. ,  0.2]))
+    """
+    arrays = query_arrays(points, radius)
+    columns = _tunnelproof.advance(kind, *arrays, float(clearance), share)
+    return Advances(points=columns.pop("points").reshape(-1, 4, 3), **columns)

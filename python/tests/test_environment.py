@@ -1,0 +1,98 @@
+"""The same bits in every rounding mode of the caller, which stays as it was."""
+
+import ctypes
+import platform
+
+import numpy as np
+import pytest
+
+import tunnelproof
+
+# From <fenv.h>: downward, upward and toward zero.
+MODES = {"x86_64": [0x400, 0x800, 0xC00], "aarch64": [0x800000, 0x400000, 0xC00000]}
+
+
+@pytest.fixture
+def libm():
+    libm = ctypes.CDLL("libm.so.6")
+    yield libm
+    libm.fesetround(0)
+
+
+def mesh_questions():
+    rng = np.random.default_rng(24)
+    start = rng.uniform(-1, 1, (64, 3))
+    end = start + rng.uniform(-0.5, 0.5, start.shape)
+    mesh = tunnelproof.Mesh(edges=np.arange(64).reshape(-1, 2), faces=np.arange(63).reshape(-1, 3))
+    return lambda: (
+        mesh.step(start, end, 1e-3).positions,
+        mesh.all_contacts(start, end).toi,
+        mesh.first_contact(start, end).toi,
+        mesh.is_free(start, end),
+    )
+
+
+def pair_questions(family):
+    points, radii = tunnelproof.queries(family.name, 100, seed=24)
+
+    def ask():
+        hits = tunnelproof.decide(family.kind, points, radii)
+        moved = tunnelproof.advance(family.kind, points, radii, share=0.5)
+        exact = tunnelproof.exact(family.kind, points, radii)
+        drawn = tunnelproof.queries(family.name, 100, seed=24)
+        return hits.toi, hits.normal, hits.first.point, moved.points, exact.toi, *drawn
+
+    return ask
+
+
+def judge():
+    def method(kind, points, radii):
+        hits = tunnelproof.decide(kind, points, radii)
+        return hits.hit, hits.toi
+
+    return tunnelproof.certify(method, families=["uniform", "face_uniform"], count=50).text
+
+
+def minus_a_third():
+    """Another number where this thread rounds downward."""
+    return -1.0 / float("3")
+
+
+def same(ask, libm):
+    """Whether all answers are those of the default mode."""
+    expected = ask()
+    for mode in MODES.get(platform.machine(), []):
+        libm.fesetround(mode)
+        found = ask()
+        left = libm.fegetround()
+        libm.fesetround(0)
+        assert left == mode
+        for a, b in zip(found, expected, strict=True):
+            assert np.asarray(a).tobytes() == np.asarray(b).tobytes()
+
+
+@pytest.mark.parametrize(
+    "name", ["uniform", "lattice", "scales", "face_grazing", "thick_uniform", "thick_face_lattice"]
+)
+def test_answers_are_the_same_in_every_rounding_mode(name, libm):
+    [family] = [family for family in tunnelproof.families() if family.name == name]
+    same(pair_questions(family), libm)
+
+
+def test_meshes_are_the_same_in_every_rounding_mode(libm):
+    same(mesh_questions(), libm)
+
+
+def test_a_method_that_changes_the_mode_is_judged_as_any_other(libm):
+    expected = judge()
+    third = minus_a_third()
+    found_before = []
+
+    def method(kind, points, radii):
+        found_before.append(minus_a_third())
+        hits = tunnelproof.decide(kind, points, radii)
+        libm.fesetround(MODES.get(platform.machine(), [0])[0])
+        return hits.hit, hits.toi
+
+    found = tunnelproof.certify(method, families=["uniform", "face_uniform"], count=50).text
+    assert found == expected and set(found_before) == {third}

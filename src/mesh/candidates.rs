@@ -1,0 +1,329 @@
+//! The pairs of a mesh that may come near each other during a step.
+
+use super::error::MeshError;
+use super::topology::{Feature, Mesh, Pair, Thickness, half};
+use super::tree::{Bounds, Grid, Lane, Meets, Task, Tree};
+use crate::certified::{Positions, rounding_of};
+use crate::environment;
+use crate::query::Radius;
+
+/// A position as it is stored.
+pub(super) type Position = [f64; 3];
+
+/// Which of the two kinds of pairs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum PairKind {
+    Edges,
+    Face,
+}
+
+/// A pair of a mesh by its indices: of two segments, or of a vertex and a face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Candidate {
+    pub(super) kind: PairKind,
+    pub(super) first: u32,
+    pub(super) second: u32,
+}
+
+/// A question about a mesh: positions at both ends of a step, and the thickness.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Question<'a> {
+    pub(super) mesh: &'a Mesh,
+    pub(super) start: &'a [Position],
+    pub(super) end: &'a [Position],
+    pub(super) thickness: Thickness<'a>,
+}
+
+/// The trees of a question.
+pub(super) struct Candidates<'a> {
+    question: Question<'a>,
+    segments: Tree,
+    vertices: Tree,
+    faces: Tree,
+    meets: Option<Meets>,
+}
+
+impl<'a> Question<'a> {
+    /// # Errors
+    ///
+    /// [`MeshError`] if an array has another length than it should have, or holds what is no
+    /// coordinate or thickness.
+    pub(super) fn new(
+        mesh: &'a Mesh,
+        start: &'a [Position],
+        end: &'a [Position],
+        thickness: Thickness<'a>,
+    ) -> Result<Self, MeshError> {
+        debug_assert_eq!(environment::check(), Ok(()));
+        check_positions("start", start, mesh.vertices)?;
+        check_positions("end", end, mesh.vertices)?;
+        thickness.check(mesh)?;
+        Ok(Question {
+            mesh,
+            start,
+            end,
+            thickness,
+        })
+    }
+
+    /// The indices of A, B, C and D.
+    #[inline(always)]
+    pub(super) fn vertices_of(&self, candidate: &Candidate) -> [u32; 4] {
+        let Candidate {
+            kind,
+            first,
+            second,
+        } = *candidate;
+        match kind {
+            PairKind::Edges => {
+                let ([a, b], [c, d]) = (self.mesh.segment(first), self.mesh.segment(second));
+                [a, b, c, d]
+            }
+            PairKind::Face => {
+                let [b, c, d] = self.mesh.faces[second as usize];
+                [first, b, c, d]
+            }
+        }
+    }
+
+    /// The motion of a pair.
+    #[inline(always)]
+    pub(super) fn positions(&self, vertices: &[u32; 4]) -> Positions {
+        let of = |all: &[Position]| vertices.map(|vertex| all[vertex as usize]);
+        Positions {
+            start: of(self.start),
+            end: of(self.end),
+        }
+    }
+
+    /// The distance at which a pair touches.
+    #[inline(always)]
+    pub(super) fn radius(&self, kind: PairKind, vertices: &[u32; 4]) -> Radius {
+        let (first, second) = sides(kind, vertices);
+        self.thickness.between(self.mesh, first, second)
+    }
+
+    /// A pair as it is shown.
+    pub(super) fn pair(&self, candidate: &Candidate) -> Pair {
+        let Candidate {
+            kind,
+            first,
+            second,
+        } = *candidate;
+        match kind {
+            PairKind::Edges => Pair {
+                first: self.mesh.segment_feature(first),
+                second: self.mesh.segment_feature(second),
+            },
+            PairKind::Face => Pair {
+                first: Feature::Vertex(first),
+                second: Feature::Face(second),
+            },
+        }
+    }
+}
+
+/// The swept boxes of vertices, and how far each has to be moved outward.
+struct Swept {
+    bounds: Vec<Bounds>,
+    rounding: Vec<f64>,
+}
+
+impl Swept {
+    fn new(question: &Question, is_rounded: bool) -> Self {
+        let at = |vertex: usize| (&question.start[vertex], &question.end[vertex]);
+        let count = question.mesh.vertices;
+        Swept {
+            bounds: mapped(count, SHARE, |vertex| {
+                let (start, end) = at(vertex);
+                Bounds {
+                    low: [0, 1, 2].map(|i| start[i].min(end[i])),
+                    high: [0, 1, 2].map(|i| start[i].max(end[i])),
+                }
+            }),
+            rounding: mapped(count, SHARE, |vertex| match (at(vertex), is_rounded) {
+                ((start, end), true) => rounding_of(start, end),
+                _ => 0.0,
+            }),
+        }
+    }
+
+    /// The box around all vertices.
+    fn around(&self) -> Bounds {
+        let joined = |around: Bounds, bounds: &Bounds| around.joined(bounds);
+        self.bounds.iter().fold(Bounds::NOTHING, joined)
+    }
+
+    /// The swept box of a part, moved outward by half the distance that it keeps and by what
+    /// rounding moves it.
+    #[inline(always)]
+    fn of(&self, vertices: &[u32], kept: f64) -> Bounds {
+        let mut bounds = Bounds::NOTHING;
+        let mut rounding = 0f64;
+        for &vertex in vertices {
+            bounds = bounds.joined(&self.bounds[vertex as usize]);
+            rounding = rounding.max(self.rounding[vertex as usize]);
+        }
+        // Above zero by more than what the roundings of the sum and of the room lose.
+        let distance = (half(kept) + rounding) * (1.0 + 32.0 * f64::EPSILON);
+        bounds.widened(distance)
+    }
+}
+
+impl<'a> Candidates<'a> {
+    /// All pairs that come within the thickness and a distance beyond it; with `is_rounded` also if
+    /// positions on the way are rounded.
+    pub(super) fn new(question: Question<'a>, beyond: f64, is_rounded: bool) -> Self {
+        let mesh = question.mesh;
+        let swept = Swept::new(&question, is_rounded);
+        let grid = Grid::new(&swept.around());
+        let lane = |vertices: &[u32]| {
+            let kept = question.thickness.of(mesh, vertices) + beyond;
+            Lane::new(&swept.of(vertices, kept), mesh.group_bits(vertices), &grid)
+        };
+        let tree =
+            |count, lane: &(dyn Fn(usize) -> Lane + Sync)| Tree::new(&mapped(count, SHARE, lane));
+        // Vertices meet faces alone.
+        let vertex_count = if mesh.faces.is_empty() {
+            0
+        } else {
+            mesh.vertices
+        };
+        let (segments, (faces, vertices)) = both(
+            || {
+                tree(mesh.segment_count(), &|index| {
+                    lane(&mesh.segment(index as u32))
+                })
+            },
+            || {
+                both(
+                    || tree(mesh.faces.len(), &|index| lane(&mesh.faces[index])),
+                    || tree(vertex_count, &|index| lane(&[index as u32])),
+                )
+            },
+        );
+        Candidates {
+            question,
+            segments,
+            vertices,
+            faces,
+            meets: mesh.meets(),
+        }
+    }
+
+    /// Visits all pairs, in parts: each part has a collection of its own, and these are returned in
+    /// an order that depends on the mesh alone.
+    pub(super) fn visit<A: Default + Send>(
+        &self,
+        each: impl Fn(&mut A, &Candidate, &[u32; 4]) + Sync,
+    ) -> Vec<A> {
+        let meets = self.meets.as_ref();
+        let edges = self.segments.tasks_within(PARTS, meets);
+        let faces = self.vertices.tasks_with(&self.faces, PARTS, meets);
+        let edges = edges.into_iter().map(|task| (PairKind::Edges, task));
+        let faces = faces.into_iter().map(|task| (PairKind::Face, task));
+        let tasks: Vec<(PairKind, Task)> = edges.chain(faces).collect();
+        mapped(tasks.len(), 1, |task| {
+            // By each thread that takes a part.
+            debug_assert_eq!(environment::check(), Ok(()));
+            let (kind, task) = &tasks[task];
+            let mut collected = A::default();
+            let mut found = |first: u32, second: u32| {
+                let candidate = Candidate {
+                    kind: *kind,
+                    first,
+                    second,
+                };
+                let vertices = self.question.vertices_of(&candidate);
+                let (a, b) = sides(*kind, &vertices);
+                let is_shared = a.iter().any(|vertex| b.contains(vertex));
+                if !is_shared && !self.question.mesh.is_left_out(a, b) {
+                    each(&mut collected, &candidate, &vertices);
+                }
+            };
+            match kind {
+                PairKind::Edges => {
+                    self.segments
+                        .pairs(&self.segments, task, meets, true, &mut found);
+                }
+                PairKind::Face => {
+                    self.vertices
+                        .pairs(&self.faces, task, meets, false, &mut found);
+                }
+            }
+            collected
+        })
+    }
+}
+
+/// About how many parts of each kind the pairs are visited in.
+const PARTS: usize = 256;
+
+/// How many boxes a thread makes at a time.
+const SHARE: usize = 1024;
+
+/// The vertices of both sides.
+#[inline(always)]
+pub(super) fn sides(kind: PairKind, vertices: &[u32; 4]) -> (&[u32], &[u32]) {
+    vertices.split_at(match kind {
+        PairKind::Edges => 2,
+        PairKind::Face => 1,
+    })
+}
+
+/// What a function says of the numbers from 0, in order, by all threads: each takes a share of no
+/// less than some numbers.
+#[cfg(feature = "rayon")]
+fn mapped<A: Send>(count: usize, least: usize, each: impl Fn(usize) -> A + Sync + Send) -> Vec<A> {
+    use rayon::prelude::*;
+    let numbers = (0..count).into_par_iter().with_min_len(least);
+    numbers.map(each).collect()
+}
+
+/// What a function says of the numbers from 0, in order.
+#[cfg(not(feature = "rayon"))]
+fn mapped<A>(count: usize, _: usize, each: impl Fn(usize) -> A) -> Vec<A> {
+    (0..count).map(each).collect()
+}
+
+/// What two functions give, at the same time.
+#[cfg(feature = "rayon")]
+fn both<A: Send, B: Send>(
+    first: impl FnOnce() -> A + Send,
+    second: impl FnOnce() -> B + Send,
+) -> (A, B) {
+    rayon::join(first, second)
+}
+
+/// What two functions give.
+#[cfg(not(feature = "rayon"))]
+fn both<A, B>(first: impl FnOnce() -> A, second: impl FnOnce() -> B) -> (A, B) {
+    (first(), second())
+}
+
+fn check_positions(
+    array: &'static str,
+    positions: &[Position],
+    expected: usize,
+) -> Result<(), MeshError> {
+    if positions.len() != expected {
+        return Err(MeshError::Length {
+            array,
+            found: positions.len(),
+            expected,
+        });
+    }
+    for (vertex, position) in positions.iter().enumerate() {
+        for (axis, &value) in position.iter().enumerate() {
+            if !value.is_finite() {
+                return Err(MeshError::NotFinite {
+                    array,
+                    vertex,
+                    axis,
+                    value,
+                });
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,284 @@
+//! Advanced pairs against the oracle: the motion to the stored positions has no contact.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::fmt;
+use std::iter::Sum;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use num_bigint::Sign;
+use num_rational::BigRational;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use tunnelproof::certified::{Blocked, Clearance, advance, decide, interpolate};
+use tunnelproof::query::{EdgeEdge, Point, Query, QueryKind, Radius, VertexFace};
+use tunnelproof_reference::generate;
+use tunnelproof_reference::oracle::decide_query;
+
+/// Queries of a family: fewer where Rust checks its arithmetic. `TUNNELPROOF_QUERIES` says how many
+/// those families get that the oracle answers quickest; the others get a part of that.
+fn count_of(family: &str) -> u64 {
+    const USUAL: u64 = if cfg!(debug_assertions) { 40 } else { 500 };
+    const QUICK: [&str; 6] = [
+        "uniform",
+        "lattice",
+        "slow",
+        "joint",
+        "face_uniform",
+        "face_lattice",
+    ];
+    let most = number("TUNNELPROOF_QUERIES", 0);
+    let part = match family {
+        _ if QUICK.contains(&family) => 1,
+        _ if family.ends_with("scales") => 10_000,
+        _ if family.starts_with("thick") => 40,
+        _ => 12,
+    };
+    USUAL.max(most / part)
+}
+
+/// Steps of each walk, as many as `TUNNELPROOF_STEPS` says.
+fn steps() -> u64 {
+    let usual = if cfg!(debug_assertions) { 200 } else { 2_000 };
+    number("TUNNELPROOF_STEPS", usual)
+}
+
+fn number(variable: &str, usual: u64) -> u64 {
+    match std::env::var(variable) {
+        Ok(value) => value.parse().unwrap(),
+        Err(_) => usual,
+    }
+}
+
+/// Does all jobs, on all threads.
+fn all_of<T: Send>(jobs: u64, job: impl Fn(u64) -> T + Sync) -> Vec<T> {
+    let threads = std::thread::available_parallelism().unwrap().get();
+    let next = AtomicU64::new(0);
+    let work = || {
+        let mut done = Vec::new();
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            if index >= jobs {
+                return done;
+            }
+            done.push(job(index));
+        }
+    };
+    std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        let parts = workers.into_iter().map(|worker| worker.join().unwrap());
+        parts.flatten().collect()
+    })
+}
+
+/// What came of advancing.
+#[derive(Default)]
+struct Tally {
+    pairs: u64,
+    moved: u64,
+    ahead: u64,
+    near: u64,
+    near_moved: u64,
+    touching: u64,
+}
+
+impl Sum for Tally {
+    fn sum<I: Iterator<Item = Tally>>(parts: I) -> Tally {
+        parts.fold(Tally::default(), |sum, part| Tally {
+            pairs: sum.pairs + part.pairs,
+            moved: sum.moved + part.moved,
+            ahead: sum.ahead + part.ahead,
+            near: sum.near + part.near,
+            near_moved: sum.near_moved + part.near_moved,
+            touching: sum.touching + part.touching,
+        })
+    }
+}
+
+impl fmt::Display for Tally {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Tally {
+            pairs,
+            moved,
+            ahead,
+            near,
+            near_moved,
+            touching,
+        } = self;
+        write!(
+            f,
+            "{pairs} pairs: {moved} moved, {ahead} ahead, {near} near ({near_moved} moved), \
+             {touching} touching"
+        )
+    }
+}
+
+fn query(kind: QueryKind, start: [Point; 4], end: [Point; 4], radius: Radius) -> Query {
+    match kind {
+        QueryKind::EdgeEdge => Query::EdgeEdge(EdgeEdge::new(start, end, radius).unwrap()),
+        QueryKind::VertexFace => Query::VertexFace(VertexFace::new(start, end, radius).unwrap()),
+    }
+}
+
+/// Advances, and asks the oracle about what is stored. Returns the stored points.
+fn judge(q: &Query, clearance: Clearance, id: &str, tally: &mut Tally) -> [Point; 4] {
+    let (moved, toi) = match q {
+        Query::EdgeEdge(e) => (advance(e, clearance).unwrap(), decide(e).map(|hit| hit.toi)),
+        Query::VertexFace(f) => (advance(f, clearance).unwrap(), decide(f).map(|hit| hit.toi)),
+    };
+    tally.pairs += 1;
+    assert!((0.0..=1.0).contains(&moved.step), "{id}: {moved:?}");
+    for (i, point) in moved.points.iter().enumerate() {
+        assert_eq!(
+            *point,
+            interpolate(&q.start()[i], &q.end()[i], moved.step),
+            "{id}"
+        );
+    }
+    match moved.blocked {
+        None => assert_eq!(moved.step, 1.0, "{id}"),
+        Some(Blocked::Ahead) => tally.ahead += 1,
+        Some(Blocked::Near) => {
+            tally.near += 1;
+            tally.near_moved += u64::from(moved.step > 0.0);
+        }
+        Some(Blocked::Touching) => {
+            tally.touching += 1;
+            let still = query(q.kind(), *q.start(), *q.start(), Radius::ZERO);
+            assert!(decide_query(&still).hit.is_some(), "{id}");
+        }
+        other => unreachable!("{other:?}"),
+    }
+    let Some(kept) = moved.kept else {
+        assert_eq!((moved.step, moved.points), (0.0, *q.start()), "{id}");
+        return moved.points;
+    };
+    tally.moved += 1;
+    let stored = query(q.kind(), *q.start(), moved.points, kept);
+    assert!(decide_query(&stored).hit.is_none(), "{id}: {moved:?}");
+    // What starts outside of the radius stays there.
+    if kept != q.radius() {
+        let still = query(q.kind(), *q.start(), *q.start(), q.radius());
+        let stored = query(q.kind(), *q.start(), moved.points, q.radius());
+        let is_outside = decide_query(&still).hit.is_none();
+        assert!(
+            !is_outside || decide_query(&stored).hit.is_none(),
+            "{id}: {moved:?}"
+        );
+    }
+    // The step is as large as the rounding of positions lets it be.
+    let is_of_radius = clearance == Clearance::None && kept == q.radius();
+    if let (true, Some(Blocked::Ahead), Some(toi)) = (is_of_radius, moved.blocked, toi) {
+        assert!(moved.step <= toi, "{id}: {moved:?} {toi}");
+        if id.starts_with("uniform") || id.starts_with("face_uniform") {
+            assert!(moved.step >= 0.999_999 * toi, "{id}: {moved:?} {toi}");
+        }
+    }
+    moved.points
+}
+
+#[test]
+fn advance_stores_positions_that_are_apart_on_every_family() {
+    const BLOCK: u64 = 1000;
+    /// Every so many queries with a clearance, too.
+    const OTHERS: u64 = 16;
+    let mut all = Tally::default();
+    for family in generate::all() {
+        let count = count_of(family.name());
+        let blocks = count.div_ceil(BLOCK);
+        let of_block = |block: u64| {
+            let mut tally = Tally::default();
+            for index in block * BLOCK..count.min((block + 1) * BLOCK) {
+                let q = family.query(11, index);
+                let id = format!("{}:11:{index}", family.name());
+                judge(&q, Clearance::None, &id, &mut tally);
+                if index % OTHERS == 0 {
+                    judge(&q, Clearance::Distance(1e-3), &id, &mut tally);
+                    judge(&q, Clearance::Share(0.1), &id, &mut tally);
+                }
+            }
+            tally
+        };
+        let tally: Tally = all_of(blocks, of_block).into_iter().sum();
+        println!("{}: {tally}", family.name());
+        assert!(tally.moved > 0, "{}", family.name());
+        all = [all, tally].into_iter().sum();
+    }
+    println!("all: {all}");
+}
+
+/// The sign of the volume of the four points: on which side of the first the second is.
+fn volume(points: &[Point; 4]) -> Sign {
+    let exact = points.map(|p| [p.x, p.y, p.z].map(|x| BigRational::from_float(x).unwrap()));
+    let from_a =
+        |i: usize| -> [BigRational; 3] { std::array::from_fn(|k| &exact[i][k] - &exact[0][k]) };
+    let [x, y, z] = [from_a(1), from_a(2), from_a(3)];
+    let minor = |i: usize, j: usize| &y[i] * &z[j] - &y[j] * &z[i];
+    (&x[0] * minor(1, 2) + &x[1] * minor(2, 0) + &x[2] * minor(0, 1))
+        .numer()
+        .sign()
+}
+
+/// Two edges, or a vertex and a face, pushed into each other by random targets, stay on their
+/// sides, exactly.
+#[test]
+fn advance_never_passes_through_however_many_steps_follow() {
+    const WALKS: u64 = 40;
+    let steps = steps();
+    let tally: Tally = all_of(WALKS, |number| walk(number, steps))
+        .into_iter()
+        .sum();
+    println!("{tally}");
+    assert_eq!(tally.touching, 0);
+    assert!(tally.ahead > tally.pairs / 100, "{tally}");
+}
+
+fn walk(number: u64, steps: u64) -> Tally {
+    let rng = &mut ChaCha8Rng::seed_from_u64(number);
+    let mut tally = Tally::default();
+    let radius = Radius::from(if number % 4 < 2 { 0.0 } else { 0.05 });
+    let clearance = match number % 8 {
+        0..4 => Clearance::None,
+        4..6 => Clearance::Distance(1e-6),
+        _ => Clearance::Share(0.1),
+    };
+    // The second side is above the first, and never can come below: it is longer than the
+    // targets reach, as both are drawn back to where they started.
+    let p = Point::new;
+    let kind = [QueryKind::EdgeEdge, QueryKind::VertexFace][(number % 2) as usize];
+    let home = match kind {
+        QueryKind::EdgeEdge => [p(-9., 0., 0.), p(9., 0., 0.), p(0., -9., 1.), p(0., 9., 1.)],
+        QueryKind::VertexFace => [
+            p(0., 0., 1.),
+            p(-9., -9., 0.),
+            p(9., -9., 0.),
+            p(0., 9., 0.),
+        ],
+    };
+    let mut points = home;
+    let before = volume(&points);
+    for step in 0..steps {
+        let mut targets = points;
+        for (point, home) in targets.iter_mut().zip(home) {
+            // Half of the targets press the two against each other.
+            let z = if rng.random() {
+                0.5
+            } else {
+                rng.random_range(-1.0..2.0)
+            };
+            let mut beside =
+                |x: f64, home: f64| x + 1e-4 * (home - x) + rng.random_range(-1e-3..1e-3);
+            *point = p(beside(point.x, home.x), beside(point.y, home.y), z);
+        }
+        let q = query(kind, points, targets, radius);
+        points = judge(
+            &q,
+            clearance,
+            &format!("walk {number}, step {step}"),
+            &mut tally,
+        );
+        let after = volume(&points);
+        assert_eq!(after, before, "walk {number}, step {step}");
+    }
+    tally
+}
