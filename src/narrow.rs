@@ -80,11 +80,27 @@ pub trait NarrowPhase: Sync {
         Err(Unsupported::Kind(QueryKind::VertexFace))
     }
 
-    /// The distance in metres below which a hit where there is no contact is within what the
-    /// method declares of itself (the thesis' distance threshold); 0 for one that claims exactness.
-    fn declared_distance(&self) -> f64 {
-        0.0
+    /// How far off the method declares its answers to be; nothing for one that claims exactness.
+    fn tolerance(&self) -> Tolerance {
+        Tolerance::NONE
     }
+}
+
+/// How far off the answers of a method may be, as it declares of itself. Finite numbers from 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tolerance {
+    /// The distance in metres that a pair without contact may come within and be called a hit.
+    pub near: f64,
+    /// How much later than the exact time of impact its own may be, as a part of the step.
+    pub late: f64,
+}
+
+impl Tolerance {
+    /// That of a method which claims exactness.
+    pub const NONE: Tolerance = Tolerance {
+        near: 0.0,
+        late: 0.0,
+    };
 }
 
 /// The answer to one query, with how it was reached.

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use numpy::{PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use tunnelproof::narrow::Tolerance;
 use tunnelproof_cli::report::page;
 use tunnelproof_float_env::with_default;
 use tunnelproof_reference::certify::findings::{Findings, Settings};
 use tunnelproof_reference::certify::judged::Judged;
-use tunnelproof_reference::certify::permitted::Permitted;
 use tunnelproof_reference::certify::run::Panel;
 use tunnelproof_reference::certify::shard::Shard;
 use tunnelproof_reference::certify::source::Source;
@@ -34,7 +34,7 @@ type Own<'py> = (
 
 /// Judges a callable, see [`Method`].
 #[pyfunction]
-#[pyo3(signature = (call, name, declared_distance, families, own, count, seed, shard))]
+#[pyo3(signature = (call, name, near, late, families, own, count, seed, shard))]
 #[allow(
     clippy::too_many_arguments,
     reason = "called from one place, which names them"
@@ -43,7 +43,8 @@ pub(crate) fn certify(
     py: Python<'_>,
     call: Py<PyAny>,
     name: String,
-    declared_distance: f64,
+    near: f64,
+    late: f64,
     families: Vec<String>,
     own: Vec<Own<'_>>,
     count: u64,
@@ -69,17 +70,23 @@ pub(crate) fn certify(
     let shard: Shard = format!("{}/{}", shard.0, shard.1)
         .parse()
         .map_err(|error| PyValueError::new_err(format!("shard is {shard:?}: {error}")))?;
+    for (name, value) in [("near", near), ("late", late)] {
+        if !(value >= 0.0 && value.is_finite()) {
+            let message = format!("{name} is {value}, not a number from 0");
+            return Err(PyValueError::new_err(message));
+        }
+    }
+    let tolerance = Tolerance { near, late };
     let subject = Method {
         name,
         call,
-        declared_distance,
+        tolerance,
     };
     let panel = Panel {
         second_judges: Vec::new(),
         subjects: vec![Judged {
             subject: &subject,
             explain: None,
-            permitted: Permitted::NOTHING,
         }],
     };
     let mut blocks = Vec::new();

@@ -2,7 +2,7 @@
 
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
-use tunnelproof::narrow::Unsupported;
+use tunnelproof::narrow::{Tolerance, Unsupported};
 use tunnelproof::query::{Query, QueryKind};
 use tunnelproof_float_env::with_restored;
 use tunnelproof_reference::answer::Enclosure;
@@ -14,7 +14,7 @@ use crate::queries::row;
 pub(crate) struct Method {
     pub(crate) name: String,
     pub(crate) call: Py<PyAny>,
-    pub(crate) declared_distance: f64,
+    pub(crate) tolerance: Tolerance,
 }
 
 type Answers = Vec<Result<Answer, NoAnswer>>;
@@ -44,8 +44,8 @@ impl Subject for Method {
         answers
     }
 
-    fn declared_distance(&self) -> f64 {
-        self.declared_distance
+    fn tolerance(&self) -> Tolerance {
+        self.tolerance
     }
 }
 

@@ -145,7 +145,7 @@ fn run(family: &Family, count: u64, seed: u64) -> Result<(), Box<dyn Error>> {
         for ((_, rows), tallies) in tables.iter().zip(&mut tallies) {
             for ((_, subject), tally) in rows.iter().zip(tallies) {
                 let answer = subject.answer(&query)?;
-                tally.add(edges, &truth, &answer, subject.declared_distance());
+                tally.add(edges, &truth, &answer, subject.tolerance().near);
             }
         }
     }

@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use tunnelproof::certified::decide;
 use tunnelproof::contact::{Case, Hit, Place};
-use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
+use tunnelproof::narrow::{NarrowPhase, Report, Tolerance, Unsupported};
 use tunnelproof::query::Query;
 
 use crate::answer::{Enclosure, ExactAnswer};
@@ -32,10 +32,9 @@ pub trait Subject: Sync {
         queries.iter().map(answer).collect()
     }
 
-    /// The distance in metres within which a hit without contact is what the subject declares of
-    /// itself; 0 for one that claims exactness.
-    fn declared_distance(&self) -> f64 {
-        0.0
+    /// How far off the subject declares its answers to be; nothing for one that claims exactness.
+    fn tolerance(&self) -> Tolerance {
+        Tolerance::NONE
     }
 }
 
@@ -206,7 +205,7 @@ impl<N: NarrowPhase> Subject for Engine<N> {
         Ok(Answer::Engine(report))
     }
 
-    fn declared_distance(&self) -> f64 {
-        self.0.declared_distance()
+    fn tolerance(&self) -> Tolerance {
+        self.0.tolerance()
     }
 }

@@ -5,8 +5,9 @@ use super::motion::Motion;
 use super::options::Options;
 use super::witness::contact_at;
 use crate::contact::{Flags, Verdict};
-use crate::narrow::{NarrowPhase, Report, Unsupported};
+use crate::narrow::{NarrowPhase, Report, Tolerance, Unsupported};
 use crate::query::EdgeEdge;
+use crate::thesis::Thresholds;
 
 /// Algorithm 20 with everything that follows from it. Heuristic.
 ///
@@ -42,9 +43,13 @@ impl NarrowPhase for Thesis {
         })
     }
 
-    /// The thesis' distance threshold.
-    fn declared_distance(&self) -> f64 {
-        self.options.thresholds.dist
+    /// The thesis' thresholds for distance and time (table 3.1).
+    fn tolerance(&self) -> Tolerance {
+        let Thresholds { dist, t, .. } = self.options.thresholds;
+        Tolerance {
+            near: dist,
+            late: t,
+        }
     }
 }
 
@@ -119,7 +124,7 @@ mod tests {
 
     #[test]
     fn thesis_declares_its_distance_threshold() {
-        assert_eq!(Thesis::default().declared_distance(), 1e-6);
+        assert_eq!(Thesis::default().tolerance().near, 1e-6);
         assert_eq!(Thesis::default().name(), "thesis");
     }
 

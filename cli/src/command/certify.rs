@@ -6,7 +6,6 @@ use clap::Args;
 use tunnelproof_reference::certify::block::Block;
 use tunnelproof_reference::certify::findings::{Findings, Settings};
 use tunnelproof_reference::certify::judged::Judged;
-use tunnelproof_reference::certify::permitted::permitted;
 use tunnelproof_reference::certify::run::Panel;
 use tunnelproof_reference::certify::shard::Shard;
 use tunnelproof_reference::certify::source::Source;
@@ -21,7 +20,7 @@ use tunnelproof_reference::subject::Subject;
 
 use super::certificate::Certificate;
 use super::sources::{family, of_families, of_files};
-use super::subjects::{Answering, AskedList, Programs, asked_list};
+use super::subjects::{Answering, AskedList, Permit, Programs, asked_list};
 use super::{Failure, Reading, merge, progress};
 
 /// Judge subjects against the exact answer
@@ -64,6 +63,8 @@ pub(super) struct Certify {
     subject: Vec<AskedList>,
     #[command(flatten)]
     programs: Programs,
+    #[command(flatten)]
+    permit: Permit,
     /// Families of generated queries; by default all of edges without radius, or none if files are
     /// given
     #[arg(long, value_delimiter = ',', value_parser = family())]
@@ -148,6 +149,9 @@ impl Certify {
             let [wire, limit] = self.programs.values();
             option("wire", wire);
             option("time-limit", limit);
+            if let Some(permit) = self.permit.value() {
+                option("permit", permit);
+            }
         }
         if !self.family.is_empty() {
             let names: Vec<_> = self.family.iter().map(|family| family.name()).collect();
@@ -175,10 +179,13 @@ impl Certify {
 
     fn answering(&self) -> Result<Vec<Answering>, Failure> {
         match self.subject.is_empty() {
-            true => Ok(registry::judged_by_default()
-                .map(Answering::Known)
-                .collect()),
-            false => self.programs.start_all(&self.subject),
+            true => {
+                let known = registry::judged_by_default().map(Answering::Known);
+                let known: Vec<_> = known.collect();
+                self.permit.check(&known)?;
+                Ok(known)
+            }
+            false => self.programs.start_all(&self.subject, self.permit),
         }
     }
 
@@ -244,7 +251,6 @@ pub(super) fn judged(subject: &dyn Subject) -> Judged<'_> {
     Judged {
         subject,
         explain: is_published.then_some(&registry::errata),
-        permitted: permitted(subject.name()),
     }
 }
 

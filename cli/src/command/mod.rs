@@ -126,6 +126,8 @@ enum Failure {
     Nothing,
     /// An option is about files, and there is none.
     NoFile(&'static str),
+    /// Deviations are permitted to nobody.
+    Permit,
     /// Nothing says which fuzz target the file at this path is for.
     Target(String),
     /// The thresholds cannot be swept like that.
@@ -288,6 +290,10 @@ impl fmt::Display for Failure {
             Failure::Program { name, reason } => write!(f, "{name}: {reason}"),
             Failure::Merge { path, error } => write!(f, "{path}: {error}"),
             Failure::File { path, problem } => write!(f, "{path}: {problem}"),
+            Failure::Permit => write!(
+                f,
+                "--permit is for programs and libraries (cmd: and lib:), and none is judged"
+            ),
             Failure::Nothing => f.write_str("--count 0: no query is left to judge"),
             Failure::Target(path) => {
                 write!(f, "{path}: is in no folder of a fuzz target; pass --target")

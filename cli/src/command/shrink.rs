@@ -12,7 +12,7 @@ use tunnelproof_reference::registry;
 use tunnelproof_reference::shrink::{Disagreement, MOST_CALLS, Truth};
 
 use super::output::print;
-use super::subjects::{Asked, Programs, asked};
+use super::subjects::{Asked, Permit, Programs, asked};
 use super::{Failure, Reading};
 
 /// Find the smallest query on which a subject is wrong in the same way
@@ -42,6 +42,8 @@ pub(super) struct Shrink {
     subject: Asked,
     #[command(flatten)]
     programs: Programs,
+    #[command(flatten)]
+    permit: Permit,
     /// Who is right
     #[arg(long, default_value = "oracle", value_parser = truth())]
     truth: NamedTruth,
@@ -57,7 +59,7 @@ const SHRUNK: &str = "/shrunk";
 
 impl Shrink {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
-        let answering = self.programs.start(&self.subject)?;
+        let answering = self.programs.start(&self.subject, self.permit)?;
         let disagreement = Disagreement {
             subject: answering.subject(),
             truth: self.truth.truth,

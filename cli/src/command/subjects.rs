@@ -1,10 +1,12 @@
 //! Who answers: subjects of the registry, and programs of the user.
 
-use std::process;
 use std::time::Duration;
+use std::{process, slice};
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use tunnelproof::narrow::Tolerance;
+use tunnelproof_reference::certify::table;
 use tunnelproof_reference::program::wire::Wire;
 use tunnelproof_reference::program::{self, Command, Program};
 use tunnelproof_reference::registry;
@@ -34,6 +36,15 @@ pub(super) struct Programs {
     /// How long a program may take for an answer, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = program::TIME_LIMIT.as_secs_f64(), value_parser = seconds, allow_negative_numbers = true)]
     time_limit: f64,
+}
+
+/// What programs are permitted.
+#[derive(Args, Clone, Copy, Default)]
+pub(super) struct Permit {
+    /// How far off the programs and libraries that are judged declare their answers to be: "near" in
+    /// metres for a hit of a pair that only comes so near, "late" in steps for a time of impact
+    #[arg(long, value_name = "near=METRES,late=STEPS", value_parser = tolerance)]
+    permit: Option<Tolerance>,
 }
 
 /// A subject that answers.
@@ -73,12 +84,19 @@ fn hosted(path: &str, time_limit: Duration) -> Result<Command, String> {
         words: [own, "lib-host".to_owned(), path.to_owned()].to_vec(),
         wire: Wire::Binary,
         time_limit,
+        tolerance: Tolerance::NONE,
     })
 }
 
 impl Programs {
     /// Starts the subject, if it is a program.
-    pub(super) fn start(&self, asked: &Asked) -> Result<Answering, Failure> {
+    pub(super) fn start(&self, asked: &Asked, permit: Permit) -> Result<Answering, Failure> {
+        let answering = self.answering(asked, permit)?;
+        permit.check(slice::from_ref(&answering))?;
+        Ok(answering)
+    }
+
+    fn answering(&self, asked: &Asked, permit: Permit) -> Result<Answering, Failure> {
         let name = match asked {
             Asked::Known(subject) => return Ok(Answering::Known(*subject)),
             Asked::Program(name) => name,
@@ -95,7 +113,8 @@ impl Programs {
                 Command::parse(text, self.wire, limit).map_err(|error| error.to_string())
             }
         };
-        let command = command.map_err(failure)?;
+        let mut command = command.map_err(failure)?;
+        command.tolerance = permit.permit.unwrap_or_default();
         let program = Program::start(name, command);
         let program = program.map_err(|error| failure(format!("cannot be started: {error}")))?;
         Ok(Answering::Program(Box::new(program)))
@@ -107,9 +126,32 @@ impl Programs {
     }
 
     /// Starts all of them.
-    pub(super) fn start_all(&self, lists: &[AskedList]) -> Result<Vec<Answering>, Failure> {
+    pub(super) fn start_all(
+        &self,
+        lists: &[AskedList],
+        permit: Permit,
+    ) -> Result<Vec<Answering>, Failure> {
         let asked = lists.iter().flat_map(|AskedList(list)| list);
-        asked.map(|asked| self.start(asked)).collect()
+        let answering = asked.map(|asked| self.answering(asked, permit));
+        let answering = answering.collect::<Result<Vec<_>, _>>()?;
+        permit.check(&answering)?;
+        Ok(answering)
+    }
+}
+
+impl Permit {
+    /// Nothing is permitted where no program is judged.
+    pub(super) fn check(self, answering: &[Answering]) -> Result<(), Failure> {
+        let is_program = |answering: &Answering| answering.program().is_some();
+        match self.permit.is_some() && !answering.iter().any(is_program) {
+            true => Err(Failure::Permit),
+            false => Ok(()),
+        }
+    }
+
+    /// The value of the option, to be written.
+    pub(super) fn value(self) -> Option<String> {
+        self.permit.map(table::tolerance)
     }
 }
 
@@ -164,6 +206,31 @@ pub(super) fn asked_list(text: &str) -> Result<AskedList, String> {
 fn wire() -> impl TypedValueParser<Value = Wire> {
     PossibleValuesParser::new(Wire::ALL.map(Wire::name))
         .try_map(|name| Wire::from_name(&name).ok_or("unknown form"))
+}
+
+/// Reads what is permitted, such as `late=1e-9,near=1e-8`.
+fn tolerance(text: &str) -> Result<Tolerance, String> {
+    let [mut near, mut late] = [None; 2];
+    for part in text.split(',').filter(|_| !text.is_empty()) {
+        let (name, value) = part
+            .split_once('=')
+            .ok_or_else(|| format!("{part:?} is not near=METRES or late=STEPS"))?;
+        let place = match name {
+            "near" => &mut near,
+            "late" => &mut late,
+            _ => return Err(format!("{name:?} is neither near nor late")),
+        };
+        let number = value.parse::<f64>().ok();
+        let number = number.filter(|number| *number >= 0.0 && number.is_finite());
+        let number = number.ok_or_else(|| format!("{name} is {value:?}, not a number from 0"))?;
+        if place.replace(number).is_some() {
+            return Err(format!("{name} is there twice"));
+        }
+    }
+    Ok(Tolerance {
+        near: near.unwrap_or(0.0),
+        late: late.unwrap_or(0.0),
+    })
 }
 
 fn seconds(text: &str) -> Result<f64, String> {

@@ -3,7 +3,7 @@
 use tunnelproof::query::Query;
 use tunnelproof::thesis::{Erratum, Repairs, Thesis};
 
-use tunnelproof_reference::certify::permitted::permitted;
+use tunnelproof_reference::certify::margin::excuses;
 use tunnelproof_reference::difference::Difference;
 use tunnelproof_reference::registry::SECOND_JUDGE;
 use tunnelproof_reference::shadow::Shadow;
@@ -63,5 +63,5 @@ pub(super) fn engine_vs_shadow(subject: &dyn Subject, query: &Query) -> Option<S
         truth: |query| EXACT_THESIS.decide(query),
     };
     let fault = fault(&disagreement, query)?;
-    (!permitted(subject.name()).excuses(query)).then_some(fault)
+    (!excuses(query)).then_some(fault)
 }

@@ -6,13 +6,13 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tunnelproof::contact::{Case, Verdict};
-use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
+use tunnelproof::narrow::{NarrowPhase, Report, Tolerance, Unsupported};
 use tunnelproof::query::{EdgeEdge, Point, QueryKind};
 use tunnelproof::thesis::{Erratum, Options, Repairs, Thesis};
 
 use super::euclid::{Polynomial, Sturm};
 use super::*;
-use tunnelproof_reference::certify::permitted::permitted;
+use tunnelproof_reference::certify::margin::excuses;
 use tunnelproof_reference::generate::{FAMILIES, by_name as family};
 use tunnelproof_reference::oracle::decide_query;
 use tunnelproof_reference::subject::Engine;
@@ -103,7 +103,7 @@ fn input_bases_have_any_bits_and_small_integers() {
     }
 }
 
-/// The thesis path with a planted fault, under its name, so that it is permitted the same.
+/// The thesis path with a planted fault.
 struct Faulty<Q, R>(Q, R);
 
 impl<Q, R> NarrowPhase for Faulty<Q, R>
@@ -112,7 +112,11 @@ where
     R: Fn(Report) -> Report + Sync,
 {
     fn name(&self) -> &str {
-        "thesis"
+        "faulty"
+    }
+
+    fn tolerance(&self) -> Tolerance {
+        Thesis::default().tolerance()
     }
 
     fn edge_edge(&self, query: &EdgeEdge) -> Result<Report, Unsupported> {
@@ -207,7 +211,7 @@ fn thesis_is_right_on_confined_motion_in_small_integers() {
         let query = planar(&mut rng, largest, unit);
         assert_eq!(judges::thesis_vs_shadow(&query), None, "{query:?}");
         let case = decide_query(&query).case;
-        let excused = permitted("thesis").excuses(&query);
+        let excused = excuses(&query);
         *judged.entry((case, excused)).or_insert(0) += 1;
     }
     eprintln!("{judged:?}");
@@ -240,7 +244,6 @@ fn thesis_is_excused_seldom_in_general_position() {
     let excused = |name: &str, count: u64| {
         let family = family(name).unwrap();
         let queries = (0..count).map(|index| family.query(9, index));
-        let excuses = |query: &Query| permitted("thesis").excuses(query);
         1000 * queries.filter(excuses).count() as u64 / count
     };
     assert!(excused("uniform", 4000) < 20);

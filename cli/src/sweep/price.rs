@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use tunnelproof_reference::certify::permitted::permitted;
+use tunnelproof::narrow::NarrowPhase;
+use tunnelproof::thesis::Thesis;
 use tunnelproof_reference::certify::tally::Fault;
 use tunnelproof_reference::certify::verdict::{Judgement, Outline};
 
@@ -43,7 +44,7 @@ pub struct Price {
     pub no_answers: u64,
     /// Cases that are not the exact ones.
     pub wrong_cases: u64,
-    /// Times of impact later than the thesis path is permitted ([`permitted`]).
+    /// Times of impact later than the exact ones by more than the thesis' threshold for time.
     pub late: u64,
     /// Times of impact earlier than the exact ones by more than that.
     pub early: u64,
@@ -81,10 +82,10 @@ impl Counts {
     /// Adds the answer to one query, which comes after all that are counted.
     pub(super) fn add(&mut self, index: usize, truth: &Outline, judgement: &Judgement) {
         self.hits += u64::from(judgement.is_hit);
-        let permitted = permitted("thesis").late;
+        let tolerance = Thesis::default().tolerance().late;
         for (fault, severity) in judgement.faults(truth, || 0.0) {
             match fault {
-                Fault::Late | Fault::Early if severity <= permitted => {}
+                Fault::Late | Fault::Early if severity <= tolerance => {}
                 Fault::FalseHit => self.false_hits.push(index),
                 _ => self.add_fault(fault, severity, index),
             }

@@ -7,7 +7,6 @@ use tunnelproof::thesis::Threshold;
 
 use super::*;
 use tunnelproof_reference::certify::judged::Judged;
-use tunnelproof_reference::certify::permitted::permitted;
 use tunnelproof_reference::certify::run::Panel;
 use tunnelproof_reference::certify::source::Source;
 use tunnelproof_reference::certify::tally::{Fault, Tally};
@@ -46,7 +45,6 @@ fn sweep_at_table_3_1_counts_what_certify_counts() {
         subjects: vec![Judged {
             subject: registry::by_name("thesis").unwrap(),
             explain: None,
-            permitted: permitted("thesis"),
         }],
     };
     let mut expected = Tally::default();

@@ -171,6 +171,54 @@ fn certify_of_eval_as_a_program_is_that_of_its_subject() {
 }
 
 #[test]
+fn certify_of_a_program_goes_by_the_tolerance_that_is_declared_for_it() {
+    let thesis = format!("cmd:{PROGRAM} eval --subject thesis -");
+    let folder = tempfile::tempdir().unwrap();
+    let json = folder.path().join("result.json");
+    let json = json.to_str().unwrap();
+    let result = |subject: &str, options: &[&str]| -> [Vec<String>; 2] {
+        let arguments = ["certify", "--json", json, "--subject", subject];
+        let sources = ["--family", "uniform,near_coplanar", "--count", "500"];
+        let output = tunnelproof(&[&arguments[..], &sources, options].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let result: Value = serde_json::from_str(&fs::read_to_string(json).unwrap()).unwrap();
+        ["failures", "exact_failures"].map(|field| {
+            let lines = result[field].as_array().unwrap().iter();
+            let lines = lines.map(|line| line.as_str().unwrap());
+            let of = |line: &str| line.rsplit_once(": ").map(|(_, what)| what.to_owned());
+            lines.filter_map(of).collect()
+        })
+    };
+    let own = result("thesis", &[]);
+    assert_ne!(own[0], own[1]);
+    assert!(own[1][0].contains(" near hits, ") && own[1][0].contains(" late times of impact"));
+    assert_eq!(result(&thesis, &["--permit", "late=1e-9,near=1e-6"]), own);
+    let [declared, exact] = result(&thesis, &[]);
+    assert_eq!(declared, exact);
+    assert!(
+        declared[0].contains(" false hits") && !declared[0].contains("near hits"),
+        "{declared:?}"
+    );
+}
+
+#[test]
+fn certify_refuses_what_is_no_tolerance() {
+    for (permit, problem) in [
+        ("1e-9", "\"1e-9\" is not near=METRES or late=STEPS"),
+        ("early=1", "\"early\" is neither near nor late"),
+        ("near=-1", "near is \"-1\", not a number from 0"),
+        ("late=inf", "late is \"inf\", not a number from 0"),
+        ("late=1,late=2", "late is there twice"),
+        ("late=1e-9", "--permit is for programs and libraries"),
+    ] {
+        let output = tunnelproof(&["certify", "--permit", permit]);
+        assert_eq!(output.status.code(), Some(2));
+        let message = stderr(&output);
+        assert!(message.contains(problem), "{message}");
+    }
+}
+
+#[test]
 fn programs_answer_wherever_a_subject_is_asked_for() {
     let thesis = format!("cmd:{PROGRAM} eval --subject thesis -");
     let shrunk = tunnelproof(&["shrink", "--subject", &thesis, "lattice:1:2552"]);

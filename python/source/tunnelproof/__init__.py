@@ -262,8 +262,14 @@ class Certificate:
 
     @property
     def failures(self) -> list[str]:
-        """Why the method fails; empty if it passes."""
+        """Why the method fails within its tolerance; empty if it passes."""
         failures: list[str] = self.results["failures"]
+        return failures
+
+    @property
+    def exact_failures(self) -> list[str]:
+        """Why the method would fail without a tolerance; empty if it would pass."""
+        failures: list[str] = self.results["exact_failures"]
         return failures
 
 
@@ -275,7 +281,8 @@ def certify(
     own: Mapping[str, tuple[Kind, npt.ArrayLike, npt.ArrayLike]] | None = None,
     count: int = 1000,
     seed: int = 1,
-    declared_distance: float = 0.0,
+    near: float = 0.0,
+    late: float = 0.0,
     shard: tuple[int, int] = (1, 1),
 ) -> Certificate:
     """Judges a method against the exact answers.
@@ -291,11 +298,13 @@ def certify(
         them.
     :param count: how many queries of each family.
     :param seed: the seed of the families.
-    :param declared_distance: a false hit of two that come within this distance, in metres, is
-        counted as a near hit.
+    :param near: the tolerance that the method declares: a hit of two that come only within this
+        distance, in metres, does not fail it.
+    :param late: the same for times of impact that are late by no more than this part of the step.
     :param shard: the part to judge, ``(i, n)`` with ``i`` from 1 to ``n``; :func:`merge` puts all
         parts together.
-    :raises ValueError: if there is no such family or part, or one of your own queries is not valid.
+    :raises ValueError: if there is no such family or part, a tolerance is not a number from 0, or
+        one of your own queries is not valid.
 
     >>> def blind(kind, points, radii):
     ...     return np.zeros(len(points), bool), np.zeros(len(points))
@@ -321,7 +330,7 @@ def certify(
     ]
     return Certificate(
         *_tunnelproof.certify(
-            call, name, declared_distance, list(chosen), rows, count, seed, shard
+            call, name, near, late, list(chosen), rows, count, seed, shard
         )
     )
 

@@ -55,7 +55,8 @@ def family(
 def certify(
     call: Callable[..., Any],
     name: str,
-    declared_distance: float,
+    near: float,
+    late: float,
     families: list[str],
     own: list[tuple[str, Kind, Floats, Floats]],
     count: int,

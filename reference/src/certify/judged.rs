@@ -6,7 +6,6 @@ use crate::answer::ExactAnswer;
 use crate::oracle;
 use crate::subject::{Answer, Lapse, LapseKind, Subject};
 
-use super::permitted::Permitted;
 use super::reply::{Reply, ask};
 use super::tally::Fault;
 use super::verdict::{Verdict, judge};
@@ -21,8 +20,6 @@ pub struct Judged<'a> {
     pub subject: &'a dyn Subject,
     /// For a subject with known errata: which of them explain an answer that differs.
     pub explain: Option<Explain<'a>>,
-    /// How far it may be off and pass.
-    pub permitted: Permitted,
 }
 
 /// What was found of one subject on one query.
@@ -70,7 +67,7 @@ impl Judged<'_> {
             Reply::Answer(answer) => (Some(answer), None),
             Reply::Nothing(lapse) => (None, Some(lapse)),
         };
-        let declared = self.subject.declared_distance();
+        let declared = self.subject.tolerance().near;
         let judgement = judge(truth, answer.as_ref(), || {
             declared > 0.0 && oracle::comes_within(query, declared)
         });

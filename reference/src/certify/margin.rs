@@ -29,6 +29,15 @@ const U: f64 = f64::EPSILON / 2.0;
 /// Numbers of other sizes may overflow or underflow in products.
 const ORDINARY: std::ops::Range<f64> = 1e-60..1e60;
 
+/// Whether a query is so near to a border between two answers of the thesis' algorithms that either
+/// is excused.
+pub fn excuses(query: &Query) -> bool {
+    match query {
+        Query::EdgeEdge(query) => !is_clear(query, &Thresholds::default()),
+        Query::VertexFace(_) => false,
+    }
+}
+
 /// Whether no decision of the thesis path on this query is near its border.
 pub fn is_clear(query: &EdgeEdge, thresholds: &Thresholds) -> bool {
     let sizes = Sizes::new(query);

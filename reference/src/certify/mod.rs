@@ -7,8 +7,8 @@
 //! [`judged`] compares one answer with the exact one, [`verdict`] says what it is worth, [`tally`]
 //! counts, in a [`block`] for a whole [`source`] or a [`shard`] of it. [`run`] does it, all blocks
 //! are the [`findings`], [`strict`] says whether the result passes and [`table`] writes it down.
-//! How far a subject may be off is in [`permitted`] and nowhere else; [`margin`] is its rule for
-//! thresholds.
+//! How far a subject may be off, it declares itself ([`tolerance`](crate::subject::Subject::tolerance));
+//! [`margin`] says where thresholds excuse the thesis path from a fuzz target.
 
 pub mod batch;
 pub mod block;
@@ -16,7 +16,6 @@ pub mod findings;
 pub mod fingerprint;
 pub mod judged;
 pub mod margin;
-pub mod permitted;
 mod reply;
 pub mod run;
 pub mod shard;

@@ -1,5 +1,7 @@
 //! Whether what was found passes.
 
+use tunnelproof::narrow::Tolerance;
+
 use super::block::Block;
 use super::judged::Judged;
 use super::run::Panel;
@@ -10,23 +12,43 @@ use super::tally::{Fault, Tally};
 /// everything passes.
 ///
 /// A subject fails if it takes none of the queries, or only some of one sort; by a tunnel, one at a
-/// joint, a missed graze, a false hit or a missing answer, and by a near hit or a late time of
-/// impact beyond what it is [permitted](super::permitted::Permitted); an exact one by any other field
-/// that differs. A wrong case alone does not fail an engine: it is a way to an answer, not the
+/// joint, a missed graze, a false hit or a missing answer, and by a late time of impact beyond its
+/// [`Tolerance`]; an exact one by any other field that differs. A wrong case alone does not fail an engine: it is a way to an answer, not the
 /// answer.
 pub fn failures(panel: &Panel, total: &Block) -> Vec<String> {
+    all_failures(panel, total, failures_of)
+}
+
+/// The same if no subject had a tolerance: near hits and all late times of impact fail too.
+pub fn exact_failures(panel: &Panel, total: &Block) -> Vec<String> {
+    all_failures(panel, total, |_, block, tally| {
+        exact_failures_of(block, tally)
+    })
+}
+
+fn all_failures(
+    panel: &Panel,
+    total: &Block,
+    failures: impl Fn(&Judged, &Block, &Tally) -> Vec<String>,
+) -> Vec<String> {
     let subjects = panel.subjects.iter().zip(&total.tallies);
     let lines = subjects.filter_map(|(judged, tally)| {
-        let failures = failures_of(judged, total, tally);
+        let failures = failures(judged, total, tally);
         let name = judged.subject.name();
         (!failures.is_empty()).then(|| format!("{name}: {}", failures.join(", ")))
     });
     lines.chain(disagreements(panel, total)).collect()
 }
 
-/// What a subject fails by, of all that was found; none if it passes.
+/// What a subject fails by, of all that was found, within its tolerance; none if it passes.
 pub fn failures_of(judged: &Judged, block: &Block, tally: &Tally) -> Vec<String> {
-    let faults = faults(judged, tally);
+    let faults = faults(judged.subject.tolerance(), tally);
+    faults.chain(refusals(block, tally)).collect()
+}
+
+/// What a subject without any tolerance fails by.
+pub fn exact_failures_of(block: &Block, tally: &Tally) -> Vec<String> {
+    let faults = faults(Tolerance::NONE, tally);
     faults.chain(refusals(block, tally)).collect()
 }
 
@@ -63,26 +85,50 @@ fn refusals(total: &Block, tally: &Tally) -> impl Iterator<Item = String> {
     of_taken.into_iter().chain(none).chain(surplus)
 }
 
-fn faults<'a>(judged: &Judged, tally: &'a Tally) -> impl Iterator<Item = String> + use<'a> {
-    let declared = judged.subject.declared_distance();
-    let permitted = judged.permitted;
-    let counted = [
-        (Fault::Tunnel, "tunnels"),
-        (Fault::JointTunnel, "joint tunnels"),
-        (Fault::MissedGraze, "missed grazes"),
-        (Fault::FalseHit, "false hits"),
-        (Fault::NoAnswer, "queries without answer"),
-        (Fault::NearHit, "near hits beyond what is permitted"),
-        (Fault::Late, "late times of impact beyond what is permitted"),
-        (Fault::Differs, "answers that differ from the exact one"),
-    ];
-    let passes = move |fault: Fault| match fault {
-        Fault::NearHit => declared <= permitted.distance,
-        Fault::Late => tally.worst(Fault::Late) <= permitted.late,
-        _ => false,
-    };
-    counted
+/// What a subject would fail by without its tolerance, and does not with it.
+pub fn tolerated(judged: &Judged, tally: &Tally) -> Vec<String> {
+    let tolerance = judged.subject.tolerance();
+    let faults = failing(Tolerance::NONE, tally).filter(|&fault| !fails(tolerance, tally, fault));
+    faults
+        .map(|fault| counted(Tolerance::NONE, tally, fault))
+        .collect()
+}
+
+fn faults(tolerance: Tolerance, tally: &Tally) -> impl Iterator<Item = String> {
+    failing(tolerance, tally).map(move |fault| counted(tolerance, tally, fault))
+}
+
+fn failing(tolerance: Tolerance, tally: &Tally) -> impl Iterator<Item = Fault> {
+    Fault::ALL
         .into_iter()
-        .filter(move |(fault, _)| tally.count(*fault) > 0 && !passes(*fault))
-        .map(|(fault, words)| format!("{} {words}", grouped(tally.count(fault))))
+        .filter(move |&fault| fails(tolerance, tally, fault))
+}
+
+/// Whether there is such a fault, and it counts.
+fn fails(tolerance: Tolerance, tally: &Tally, fault: Fault) -> bool {
+    let counts = match fault {
+        // A hit is near, not false, by the tolerance of whoever reports it.
+        Fault::NearHit => tolerance.near == 0.0,
+        Fault::Late => tally.worst(Fault::Late) > tolerance.late,
+        Fault::Early | Fault::WrongCase => false,
+        _ => true,
+    };
+    counts && tally.count(fault) > 0
+}
+
+fn counted(tolerance: Tolerance, tally: &Tally, fault: Fault) -> String {
+    let words = match fault {
+        Fault::Tunnel => "tunnels",
+        Fault::JointTunnel => "joint tunnels",
+        Fault::MissedGraze => "missed grazes",
+        Fault::FalseHit => "false hits",
+        Fault::NoAnswer => "queries without answer",
+        Fault::NearHit => "near hits",
+        Fault::Late if tolerance.late > 0.0 => "late times of impact beyond its tolerance",
+        Fault::Late => "late times of impact",
+        Fault::Early => "early times of impact",
+        Fault::WrongCase => "wrong cases",
+        Fault::Differs => "answers that differ from the exact one",
+    };
+    format!("{} {words}", grouped(tally.count(fault)))
 }

@@ -1,7 +1,12 @@
 //! The result of certification as text.
 
+use std::iter;
+
+use tunnelproof::narrow::Tolerance;
+
 use super::block::Block;
 use super::findings::Findings;
+use super::judged::Judged;
 use super::run::Panel;
 use super::strict;
 use super::tally::{Explained, Fault, Finding, Tally, Witness};
@@ -189,24 +194,52 @@ pub fn agreement(panel: &Panel, total: &Block) -> String {
     lines.join("\n")
 }
 
-/// Who passes and who fails, as `--strict` counts it.
+/// Who passes and who fails, as `--strict` counts it; where that depends on a tolerance, also
+/// without it.
 pub fn verdicts(panel: &Panel, total: &Block) -> String {
     let width = name_width(panel);
     let mut lines = vec!["Verdict:".to_owned()];
     for (judged, tally) in panel.subjects.iter().zip(&total.tallies) {
-        let failures = strict::failures_of(judged, total, tally);
-        let mut name = cut(judged.subject.name());
-        if failures.is_empty() {
-            lines.push(format!("  {name:<width$}passes"));
-        }
-        // A line for each thing that it fails by.
-        for failure in failures {
-            lines.push(format!("  {name:<width$}fails: {failure}"));
-            name.clear();
-        }
+        let name = cut(judged.subject.name());
+        let names = iter::once(name.as_str()).chain(iter::repeat(""));
+        let words = verdict(judged, total, tally);
+        lines.extend(
+            names
+                .zip(words)
+                .map(|(name, words)| format!("  {name:<width$}{words}")),
+        );
     }
     lines.push(String::new());
     lines.join("\n")
+}
+
+/// That a subject passes, or a line for each thing that it fails by, with and without its tolerance.
+fn verdict(judged: &Judged, total: &Block, tally: &Tally) -> Vec<String> {
+    let failures = strict::failures_of(judged, total, tally);
+    let tolerated = strict::tolerated(judged, tally);
+    let tolerance = tolerance(judged.subject.tolerance());
+    let first = match (failures.is_empty(), tolerated.is_empty()) {
+        (true, true) => Some("passes".to_owned()),
+        (true, false) => Some(format!("passes with its tolerance, {tolerance}")),
+        (false, _) => None,
+    };
+    let without = match first {
+        Some(_) => "without it fails: ".to_owned(),
+        None => format!("without its tolerance, {tolerance}, fails: "),
+    };
+    let failures = failures.iter().map(|what| format!("fails: {what}"));
+    let tolerated = tolerated.iter().map(|what| format!("{without}{what}"));
+    first.into_iter().chain(failures).chain(tolerated).collect()
+}
+
+/// As `--permit` takes it.
+pub fn tolerance(Tolerance { near, late }: Tolerance) -> String {
+    let parts = [("near", near), ("late", late)].into_iter();
+    let parts = parts.filter(|(_, value)| *value > 0.0);
+    let parts: Vec<_> = parts
+        .map(|(name, value)| format!("{name}={value:e}"))
+        .collect();
+    parts.join(",")
 }
 
 /// In which ways a subject gives no answer, and how often.

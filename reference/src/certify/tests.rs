@@ -3,15 +3,14 @@
 use std::io::Write as _;
 
 use tunnelproof::contact::{Case, Contact, ContactPoint, Flags, Verdict as Claim};
-use tunnelproof::narrow::{Report, Unsupported};
+use tunnelproof::narrow::{Report, Tolerance, Unsupported};
 use tunnelproof::query::{Point, Query};
 
 use super::block::Block;
 use super::judged::Judged;
-use super::permitted::permitted;
 use super::run::Panel;
 use super::source::Source;
-use super::strict::failures;
+use super::strict::{exact_failures, failures};
 use super::table;
 use super::tally::{Fault, Tally};
 use crate::answer::{Enclosure, ExactAnswer};
@@ -43,7 +42,7 @@ fn queries() -> impl Iterator<Item = (Query, ExactAnswer)> {
 /// An engine that knows the exact answer and tells something else.
 struct Liar<L> {
     lie: L,
-    declared: f64,
+    near: f64,
 }
 
 impl<L: Fn(&Query, ExactAnswer) -> Result<Report, Unsupported> + Sync> Subject for Liar<L> {
@@ -55,8 +54,11 @@ impl<L: Fn(&Query, ExactAnswer) -> Result<Report, Unsupported> + Sync> Subject f
         Ok(Answer::Engine((self.lie)(query, decide_query(query))?))
     }
 
-    fn declared_distance(&self) -> f64 {
-        self.declared
+    fn tolerance(&self) -> Tolerance {
+        Tolerance {
+            near: self.near,
+            late: 0.0,
+        }
     }
 }
 
@@ -101,7 +103,6 @@ fn panel(subject: &dyn Subject) -> Panel<'_> {
         subjects: vec![Judged {
             subject,
             explain: None,
-            permitted: permitted(subject.name()),
         }],
     }
 }
@@ -109,7 +110,7 @@ fn panel(subject: &dyn Subject) -> Panel<'_> {
 fn judged(
     lie: impl Fn(&Query, ExactAnswer) -> Result<Report, Unsupported> + Sync,
 ) -> (Tally, Vec<String>) {
-    let liar = Liar { lie, declared: 0.0 };
+    let liar = Liar { lie, near: 0.0 };
     let mut block = run(&liar);
     let failures = failures(&panel(&liar), &block);
     (block.tallies.remove(0), failures)
@@ -183,7 +184,7 @@ fn certify_invented_hits_are_false_hits_with_their_gap() {
     let declared = 1.0;
     let declaring = Liar {
         lie: invent,
-        declared,
+        near: declared,
     };
     let block = run(&declaring);
     let near = gaps.iter().filter(|gap| **gap < declared).count() as u64;
@@ -196,7 +197,7 @@ fn certify_invented_hits_are_false_hits_with_their_gap() {
 }
 
 #[test]
-fn certify_near_hits_pass_only_if_they_are_permitted() {
+fn certify_near_hits_pass_within_the_tolerance_alone() {
     let invent = |_: &Query, truth: ExactAnswer| {
         Ok(Report {
             verdict: claim(truth.hit.map_or(0.5, |hit| hit.toi.below)),
@@ -205,15 +206,20 @@ fn certify_near_hits_pass_only_if_they_are_permitted() {
     };
     let liar = Liar {
         lie: invent,
-        declared: 1e9,
+        near: 1e9,
     };
     let block = run(&liar);
     assert_eq!(block.tallies[0].count(Fault::FalseHit), 0);
-    let failures = failures(&panel(&liar), &block);
+    assert_eq!(failures(&panel(&liar), &block), [""; 0]);
+    let exact = exact_failures(&panel(&liar), &block);
+    assert!(exact[0].ends_with(" near hits"), "{exact:?}");
+    let verdicts = table::verdicts(&panel(&liar), &block);
+    let lines: Vec<_> = verdicts.lines().collect();
     assert!(
-        failures[0].ends_with("near hits beyond what is permitted"),
-        "{failures:?}"
+        lines[1].ends_with("passes with its tolerance, near=1e9"),
+        "{verdicts}"
     );
+    assert!(lines[2].contains("  without it fails: "), "{verdicts}");
 }
 
 #[test]
@@ -416,7 +422,7 @@ fn run_joint(drops: impl Fn(&Query) -> bool + Sync) -> (Block, Vec<String>) {
             }
             Ok(report)
         },
-        declared: 0.0,
+        near: 0.0,
     };
     let panel = panel(&liar);
     let block = panel.run(&joint(), |_| {}).unwrap();
@@ -482,7 +488,7 @@ fn certify_says_who_misses_joints_where_there_are_any() {
     let (block, _) = run_joint(is_chosen_wire);
     let liar = Liar {
         lie: |_: &Query, truth| Ok(honest(truth)),
-        declared: 0.0,
+        near: 0.0,
     };
     let panel = panel(&liar);
     let count = block.tallies[0].count(Fault::JointTunnel);

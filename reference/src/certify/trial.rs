@@ -10,11 +10,10 @@ use crate::subject::{Engine, Subject};
 
 use super::findings::{Findings, Settings};
 use super::judged::Judged;
-use super::permitted::Permitted;
 use super::run::{Panel, RunError};
 use super::shard::Shard;
 use super::source::Source;
-use super::strict::failures;
+use super::strict::{exact_failures, failures};
 use super::table;
 
 /// Judges an engine against the exact answer: a thousand queries of seed 1 of every family of edges
@@ -52,8 +51,11 @@ pub struct Trial<N> {
 /// What came of a trial.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    /// What the engine fails by; empty if it passes. [`failures`] says what fails.
+    /// What the engine fails by within its [tolerance](NarrowPhase::tolerance); empty if it passes.
+    /// [`failures`] says what fails.
     pub failures: Vec<String>,
+    /// What it would fail by without a tolerance.
+    pub exact_failures: Vec<String>,
     /// What was found, as `certify` prints it, with the worst witness of each kind.
     pub text: String,
 }
@@ -103,7 +105,6 @@ impl<N: NarrowPhase> Trial<N> {
             subjects: vec![Judged {
                 subject: &subject,
                 explain: None,
-                permitted: Permitted::NOTHING,
             }],
         };
         let (seed, count) = (self.seed, self.count);
@@ -127,12 +128,13 @@ impl<N: NarrowPhase> Trial<N> {
             shard: Shard::WHOLE,
         };
         let findings = Findings::new(panel, settings, blocks, Vec::new());
-        let mut failures = failures(&findings.panel, &findings.total);
-        if findings.total.queries == 0 {
-            failures.push(format!("{}: no query is judged", subject.name()));
-        }
+        let none = (findings.total.queries == 0)
+            .then(|| format!("{}: no query is judged", subject.name()));
+        let failures = failures(&findings.panel, &findings.total);
+        let exact = exact_failures(&findings.panel, &findings.total);
         Ok(Outcome {
-            failures,
+            failures: failures.into_iter().chain(none.clone()).collect(),
+            exact_failures: exact.into_iter().chain(none).collect(),
             // The test is in a package of its own.
             text: table::text(&findings, table::INSTALLED),
         })
@@ -155,7 +157,7 @@ impl<N: NarrowPhase> Trial<N> {
 mod tests {
     use tunnelproof::additive::Additive;
     use tunnelproof::certified::{Certified, decide};
-    use tunnelproof::narrow::{Report, Unsupported};
+    use tunnelproof::narrow::{Report, Tolerance, Unsupported};
     use tunnelproof::query::EdgeEdge;
 
     use super::*;
@@ -205,8 +207,8 @@ mod tests {
     }
 
     #[test]
-    fn trial_permits_nothing_to_an_engine_of_a_known_name() {
-        struct Late;
+    fn trial_permits_what_an_engine_declares() {
+        struct Late(f64);
         impl NarrowPhase for Late {
             fn name(&self) -> &str {
                 "thesis"
@@ -215,9 +217,19 @@ mod tests {
                 let toi = decide(query).map(|hit| (hit.toi + 1e-10).min(1.0));
                 Ok(toi.map_or(Report::miss(), Report::hit))
             }
+            fn tolerance(&self) -> Tolerance {
+                let late = self.0;
+                Tolerance { near: 0.0, late }
+            }
         }
-        let failures = certify(Late).families(["uniform"]).run().unwrap().failures;
-        assert!(failures[0].contains("late times of impact"), "{failures:?}");
+        let outcome = |late| certify(Late(late)).families(["uniform"]).run().unwrap();
+        for late in [0.0, 0.99e-10] {
+            let failures = outcome(late).failures;
+            assert!(failures[0].contains("late times of impact"), "{failures:?}");
+        }
+        let within = outcome(1.01e-10);
+        assert_eq!(within.failures, [""; 0]);
+        assert_eq!(within.exact_failures, outcome(0.0).failures);
     }
 
     #[test]

@@ -16,6 +16,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use tunnelproof::narrow::Tolerance;
 use tunnelproof::query::Query;
 
 use crate::subject::{Answer, Lapse, LapseKind, NoAnswer, Subject};
@@ -59,6 +60,8 @@ pub struct Command {
     pub wire: Wire,
     /// How long it may take for an answer.
     pub time_limit: Duration,
+    /// How far off its answers are declared to be.
+    pub tolerance: Tolerance,
 }
 
 /// What a program did besides answering.
@@ -83,7 +86,7 @@ pub enum CommandError {
 
 impl Command {
     /// The command of this text, split into words as a POSIX shell splits them; nothing else of a
-    /// shell.
+    /// shell. Without a tolerance.
     ///
     /// # Errors
     ///
@@ -96,6 +99,7 @@ impl Command {
                 words,
                 wire,
                 time_limit,
+                tolerance: Tolerance::NONE,
             }),
         }
     }
@@ -212,6 +216,10 @@ impl Subject for Program {
             answers.extend(self.some_answers(&queries[answers.len()..]));
         }
         answers
+    }
+
+    fn tolerance(&self) -> Tolerance {
+        self.command.tolerance
     }
 }
 

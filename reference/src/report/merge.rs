@@ -2,13 +2,12 @@
 
 use std::io::Cursor;
 
-use tunnelproof::narrow::Unsupported;
+use tunnelproof::narrow::{Tolerance, Unsupported};
 use tunnelproof::query::{Query, QueryKind};
 
 use crate::certify::block::{Agreement, Block};
 use crate::certify::findings::{Findings, Settings};
 use crate::certify::judged::Judged;
-use crate::certify::permitted::permitted;
 use crate::certify::run::Panel;
 use crate::certify::shard::Shard;
 use crate::certify::tally::{Explained, Fault, Finding, Sort, Statement, Tally, Witness};
@@ -33,7 +32,7 @@ pub struct Kept {
 /// A subject of which only results are left: it answers nothing.
 struct Absent {
     name: String,
-    declared_distance: f64,
+    tolerance: Tolerance,
 }
 
 /// Results that cannot be read, or are not of one certification.
@@ -94,10 +93,6 @@ impl Kept {
     ///
     /// [`MergeError`] if a value in it has no meaning.
     pub fn new(results: &Results) -> Result<Self, MergeError> {
-        let subjects = results
-            .sources
-            .first()
-            .map_or(&[][..], |source| &source.subjects);
         let judges = results.second_judges.iter();
         let programs = results.programs.iter().map(|row| {
             let conduct = Conduct {
@@ -108,16 +103,19 @@ impl Kept {
             (row.subject.clone(), conduct)
         });
         Ok(Kept {
-            subjects: (subjects.iter())
+            subjects: (results.tolerances.iter())
                 .map(|row| Absent {
                     name: row.subject.clone(),
-                    declared_distance: row.declared_distance,
+                    tolerance: Tolerance {
+                        near: row.near,
+                        late: row.late,
+                    },
                 })
                 .collect(),
             second_judges: judges
                 .map(|name| Absent {
                     name: name.clone(),
-                    declared_distance: 0.0,
+                    tolerance: Tolerance::NONE,
                 })
                 .collect(),
             settings: Settings {
@@ -199,7 +197,6 @@ impl Kept {
                 .map(|subject| Judged {
                     subject,
                     explain: None,
-                    permitted: permitted(subject.name()),
                 })
                 .collect(),
         };
@@ -251,8 +248,8 @@ impl Subject for Absent {
         Err(Unsupported::Kind(query.kind()).into())
     }
 
-    fn declared_distance(&self) -> f64 {
-        self.declared_distance
+    fn tolerance(&self) -> Tolerance {
+        self.tolerance
     }
 }
 

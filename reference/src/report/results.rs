@@ -7,10 +7,11 @@
 //! | `seed`, `count` | of the families |
 //! | `shard` | which part of the queries this is, `1/1` for all |
 //! | `second_judges` | the first of them that takes a query has to agree with the oracle |
-//! | `permitted` | the tolerances that `failures` goes by |
+//! | `tolerances` | what each subject declares of itself: `near` in metres and `late`, without unit |
 //! | `sources` | what was found on each source, in the order of the table |
 //! | `total` | the same over all of them |
-//! | `failures` | what fails; empty if everything passes |
+//! | `failures` | what fails, each subject within its tolerance; empty if everything passes |
+//! | `exact_failures` | what fails if none has a tolerance |
 //! | `programs` | of subjects that are programs: `subject`, `starts` (how often it was started), `surplus` (answers at the end that nobody asked for), the end of its `stderr` |
 //!
 //! `reference/schema/certificate.json` is its JSON schema.
@@ -19,7 +20,7 @@
 //! `crossings`, `joints` (pairs of consecutive segments of a wire that is passed), `labels`, the
 //! findings `wrong_labels`, `agreements` (oracle against each second judge, by its name: how many
 //! `queries` it was asked, and the finding `disagreements`), and `subjects`. A subject has
-//! `subject`, `declared_distance`, `taken` and `refused` (sorts of queries: `kind`, `has_radius`,
+//! `subject`, `taken` and `refused` (sorts of queries: `kind`, `has_radius`,
 //! of those refused how many `queries`), `hits` (that it reports), `lapses` (in which ways it gives
 //! no answer, and how often), `faults`, a finding by name, and `errata`, by the erratum that
 //! explains an answer two findings, `alone` and `with_others`. A finding has `count` and `worst`,
@@ -39,15 +40,15 @@ use serde_json::{Value, json};
 use crate::certify::block::Block;
 use crate::certify::findings::Findings;
 use crate::certify::judged::Judged;
-use crate::certify::permitted::{PERMITTED, Permitted};
 use crate::certify::run::Panel;
-use crate::certify::strict::failures;
+use crate::certify::strict::{exact_failures, failures};
 use crate::certify::table::command;
 use crate::certify::tally::{Explained, Fault, Finding, Sort, Statement, Tally, Witness};
 use crate::corpus::jsonl::{self, Numbers};
 use crate::field::{self, Integer};
 
 use super::answer::Fields;
+use tunnelproof::narrow::Tolerance;
 use tunnelproof::query::QueryKind;
 
 /// The result of certification.
@@ -60,10 +61,11 @@ pub struct Results {
     pub(super) count: u64,
     pub(super) shard: String,
     pub(super) second_judges: Vec<String>,
-    permitted: Vec<PermittedRow>,
+    pub(super) tolerances: Vec<ToleranceRow>,
     pub(super) sources: Vec<SourceRow>,
     total: SourceRow,
     failures: Vec<String>,
+    exact_failures: Vec<String>,
     pub(super) programs: Vec<ProgramRow>,
 }
 
@@ -76,11 +78,10 @@ pub(super) struct ProgramRow {
 }
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
-struct PermittedRow {
-    subject: String,
-    distance: f64,
-    late: f64,
-    source: String,
+pub(super) struct ToleranceRow {
+    pub(super) subject: String,
+    pub(super) near: f64,
+    pub(super) late: f64,
 }
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -106,7 +107,6 @@ pub(super) struct AgreementRow {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct SubjectRow {
     pub(super) subject: String,
-    pub(super) declared_distance: f64,
     pub(super) taken: Vec<SortRow>,
     pub(super) refused: Vec<RefusedRow>,
     pub(super) hits: u64,
@@ -192,10 +192,11 @@ impl Results {
             count: settings.count,
             shard: settings.shard.to_string(),
             second_judges: judges.map(|judge| judge.name().to_owned()).collect(),
-            permitted: PERMITTED.iter().map(PermittedRow::from).collect(),
+            tolerances: panel.subjects.iter().map(ToleranceRow::from).collect(),
             sources: blocks.iter().map(|block| source(panel, block)).collect(),
             total: source(panel, total),
             failures: failures(panel, total),
+            exact_failures: exact_failures(panel, total),
             programs: programs.collect(),
         }
     }
@@ -252,7 +253,6 @@ fn subject(judged: &Judged, tally: &Tally) -> SubjectRow {
     let errata = tally.errata.iter();
     SubjectRow {
         subject: judged.subject.name().to_owned(),
-        declared_distance: judged.subject.declared_distance(),
         taken: tally.taken.iter().map(SortRow::from).collect(),
         refused: refused.collect(),
         hits: tally.hits,
@@ -286,13 +286,13 @@ impl From<&Sort> for SortRow {
     }
 }
 
-impl From<&Permitted> for PermittedRow {
-    fn from(permitted: &Permitted) -> Self {
-        PermittedRow {
-            subject: permitted.subject.to_owned(),
-            distance: permitted.distance,
-            late: permitted.late,
-            source: permitted.source.to_owned(),
+impl From<&Judged<'_>> for ToleranceRow {
+    fn from(judged: &Judged) -> Self {
+        let Tolerance { near, late } = judged.subject.tolerance();
+        ToleranceRow {
+            subject: judged.subject.name().to_owned(),
+            near,
+            late,
         }
     }
 }

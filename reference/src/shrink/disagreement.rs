@@ -6,7 +6,6 @@ use tunnelproof::query::Query;
 use super::{Shrunk, shrink};
 use crate::answer::ExactAnswer;
 use crate::certify::judged::Judged;
-use crate::certify::permitted::permitted;
 use crate::certify::tally::Fault;
 use crate::oracle::decide_query;
 use crate::subject::Subject;
@@ -31,8 +30,8 @@ impl<'a> Disagreement<'a> {
     }
 
     /// What the subject gets wrong, the worst of all that it does, in the order of [`Fault::ALL`];
-    /// `None` if it is right. Times of impact that are off by no more than is permitted do not
-    /// count.
+    /// `None` if it is right. Times of impact that are off by no more than its tolerance do
+    /// not count.
     ///
     /// # Errors
     ///
@@ -42,11 +41,10 @@ impl<'a> Disagreement<'a> {
         let judged = Judged {
             subject: self.subject,
             explain: None,
-            permitted: permitted(self.subject.name()),
         };
-        let permitted = judged.permitted.late;
+        let late = self.subject.tolerance().late;
         let counts = |&(fault, severity): &(Fault, f64)| match fault {
-            Fault::Late | Fault::Early => severity > permitted,
+            Fault::Late | Fault::Early => severity > late,
             _ => true,
         };
         let faults = judged.judge(query, &truth).faults;

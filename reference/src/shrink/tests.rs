@@ -1,5 +1,5 @@
 use tunnelproof::contact::{Case, Verdict};
-use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
+use tunnelproof::narrow::{NarrowPhase, Report, Tolerance, Unsupported};
 use tunnelproof::query::EdgeEdge;
 use tunnelproof::query::{Point, QueryKind};
 use tunnelproof::thesis::{Options, Thesis, Thresholds};
@@ -63,9 +63,13 @@ fn assert_few_small_integers(shrunk: &Shrunk, largest: f64, most: usize) {
 struct Faulty<F>(F);
 
 impl<F: Fn(Report) -> Report + Sync> NarrowPhase for Faulty<F> {
-    /// That of the path that is permitted to round.
     fn name(&self) -> &str {
-        "thesis"
+        "faulty"
+    }
+
+    /// That of the path which is right but for rounding.
+    fn tolerance(&self) -> Tolerance {
+        Thesis::default().tolerance()
     }
 
     fn edge_edge(&self, query: &EdgeEdge) -> Result<Report, Unsupported> {

@@ -179,13 +179,13 @@ fn settings(findings: &Findings) -> Markup {
             @if !settings.shard.is_whole() { " This is shard " (settings.shard) " of the queries." }
         }
         .table { table {
-            tr { th { "subject" } th { "permitted distance, m" } th { "permitted late" } }
+            tr { th { "subject" } th { "tolerance: near, m" } th { "late" } }
             @for judged in &findings.panel.subjects {
-                @let permitted = judged.permitted;
+                @let tolerance = judged.subject.tolerance();
                 tr {
                     td { (judged.subject.name()) }
-                    td { (short(permitted.distance)) }
-                    td { (short(permitted.late)) }
+                    td { (short(tolerance.near)) }
+                    td { (short(tolerance.late)) }
                 }
             }
         } }
