@@ -37,6 +37,22 @@ def test_faults_are_found_and_named():
     assert any("false hits" in failure for failure in certificate.failures)
 
 
+def test_a_tolerance_is_declared_and_both_verdicts_are_there():
+    def late(kind, points, radii):
+        hit, toi = certified(kind, points, radii)
+        return hit, np.minimum(toi + 1e-10, 1.0)
+
+    within = tunnelproof.certify(late, families=["uniform"], count=200, late=1.01e-10)
+    assert within.failures == []
+    assert "late times of impact" in within.exact_failures[0]
+    assert "passes with its tolerance, late=1.01e-10" in within.text
+    beyond = tunnelproof.certify(late, families=["uniform"], count=200, late=0.99e-10)
+    assert "beyond its tolerance" in beyond.failures[0]
+    for name in ("near", "late"):
+        with pytest.raises(ValueError, match=f"{name} is -1, not a number from 0"):
+            tunnelproof.certify(late, families=["uniform"], count=1, **{name: -1.0})
+
+
 def test_an_exception_is_counted_against_the_query_that_raises_it():
     def fragile(kind, points, radii):
         if (points[:, 0, 0] > 0.99).any():
