@@ -8,7 +8,6 @@ use tunnelproof::contact::Case;
 use tunnelproof::query::Query;
 use tunnelproof_reference::certify::block::Block;
 use tunnelproof_reference::certify::judged::Judged;
-use tunnelproof_reference::certify::permitted::permitted;
 use tunnelproof_reference::certify::run::Panel;
 use tunnelproof_reference::certify::source::Source;
 use tunnelproof_reference::certify::tally::Fault::{self, *};
@@ -83,7 +82,6 @@ fn certify(family: &str, subject: &str) -> Block {
         subjects: vec![Judged {
             subject: registry::by_name(subject).unwrap(),
             explain: None,
-            permitted: permitted(subject),
         }],
     };
     let source = Source::Family {

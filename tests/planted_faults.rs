@@ -6,7 +6,6 @@ use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
 use tunnelproof::query::EdgeEdge;
 use tunnelproof::thesis::{Options, Thesis, Thresholds};
 use tunnelproof_reference::certify::judged::Judged;
-use tunnelproof_reference::certify::permitted::Permitted;
 use tunnelproof_reference::certify::run::Panel;
 use tunnelproof_reference::certify::source::Source;
 use tunnelproof_reference::certify::tally::Fault;
@@ -33,7 +32,6 @@ fn counts<const N: usize>(engine: impl NarrowPhase, family: &str, faults: [Fault
     let judged = Judged {
         subject: &subject,
         explain: None,
-        permitted: Permitted::NOTHING,
     };
     let panel = Panel {
         second_judges: vec![&SECOND_JUDGE],
