@@ -45,9 +45,9 @@ impl<E: Ends> Motion<E> {
     /// Where the lines meet at the root in the bracket.
     ///
     /// Error bound: let `w` be half the width of the bracket, `t` its middle and `p` the vector of
-    /// the `k_i l_j + k_j l_i` of larger magnitudes. A component of `K(t)` is within `4 u k_i` of
-    /// the exact one (rounded difference, `1 - t`, a product, a sum), so one of `N(t)` is within
-    /// `2 * 4 u p + 2 u p` of the exact one; moving to the root changes each component of `K` by at
+    /// the `k_i l_j + k_j l_i` of larger magnitudes. A component of `K(t)` is within `4.1 u k_i`
+    /// of the exact one (rounded difference, `1 - t`, a product, a sum), so one of `N(t)` is within
+    /// `2 * 4.1 u p + 2 u p` of the exact one; moving to the root changes each component of `K` by at
     /// most `2 k_i w`, so of `N` by at most `4 w p (1 + w)`. The product with `N` adds `3.1 u` of
     /// the sum of the `|N_i| p_i`. Below, `(20 u + 5 w)` times that sum, for `w < 1/8`, checked by
     /// whoever reads the result; its computation has a relative error below `9 u`.

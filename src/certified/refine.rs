@@ -27,7 +27,7 @@ pub(super) struct Root {
 ///
 /// Error bound, with `h = 2^-106` and `k` the larger magnitude at both ends of the step: the
 /// differences at the ends are exact, their difference is within `16 h k`, the product with the
-/// time within `8 h 2 k` more, the sum within `24 h k` more (bounds at the operations): `56 h k`.
+/// time within `8 h 2 k` more, the sum within `24 h k` more (bounds at the operations): `56.1 h k`.
 #[inline(always)]
 fn difference<E: Ends>(from: [E; 2], to: [E; 2], time: Double<f64>) -> Double<E> {
     let ([from_start, from_end], [to_start, to_end]) =
@@ -41,14 +41,14 @@ fn difference<E: Ends>(from: [E; 2], to: [E; 2], time: Double<f64>) -> Double<E>
 
 /// `f` at a time, two numbers at a time.
 ///
-/// Error bound: a minor of two components is within `(8 + 2 * 56 + 8) h p_ij` of the exact one, a
-/// term of the determinant within `(8 + 56 + 128) h`, and the two last sums add `16 h`: `208 h P`,
+/// Error bound: a minor of two components is within `(8 + 2 * 56.1 + 8) h p_ij` of the exact one, a
+/// term of the determinant within `(8 + 57 + 129) h`, and the two last sums add `16 h`: `210 h P`,
 /// with `P` the permanent of [`Cubic`]. Below, `256 h P`. The rounding to `f64` is relative.
 ///
 /// Underflow: all factors are below `2^180`. A product of two double-doubles takes six products in
 /// `f64`, each off by at most `2^-1075`: below `2^-1072`. The one with the time adds that to a
 /// component, which is then multiplied by two others: with those of the minors and of the
-/// determinant, below `18 * 2^-712`. As `P` is above `2^-600`, `48 h P` is more.
+/// determinant, below `18 * 2^-712`. As `P` is above `2^-600`, `40 h P` is more.
 fn evaluate(positions: &Positions, time: Double<f64>) -> f64 {
     let [a, b, c, d] = positions.points::<f64x2>();
     // K and L of an axis; M of two axes.

@@ -175,8 +175,8 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     Mutant {
         culprit: Culprit::Step,
         file: "src/certified/step.rs",
-        text: "first_contact::<K>(&stored, kept).is_none()",
-        replacement: "first_contact::<K>(&stored, Radius::ZERO).is_none()",
+        text: "first_toi::<K>(&stored, kept).is_none()",
+        replacement: "first_toi::<K>(&stored, Radius::ZERO).is_none()",
         fault: "stored motions are decided without the radius",
     },
     Mutant {

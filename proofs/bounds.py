@@ -1,0 +1,743 @@
+"""The bounds: which functions of the sources are run on what, and what has to come out."""
+
+import re
+from fractions import Fraction
+
+from prove import Claim, Refused, polynomial, product, scaled, total
+from rounded import H, U, Context, Double, F, Pair, runs
+from rust import Interpreter, Record, Sources
+
+HERE = "src/certified/"
+AXES = "xyz"
+LARGE = Fraction(2) ** 180
+
+
+def one(names):
+    """A polynomial of a single product."""
+    return polynomial((1, *names))
+
+
+def own(name):
+    return {(name,): Fraction(1)}
+
+
+class Engine:
+    """The sources, and how their functions are run."""
+
+    TYPES = {
+        "Motion": ["motion", "separate", "locate"],
+        "Cubic": ["cubic", "root"],
+        "Part": ["root"],
+        "SweptBoxes": ["separate"],
+        "Meeting": ["locate"],
+        "RawWeights": ["face/place"],
+        "Root": ["refine"],
+        "Moving": ["thick/advance", "thick/nearness", "thick/turning", "thick/mod"],
+        "Instant": ["thick/instant"],
+        "Edges": ["discrete"],
+        "EdgeEdge": ["edges"],
+        "VertexFace": ["face/mod"],
+        "Step": ["normal/bounded"],
+        "Bounded": ["normal/bounded"],
+    }
+
+    def __init__(self, root):
+        self.sources = Sources(root)
+        self.types = {name: [f"{HERE}{file}.rs" for file in files] for name, files in self.TYPES.items()}
+
+    def interpreter(self, context, **more):
+        exactly = lambda x: Double(x)
+        builtins = {
+            "if": lambda condition, go: context.choose([True, False]),
+            "f64::abs": lambda x: x.abs() if isinstance(x, F) else x,
+            "E::swapped": Pair.swapped,
+            "E::both": lambda x: Pair(x, x),
+            "E::new": Pair,
+            "f64x2::both": lambda x: Pair(x, x),
+            "Double::both": lambda x: Double(Pair(x.exact, x.exact)),
+            "f64::EPSILON": 2.0**-52,
+            "f64::INFINITY": float("inf"),
+            "f64::from_bits": from_bits,
+            "larger": lambda x, y: x.larger(y),
+            "smaller": lambda x, y: x.smaller(y),
+            "structure Double": lambda fields: exactly(fields["high"]),
+        }
+        builtins.update(more)
+        methods = {
+            "map": lambda values, f: [f(x) for x in values],
+            "each_ref": lambda values: values,
+            "iter": lambda values: values,
+            "then_some": lambda _, value: value,
+            "sum": lambda value: value.sum() if isinstance(value, Pair) else summed(value),
+        }
+        return Interpreter(self.sources, builtins, methods, self.types)
+
+    def constant(self, file, name):
+        return Fraction(self.interpreter(Context()).constant(f"{HERE}{file}.rs", name))
+
+    def said(self, file, pattern):
+        """A number that a comment states."""
+        text = re.sub(r"\s*\n\s*///?\s*", " ", self.sources.file(f"{HERE}{file}.rs").text)
+        found = set(re.findall(pattern, text))
+        if len(found) != 1:
+            raise Refused(f"{file}.rs says {pattern} as {sorted(found)}")
+        return Fraction(found.pop())
+
+
+def from_bits(bits):
+    import struct
+
+    return struct.unpack("<d", struct.pack("<Q", int(bits)))[0]
+
+
+def summed(values):
+    result = values[0]
+    for value in values[1:]:
+        result = result + value
+    return result
+
+
+def differences(context, name):
+    """A rounded difference at both ends of the step, on each axis."""
+    return [Pair(*(F.exactly(context, f"{name}{end}{axis}").rounded() for end in "01")) for axis in AXES]
+
+
+def reach_name(name):
+    """`k0x` reaches `Kx`."""
+    return name[0].upper() + name[2]
+
+
+def sizes_of_ends(name):
+    return own(reach_name(name)) if re.fullmatch(r"[klm][01][xyz]", name) else None
+
+
+def cross(x, y):
+    """The exact cross product of vectors of polynomials."""
+    minor = lambda i, j: total(product(x[i], y[j]), scaled(-1, product(x[j], y[i])))
+    return [minor(1, 2), minor(2, 0), minor(0, 1)]
+
+
+def dot(x, y):
+    return total(*(product(a, b) for a, b in zip(x, y)))
+
+
+def ends(name, end):
+    return [own(f"{name}{end}{axis}") for axis in AXES]
+
+
+# Separation
+
+
+def separated(engine, claim, file, of, options):
+    """A direction separates: the margin against the error bound of the boxes."""
+
+    def body(context):
+        interpreter = engine.interpreter(context)
+        motion = Record("Motion", **{name: differences(context, name) for name in "klm"})
+        extent = [F.exactly(context, f"e{axis}").rounded() for axis in AXES]
+        boxes = Record("SweptBoxes", extent=extent)
+        d = [F.exactly(context, f"d{axis}") for axis in AXES]
+        if of:
+            interpreter.run(f"{HERE}{file}.rs", "is_separated_by", d, boxes, of=of, this=motion)
+        else:
+            interpreter.run(f"{HERE}{file}.rs", "is_separated_by", motion, d, boxes)
+        return context.compared
+
+    sizes = lambda name: own("e" + name[2]) if re.fullmatch(r"[klm][01][xyz]", name) else None
+    for context, compared in runs(body):
+        for end, (margin, bound) in enumerate(compared[:2]):
+            along = {name: dot(ends(name, end), [own(f"d{axis}") for axis in AXES]) for name in "klm"}
+            exact = same_as_one_of(margin, [total(*(scaled(f, along[n]) for n, f in option.items())) for option in options])
+            claim.needs(margin, exact, bound, sizes)
+
+
+def same_as_one_of(value, polynomials):
+    """That which the value is without roundings."""
+    found = {}
+    for (names, _), c in value.terms.items():
+        found[names] = found.get(names, 0) + c
+    found = {names: c for names, c in found.items() if c}
+    for candidate in polynomials:
+        if found == candidate:
+            return candidate
+    raise Refused("a value that is none of those that it should be")
+
+
+EDGE_MARGINS = [{"m": 1, **l, **k} for l in ({}, {"l": 1}) for k in ({}, {"k": -1})]
+FACE_MARGINS = [{"m": -1}, {"k": 1, "m": -1}, {"l": 1, "m": -1}]
+
+
+# The cubic
+
+
+def cubic_run(engine, context):
+    interpreter = engine.interpreter(context)
+    motion = Record("Motion", **{name: differences(context, name) for name in "klm"})
+    return interpreter, interpreter.run(f"{HERE}cubic.rs", "unchecked", motion)
+
+
+def exact_bernstein():
+    """`det(M_a, K_b, L_c)` at the ends, averaged as in the comment of the source."""
+    det = lambda a, b, c: dot(ends("m", a), cross(ends("k", b), ends("l", c)))
+    third = Fraction(1, 3)
+    return [
+        det(0, 0, 0),
+        scaled(third, total(det(1, 0, 0), det(0, 1, 0), det(0, 0, 1))),
+        scaled(third, total(det(1, 1, 0), det(1, 0, 1), det(0, 1, 1))),
+        det(1, 1, 1),
+    ]
+
+
+def bernstein(engine, claim, index):
+    context = Context(reaches=reach_name)
+    _, cubic = cubic_run(engine, context)
+    claim.needs(cubic.fields["bernstein"][index], exact_bernstein()[index], cubic.fields["error"], sizes_of_ends)
+
+
+def bernstein_underflow(engine, claim, index):
+    """Less than a 16th of the bound of the smallest permanent."""
+    context = Context(reaches=reach_name, underflows=True)
+    _, cubic = cubic_run(engine, context)
+    limit = 16 * U * engine.constant("cubic", "SMALLEST") / 16
+    claim.underflow(cubic.fields["bernstein"][index], lambda name: engine.constant("cubic", "LARGEST"), limit)
+
+
+def coefficients(context):
+    return [F.exactly(context, f"b{i}") for i in range(4)]
+
+
+def cubic_of(engine, context):
+    """A cubic with coefficients of which only their error is known."""
+    error = F.exactly(context, "error")
+    return Record("Cubic", bernstein=coefficients(context), error=error, permanent=F.exactly(context, "P"))
+
+
+def by_error(engine):
+    """Coefficients are at most the permanent, of which `error` is so many `u`, and the error more."""
+    context = Context(reaches=reach_name)
+    _, cubic = cubic_run(engine, context)
+    factors = {c for c in cubic.fields["error"].terms.values()}
+    factor = min(factors)
+    return lambda name: {("error",): (1 / factor) * (1 + 64 * U) * (1 + 64 * U)} if name[0] == "b" and name[1:].isdigit() else None
+
+
+def value(engine, claim, index, method):
+    context = Context()
+    cubic, interpreter = cubic_of(engine, context), engine.interpreter(context)
+    t = F.exactly(context, "t")
+    found = interpreter.run(f"{HERE}root.rs", "evaluate", t, of="Cubic", this=cubic)[index]
+    bound = interpreter.run(f"{HERE}root.rs", method, of="Cubic", this=cubic)
+    if index == 0:
+        exact = polynomial((1, "b0", "s", "s", "s"), (3, "b1", "s", "s", "t"), (3, "b2", "s", "t", "t"), (1, "b3", "t", "t", "t"))
+        spare = {("error",): Fraction(1)}
+    else:
+        slopes = [((3, f"b{i + 1}"), (-3, f"b{i}")) for i in range(3)]
+        weights = [(1, "s", "s"), (2, "s", "t"), (1, "t", "t")]
+        exact = total(*(polynomial((f * w[0], b, *w[1:])) for pair, w in zip(slopes, weights) for f, b in pair))
+        # Three times a difference of averages of coefficients.
+        spare = {("error",): Fraction(6)}
+    claim.needs(found, exact, bound, by_error(engine), needed=spare)
+
+
+def curvature(engine, claim):
+    """What is computed is not below the exact second derivative at either end."""
+
+    def body(context):
+        return engine.interpreter(context).run(f"{HERE}root.rs", "curvature", of="Cubic", this=cubic_of(engine, context))
+
+    ends_of = [polynomial((6, f"b{i}"), (-12, f"b{i + 1}"), (6, f"b{i + 2}")) for i in range(2)]
+    for context, found in runs(body):
+        bound = F(context, {key: c for key, c in found.terms.items() if "error" in key[0]})
+        computed = F(context, {key: c for key, c in found.terms.items() if "error" not in key[0]})
+        exact = same_as_one_of(computed, ends_of)
+        claim.needs(computed, exact, bound, by_error(engine), needed={("error",): Fraction(24)})
+
+
+def side(engine, claim):
+    """The side of a contact: the value's error, and how much it changes over `2 u`."""
+    context = Context()
+    cubic, interpreter = cubic_of(engine, context), engine.interpreter(context, **{"if": lambda condition, go: go(condition) and False})
+    interpreter.run(f"{HERE}thick/contact.rs", "side", cubic, F.exactly(context, "t"))
+    found, bound = context.compared[0]
+    exact = polynomial((1, "b0", "s", "s", "s"), (3, "b1", "s", "s", "t"), (3, "b2", "s", "t", "t"), (1, "b3", "t", "t", "t"))
+    size = by_error(engine)("b0")[("error",)]
+    claim.needs(found, exact, bound, by_error(engine), needed={("error",): 1 + 2 * U * 3 * 2 * size})
+
+
+def subdivision(engine, claim):
+    """One level of halving, of magnitude `B`."""
+    context = Context(half=U / (1 + U))
+    interpreter = engine.interpreter(context)
+    low, high = F.exactly(context, "low"), F.exactly(context, "high")
+    part = Record("Part", low=low, high=high, bernstein=coefficients(context), depth=0)
+    halves = interpreter.run(f"{HERE}root.rs", "halves", of="Part", this=part)
+    level = engine.said("root", r"each level of averages of magnitude B adds at most `(\d+) u B`")
+    limit = F(context, {(("B",), ()): level * U})
+    half = lambda i, j: scaled(Fraction(1, 2), polynomial((1, f"b{i}"), (1, f"b{j}")))
+    mean = lambda x, y: scaled(Fraction(1, 2), total(x, y))
+    c = [half(0, 1), half(1, 2), half(2, 3)]
+    d = [mean(c[0], c[1]), mean(c[1], c[2])]
+    middle = mean(d[0], d[1])
+    expected = [[own("b0"), c[0], d[0], middle], [middle, d[1], c[2], own("b3")]]
+    sizes = lambda name: own("B") if name[0] == "b" else None
+    for part, exact in zip(halves, expected):
+        for found, polynomial_of in zip(part.fields["bernstein"], exact):
+            if any(es for _, es in found.terms):
+                claim.needs(found, polynomial_of, limit, sizes)
+            elif {names: c for (names, _), c in found.terms.items()} != polynomial_of:
+                raise Refused("a coefficient that is not kept")
+
+
+def parts(engine, claim):
+    """All levels: the error that they start from and that of each, of a magnitude that grows with it."""
+    context = Context()
+    cubic = cubic_of(engine, context)
+    bound = engine.interpreter(context).run(f"{HERE}root.rs", "part_error", of="Cubic", this=cubic)
+    ((_, es), factor), = bound.terms.items()
+    depth = engine.constant("root", "MAX_DEPTH")
+    level = engine.said("root", r"each level of averages of magnitude B adds at most `(\d+) u B`")
+    size = by_error(engine)("b0")[("error",)]
+    each = level * U * size * (1 + depth * level * U) ** int(depth)
+    start = engine.said("cubic", r"so each coefficient is within `([\d.]+) u P` of the exact one") * U * size
+    claim.at_most(text(start + depth * each), " * ".join([text(factor)] + [f"(1 + {e})" for e in es]), context.sizes)
+
+
+def text(number):
+    from prove import text_of
+
+    return text_of(number)
+
+
+# Vectors at a time, and where the lines meet
+
+
+def at_time(engine, claim):
+    """A component at a time, from differences that are rounded."""
+    context = Context()
+    found = engine.interpreter(context).run(f"{HERE}locate.rs", "at", differences(context, "k"), F.exactly(context, "t"))
+    said = engine.said("locate", r"A component of `K\(t\)` is within `([\d.]+) u k_i` of the exact one")
+    for i, axis in enumerate(AXES):
+        exact = polynomial((1, f"k0{axis}", "s"), (1, f"k1{axis}", "t"))
+        claim.needs(found[i], exact, F(context, {((f"K{axis}",), ()): said * U}), sizes_of_ends)
+
+
+def at_time_underflow(engine, claim):
+    context = Context(underflows=True)
+    found = engine.interpreter(context).run(f"{HERE}locate.rs", "at", differences(context, "k"), F.exactly(context, "t"))
+    for component in found:
+        claim.underflow(component, lambda name: Fraction(1), Fraction(2) ** -1074 * (1 + 4 * U))
+
+
+class Located:
+    """Vectors at a computed time: exact ones at the root, what the way there changes, and what is rounded or underflows."""
+
+    def __init__(self, engine, said):
+        self.said = said
+
+    def vector(self, context, name):
+        def component(axis):
+            terms = {((f"{kind}{name}{axis}",), ()): Fraction(1) for kind in ("", "w", "r")}
+            if context.underflows:
+                terms[((f"n{context.count + 1}",), ())] = Fraction(2)
+                context.count += 1
+            return F(context, terms)
+
+        return [component(axis) for axis in AXES]
+
+    def sizes(self, name):
+        match = re.fullmatch(r"([wr]?)([klm])([xyz])", name)
+        if not match:
+            return None
+        kind, letter, axis = match.groups()
+        reach = letter.upper() + axis
+        return {"": own(reach), "w": polynomial((2, "W", reach)), "r": polynomial((self.said * U, reach))}[kind]
+
+    @staticmethod
+    def merge(names):
+        """`W` is at most an 8th."""
+        extra = max(names.count("W") - 1, 0)
+        rest = [name for name in names if name != "W"] + ["W"] * min(names.count("W"), 1)
+        return Fraction(1, 8**extra), tuple(sorted(rest))
+
+
+def exact_vectors():
+    return {name: [own(f"{name}{axis}") for axis in AXES] for name in "klm"}
+
+
+def meeting_run(engine, context, located):
+    """`Motion::meeting`, the computed normal taken as any vector `N`."""
+    vectors = {}
+
+    def motion_vector(name):
+        vectors[name] = located.vector(context, name)
+        return name
+
+    interpreter = engine.interpreter(context)
+    plain = engine.interpreter(context)
+    normals = []
+
+    def cross_of(x, y):
+        found = plain.run(f"{HERE}motion.rs", "cross", x, y)
+        if not normals:
+            for axis, component in zip(AXES, found):
+                component.alias = F.exactly(context, f"N{axis}")
+            normals.append(found)
+        return found
+
+    dot_of = lambda x, y: plain.run(f"{HERE}motion.rs", "dot", x, [c.alias or c for c in y])
+    interpreter.builtins.update({
+        "at": lambda name, _: vectors[name],
+        "cross": cross_of,
+        "dot": dot_of,
+        "if": lambda *_: True,
+    })
+    motion = Record("Motion", k=motion_vector("k"), l=motion_vector("l"), m=motion_vector("m"))
+    reach = [[F.exactly(context, f"{name}{axis}").rounded() for axis in AXES] for name in "KLM"]
+    cubic = Record("Cubic", reach=reach)
+    # Half the width is computed as no less than it is.
+    width = F.exactly(context, "W").rounded()
+
+    class Bracket:
+        low = Width(0, width)
+        high = Width(1, width)
+
+    return interpreter, motion, cubic, Bracket
+
+
+class Width:
+    """An end of a bracket: half the difference is the half width, half the sum any time."""
+
+    def __init__(self, kind, width):
+        self.kind, self.width = kind, width
+
+    def __add__(self, other):
+        return self
+
+    def __rmul__(self, factor):
+        if factor != 0.5:
+            raise Refused("a half that is none")
+        return self
+
+    def __sub__(self, other):
+        if (self.kind, other.kind) != (1, 0):
+            raise Refused("a width that is none")
+        return HalfWidth(self.width)
+
+
+class HalfWidth:
+    def __init__(self, width):
+        self.width = width
+
+    def __rmul__(self, factor):
+        if factor != 0.5:
+            raise Refused("a half that is none")
+        return AddsU(self.width)
+
+
+class AddsU:
+    """Plus `U`, which is more than the rounding of the middle."""
+
+    def __init__(self, width):
+        self.width = width
+
+    def __add__(self, other):
+        if Fraction(other) != U:
+            raise Refused("a width without its rounding")
+        return self.width
+
+
+def products_with_normal():
+    v = exact_vectors()
+    normal = [own(f"N{axis}") for axis in AXES]
+    n, u, w = (dot(cross(v[a], v[b]), normal) for a, b in ("kl", "ml", "mk"))
+    minus = lambda x, y: total(x, scaled(-1, y))
+    return {"n": n, "u": u, "v": w, "before_b": minus(n, u), "before_d": minus(n, w)}
+
+
+def said_at(engine):
+    return engine.said("locate", r"A component of `K\(t\)` is within `([\d.]+) u k_i` of the exact one")
+
+
+def meeting(engine, claim, field, underflows=False, part=None):
+    located = Located(engine, said_at(engine))
+    context = Context(underflows=underflows)
+    interpreter, motion, cubic, bracket = meeting_run(engine, context, located)
+    found = interpreter.run(f"{HERE}locate.rs", "meeting", cubic, bracket, of="Motion", this=motion)
+    far = interpreter.run(f"{HERE}locate.rs", "far_errors", of="Meeting", this=found)
+    bounds = {
+        "n": found.fields["error_n"],
+        "u": found.fields["error_u"],
+        "v": found.fields["error_v"],
+        "before_b": far[0],
+        "before_d": far[1],
+    }
+    check(claim, found.fields[field], products_with_normal()[field], bounds[field], located, underflows)
+    kept(claim, part)
+
+
+def kept(claim, part):
+    """What is of the width of the bracket, or what is not."""
+    if part:
+        claim.keep(lambda of: ("W" in of) == (part == "width"))
+
+
+def check(claim, found, exact, bound, located, underflows):
+    """Against the part of a bound that is relative, or what underflows against the other part."""
+    relative = F(bound.context, {key: c for key, c in bound.terms.items() if key[0]})
+    constant = F(bound.context, {key: c for key, c in bound.terms.items() if not key[0]})
+    if underflows:
+        least = sum((c for c in constant.terms.values()), Fraction(0)) * (1 - 64 * U)
+        claim.underflow(found, magnitude, least / 2)
+    else:
+        claim.needs(found, exact, relative, located.sizes, merge=located.merge)
+
+
+def magnitude(name):
+    """With a cubic."""
+    if name[0] == "N":
+        return 2 * LARGE * LARGE * (1 + 64 * U)
+    if name[0] in "wr":
+        return LARGE
+    return LARGE
+
+
+def weights(engine, claim, index, underflows=False, part=None):
+    """The raw weights of a vertex in a face."""
+    located = Located(engine, said_at(engine))
+    context = Context(underflows=underflows)
+    interpreter, motion, cubic, bracket = meeting_run(engine, context, located)
+    found = interpreter.run(f"{HERE}face/place.rs", "raw_weights", motion, cubic, bracket)
+    p = products_with_normal()
+    expected = [total(p["n"], scaled(-1, p["u"]), p["v"]), p["u"], scaled(-1, p["v"])]
+    check(claim, found.fields["values"][index], expected[index], found.fields["errors"][index], located, underflows)
+    kept(claim, part)
+
+
+# Double-double arithmetic
+
+
+def double_operation(engine, claim, name):
+    """The operations of `Double`, from those without error: `two_sum`, `two_product` and `sum`."""
+    # As rounding to nearest has it, of each part as well.
+    half = U / (1 + U)
+    context = Context(half=half)
+    interpreter = engine.interpreter(context)
+
+    class Parts:
+        def __init__(self, high, low):
+            self.high, self.low = high, low
+
+    def two_sum(a, b):
+        low = F.exactly(context, "low")
+        return Parts(F(context, {**a.terms, (("low",), ()): Fraction(-1)}).plus(b), low)
+
+    def two_difference(a, b):
+        return two_sum(a, -b)
+
+    def two_product(a, b):
+        high = F(context, {(("xh", "yh"), ()): Fraction(1), (("low",), ()): Fraction(-1)})
+        if (a.leaf(), b.leaf()) != (("xh", 1), ("yh", 1)):
+            raise Refused("a product of other parts")
+        return Parts(high, F.exactly(context, "low"))
+
+    interpreter.builtins.update({
+        "two_sum": two_sum,
+        "two_difference": two_difference,
+        "two_product": two_product,
+        "Self::sum": lambda a, b: a.plus(b),
+    })
+    x, y = (Parts(F.exactly(context, f"{z}h"), F.exactly(context, f"{z}l")) for z in "xy")
+    found = interpreter.apply(engine.sources.file(f"{HERE}double.rs").functions["Double", name], [x, y])
+    near = 1 + half
+    relative = name == "mul"
+    if relative:
+        said = engine.said("double", r"`self other`; relative error below `(\d+) \* 2\^-106`")
+        exact = product(polynomial((1, "xh"), (1, "xl")), polynomial((1, "yh"), (1, "yl")))
+        bound = F(context, {(("x", "y"), ()): said * H})
+        low = polynomial((half * near * near, "x", "y"))
+    else:
+        said = engine.said("double", r"an error below `(\d+) \* 2\^-106 \(\|self\| \+ \|other\|\)`")
+        sign = 1 if name == "add" else -1
+        exact = polynomial((1, "xh"), (1, "xl"), (sign, "yh"), (sign, "yl"))
+        bound = F(context, {(("x",), ()): said * H, (("y",), ()): said * H})
+        low = polynomial((half * near, "x"), (half * near, "y"))
+
+    def sizes(name):
+        if name == "low":
+            return low
+        return {(name[0],): near if name[1] == "h" else half}
+
+    claim.needs(found, exact, bound, sizes)
+
+
+def double_sizes(engine):
+    """What the comments of the operations say, which is proved of these."""
+    both = engine.said("double", r"an error below `(\d+) \* 2\^-106 \(\|self\| \+ \|other\|\)`") * H
+    Double.SIZE = {"add": both, "sub": both, "mul": engine.said("double", r"`self other`; relative error below `(\d+) \* 2\^-106`") * H}
+
+
+SIDES = {"ab": "k", "cd": "l", "ac": "m"}
+
+
+def points(context):
+    """The corners at both ends of the step."""
+    return [[Pair(F.exactly(context, f"{p}0{a}"), F.exactly(context, f"{p}1{a}")) for a in AXES] for p in "abcd"]
+
+
+def exact_difference(context):
+    """`two_difference` of two corners: a difference without error, by its name."""
+
+    def difference(to, start):
+        names = [(x.leaf()[0], y.leaf()[0]) for x, y in zip(start.ends, to.ends)]
+        return Double(Pair(*(F.exactly(context, f"{SIDES[x[0] + y[0]]}{x[1:]}") for x, y in names)))
+
+    return difference
+
+
+def refined_difference(engine, claim, underflows=False):
+    """A difference of two corners at a time."""
+    double_sizes(engine)
+    context = Context(underflows=underflows)
+    interpreter = engine.interpreter(context)
+    interpreter.builtins["two_difference"] = exact_difference(context)
+    (a, b, c, d), time = points(context), Double(F.exactly(context, "time"))
+    found = interpreter.run(f"{HERE}refine.rs", "difference", [a[0], c[0]], [b[0], d[0]], time)
+    said = engine.said("refine", r"the sum within `24 h k` more \(bounds at the operations\): `([\d.]+) h k`")
+    for name, lane in zip("kl", found.exact.ends):
+        if underflows:
+            claim.underflow(lane, lambda name: LARGE, UNDERFLOW)
+            continue
+        exact = polynomial((1, f"{name}0x"), (1, f"{name}1x", "time"), (-1, f"{name}0x", "time"))
+        bound = F(context, {((f"{name.upper()}x",), ()): said * H})
+        sizes = lambda name: {(): Fraction(1)} if name == "time" else sizes_of_ends(name)
+        claim.needs(lane, exact, bound, sizes)
+
+
+# What underflow adds to a component at a time in double-double arithmetic.
+UNDERFLOW = Fraction(2) ** -1072
+
+
+class Refined(Located):
+    """Vectors at the time of a root in double-double arithmetic."""
+
+    def __init__(self, engine, moves):
+        double_sizes(engine)
+        self.said = engine.said("refine", r"the sum within `24 h k` more \(bounds at the operations\): `([\d.]+) h k`")
+        self.moves = moves
+
+    def difference(self, context):
+        def of(starts, ends_of, _):
+            lanes = []
+            for start, end in zip(starts, ends_of):
+                (x, _), (y, _) = start.ends[0].leaf(), end.ends[0].leaf()
+                name, axis = SIDES[x[0] + y[0]], x[2]
+                terms = {((f"{kind}{name}{axis}",), ()): Fraction(1) for kind in (["", "w", "r"] if self.moves else ["", "r"])}
+                if context.underflows:
+                    context.count += 1
+                    # In units of 2^-1075.
+                    terms[((f"n{context.count}",), ())] = UNDERFLOW * 2**1075
+                lanes.append(F(context, terms))
+            return Double(Pair(*lanes))
+
+        return of
+
+    def sizes(self, name):
+        match = re.fullmatch(r"([wr]?)([klm])([xyz])", name)
+        if not match:
+            return None
+        kind, letter, axis = match.groups()
+        reach = letter.upper() + axis
+        return {"": own(reach), "w": polynomial((2, "W", reach)), "r": polynomial((self.said * H, reach))}[kind]
+
+
+class Corners:
+    def __init__(self, context):
+        self.context = context
+
+    def points(self):
+        return points(self.context)
+
+
+def refined_value(engine, claim, underflows=False):
+    """`f` at a time, against the error that a root takes it for."""
+    refined = Refined(engine, moves=False)
+    context = Context(reaches=reach_name, underflows=underflows)
+    interpreter = engine.interpreter(context)
+    interpreter.builtins["difference"] = refined.difference(context)
+    found = interpreter.run(f"{HERE}refine.rs", "evaluate", Corners(context), None)
+    v = exact_vectors()
+    exact = dot(v["m"], cross(v["k"], v["l"]))
+    factor = engine.constant("refine", "VALUE_ERROR")
+    _, cubic = cubic_run(engine, context)
+    if underflows:
+        # Beside what is proved of the rest: 40 h P.
+        claim.underflow(found, magnitude, 40 * H * engine.constant("cubic", "SMALLEST"))
+        return
+    permanent = cubic.fields["permanent"]
+    spare = {names: 40 * H for names, _ in permanent.terms}
+    claim.needs(found, exact, permanent * float(factor), refined.sizes, needed=spare)
+
+
+def refined_meeting(engine, claim, field, underflows=False, part=None):
+    """The minors at a root, on each axis."""
+    refined = Refined(engine, moves=True)
+    v = exact_vectors()
+
+    def body(context):
+        plain, interpreter = engine.interpreter(context), engine.interpreter(context)
+        interpreter.builtins["difference"] = refined.difference(context)
+        axes = []
+
+        def chosen(condition, go):
+            words = repr(condition)
+            if "normal" in words and "high" in words:
+                return False
+            if "error" in words:
+                return True
+            axes.append(context.choose([True, False]))
+            return axes[-1]
+
+        interpreter.builtins["if"] = chosen
+        this = Record("Root", time=Record("Time", high=None), error=F.exactly(context, "W"))
+        motion = Record("Motion")
+        interpreter.types = {**interpreter.types, "Motion": ["src/certified/motion.rs"]}
+        interpreter.methods = dict(interpreter.methods)
+        reach = [[F.exactly(context, f"{name}{axis}").rounded() for axis in AXES] for name in "KLM"]
+        motion.fields["normal"] = None
+        found = run_meeting(interpreter, this, context, reach)
+        axis = 0 if axes[0] else (1 if axes[1] else 2)
+        return axis, found
+
+    for context, (axis, found) in runs(body, underflows=underflows):
+        minors = {"n": cross(v["k"], v["l"]), "u": cross(v["m"], v["l"]), "v": cross(v["m"], v["k"])}
+        exact = {name: minor[axis] for name, minor in minors.items()}
+        exact["before_b"] = total(exact["n"], scaled(-1, exact["u"]))
+        exact["before_d"] = total(exact["n"], scaled(-1, exact["v"]))
+        # Rounded to `f64` they compare with an `f64` as before.
+        interpreter = engine.interpreter(context)
+        far = interpreter.run(f"{HERE}locate.rs", "far_errors", of="Meeting", this=found)
+        bounds = dict(zip(("n", "u", "v", "before_b", "before_d"), [found.fields[f"error_{x}"] for x in "nuv"] + list(far)))
+        check(claim, found.fields[field], exact[field], bounds[field], refined, underflows)
+    kept(claim, part)
+
+
+def run_meeting(interpreter, this, context, reach):
+    class AnyMotion:
+        @staticmethod
+        def normal(_):
+            return [None, None, None]
+
+    interpreter.methods["normal"] = lambda motion, _: AnyVector()
+    return interpreter.run(
+        f"{HERE}refine.rs", "meeting", Corners(context), AnyMotion(), Record("Cubic", reach=reach), of="Root", this=this
+    )
+
+
+class AnyVector(list):
+    """A vector that only tells which axis is taken."""
+
+    def __init__(self):
+        super().__init__([0, 0, 0])
+
+    def map(self, _):
+        return self

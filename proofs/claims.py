@@ -1,0 +1,53 @@
+"""The list of claims."""
+
+from bounds import *  # noqa: F403
+import bounds as b
+from prove import Claim
+from rounded import H, U
+
+MEETING = ("n", "u", "v", "before_b", "before_d")
+
+
+def all_claims():
+    """Each claim with what states its goals, given the sources."""
+    add = []
+
+    def claim(name, where, build, *arguments, unit=U, unit_name="u", **more):
+        add.append((Claim(name, where, unit, unit_name), lambda engine, claim: build(engine, claim, *arguments, **more)))
+
+    claim("margin of edges", "separate.rs", b.separated, "separate", "Motion", b.EDGE_MARGINS)
+    claim("margin of a face", "face/separate.rs", b.separated, "face/separate", None, b.FACE_MARGINS)
+    for i in range(4):
+        claim(f"Bernstein coefficient {i}", "cubic.rs", b.bernstein, i)
+    for i in range(4):
+        claim(f"Bernstein coefficient {i}, underflow", "cubic.rs", b.bernstein_underflow, i, unit=None)
+    claim("subdivision, one level", "root.rs", b.subdivision)
+    claim("subdivision, all levels", "root.rs", b.parts, unit=1, unit_name="error")
+    claim("value", "root.rs", b.value, 0, "value_error", unit=1, unit_name="error")
+    claim("slope", "root.rs", b.value, 1, "slope_error", unit=1, unit_name="error")
+    claim("curvature", "root.rs", b.curvature, unit=1, unit_name="error")
+    claim("side of a contact", "thick/contact.rs", b.side, unit=1, unit_name="error")
+    claim("vector at a time", "locate.rs", b.at_time)
+    claim("vector at a time, underflow", "locate.rs", b.at_time_underflow, unit=None)
+    for field in MEETING:
+        claim(f"meeting, {field}", "locate.rs", b.meeting, field, part="rounding")
+        claim(f"meeting, {field}, width", "locate.rs", b.meeting, field, part="width")
+    for field in MEETING:
+        claim(f"meeting, {field}, underflow", "locate.rs", b.meeting, field, underflows=True, unit=None)
+    for i in range(3):
+        claim(f"weight {'bcd'[i]} of a face", "face/place.rs", b.weights, i, part="rounding")
+        claim(f"weight {'bcd'[i]} of a face, width", "face/place.rs", b.weights, i, part="width")
+    for i in range(3):
+        claim(f"weight {'bcd'[i]} of a face, underflow", "face/place.rs", b.weights, i, underflows=True, unit=None)
+    for name in ("add", "sub", "mul"):
+        claim(f"double-double {name}", "double.rs", b.double_operation, name, unit=H, unit_name="h")
+    claim("difference at a time", "refine.rs", b.refined_difference, unit=H, unit_name="h")
+    claim("difference at a time, underflow", "refine.rs", b.refined_difference, underflows=True, unit=None)
+    claim("value in double-double", "refine.rs", b.refined_value, unit=H, unit_name="h")
+    claim("value in double-double, underflow", "refine.rs", b.refined_value, underflows=True, unit=None)
+    for field in MEETING:
+        claim(f"minor, {field}", "refine.rs", b.refined_meeting, field, unit=H, unit_name="h", part="rounding")
+        claim(f"minor, {field}, width", "refine.rs", b.refined_meeting, field, part="width")
+    for field in MEETING:
+        claim(f"minor, {field}, underflow", "refine.rs", b.refined_meeting, field, underflows=True, unit=None)
+    return add
