@@ -50,4 +50,23 @@ def all_claims():
         claim(f"minor, {field}, width", "refine.rs", b.refined_meeting, field, part="width")
     for field in MEETING:
         claim(f"minor, {field}, underflow", "refine.rs", b.refined_meeting, field, underflows=True, unit=None)
+    for kind in b.LEAST_CORNERS:
+        claim(f"margin with a radius, {kind}", "thick/advance.rs", b.thick_margin, kind, part="margin")
+        claim(f"margin with a radius, {kind}, R", "thick/advance.rs", b.thick_margin, kind, part="radius", unit=1, unit_name="R |d|")
+    claim("difference at a place", "thick/advance.rs", b.difference_at_place)
+    claim("velocity at a place", "thick/instant.rs", b.velocity_at_place)
+    for direction in b.DIRECTIONS:
+        claim(f"slope {direction}", "thick/nearness.rs", b.slope_of, direction, part="rounding")
+        claim(f"slope {direction}, while", "thick/nearness.rs", b.slope_of, direction, part="width")
+    claim("component of a slope, underflow", "thick/nearness.rs", b.component_underflow, unit=None)
+    claim("slope, underflow", "thick/nearness.rs", b.slope_underflow, unit=None)
+    claim("least normal", "thick/nearness.rs", b.least_normal, part="rounding")
+    claim("least normal, while", "thick/nearness.rs", b.least_normal, part="width")
+    claim("slope of the distance", "thick/refine_toi.rs", b.slope_of_distance)
+    claim("difference in double-double", "thick/refine_toi.rs", b.excess_at_time, unit=H, unit_name="h")
+    claim("difference at an instant", "discrete.rs", b.instant_difference)
+    claim("distance at an instant", "discrete.rs", b.instant_distance)
+    claim("stored position", "step.rs", b.stored)
+    claim("stored position, overflow", "step.rs", b.stored, is_finite=False)
+    claim("stored position, underflow", "step.rs", b.stored, underflows=True, unit=None)
     return add

