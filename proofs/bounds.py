@@ -128,7 +128,7 @@ def ends(name, end):
 # Separation
 
 
-def separated(engine, claim, file, of, options):
+def separated(engine, claim, file, of, options, kinds):
     """A direction separates: the margin against the error bound of the boxes."""
 
     def body(context):
@@ -145,6 +145,7 @@ def separated(engine, claim, file, of, options):
 
     sizes = lambda name: own("e" + name[2]) if re.fullmatch(r"[klm][01][xyz]", name) else None
     for context, compared in runs(body):
+        chosen(context, *kinds)
         for end, (margin, bound) in enumerate(compared[:2]):
             along = {name: dot(ends(name, end), [own(f"d{axis}") for axis in AXES]) for name in "klm"}
             exact = same_as_one_of(margin, [total(*(scaled(f, along[n]) for n, f in option.items())) for option in options])
@@ -161,6 +162,12 @@ def same_as_one_of(value, polynomials):
         if found == candidate:
             return candidate
     raise Refused("a value that is none of those that it should be")
+
+
+def chosen(context, *kinds):
+    """That the larger and the smaller ones are taken where they should be."""
+    if tuple(context.kinds) != kinds:
+        raise Refused(f"{', '.join(context.kinds)} instead of {', '.join(kinds)}")
 
 
 EDGE_MARGINS = [{"m": 1, **l, **k} for l in ({}, {"l": 1}) for k in ({}, {"k": -1})]
@@ -247,6 +254,7 @@ def curvature(engine, claim):
 
     ends_of = [polynomial((6, f"b{i}"), (-12, f"b{i + 1}"), (6, f"b{i + 2}")) for i in range(2)]
     for context, found in runs(body):
+        chosen(context, "larger")
         bound = F(context, {key: c for key, c in found.terms.items() if "error" in key[0]})
         computed = F(context, {key: c for key, c in found.terms.items() if "error" not in key[0]})
         exact = same_as_one_of(computed, ends_of)
@@ -747,14 +755,14 @@ class AnyVector(list):
 
 
 LEAST_CORNERS = {
-    "edges": ("EdgeEdge", "edges", [{"m": 1, **l, **k} for l in ({}, {"l": 1}) for k in ({}, {"k": -1})]),
-    "face": ("VertexFace", "face/mod", [{"m": 1}, {"m": 1, "l": 1}, {"m": 1, "k": -1}]),
+    "edges": ("EdgeEdge", "edges", ("smaller", "larger"), [{"m": 1, **l, **k} for l in ({}, {"l": 1}) for k in ({}, {"k": -1})]),
+    "face": ("VertexFace", "face/mod", ("smaller", "smaller"), [{"m": 1}, {"m": 1, "l": 1}, {"m": 1, "k": -1}]),
 }
 
 
 def thick_margin(engine, claim, kind, part):
     """A plane keeps the two more than the radius apart: all that is taken from the least corner."""
-    of, file, options = LEAST_CORNERS[kind]
+    of, file, kinds, options = LEAST_CORNERS[kind]
 
     def body(context):
         interpreter = engine.interpreter(context)
@@ -769,6 +777,7 @@ def thick_margin(engine, claim, kind, part):
 
     sizes = lambda name: own("e" + name[2]) if re.fullmatch(r"[klm][01][xyz]", name) else None
     for context, found in runs(body):
+        chosen(context, *kinds)
         for end, margin in enumerate(found):  # at the start and at the end
             is_corner = lambda names: any(re.fullmatch(r"[klm][01][xyz]", name) for name in names)
             corner = F(context, {key: c for key, c in margin.terms.items() if is_corner(key[0])})
@@ -1018,6 +1027,7 @@ def instant_distance(engine, claim):
     along = {name: dot([own(f"{name}{a}") for a in AXES], [own(f"d{a}") for a in AXES]) for name in "klm"}
     options = [total(*(scaled(f, along[n]) for n, f in option.items())) for option in EDGE_MARGINS]
     for context, scope in runs(body):
+        chosen(context, "smaller", "larger")
         error = scope["error"]
         relative = F(context, {key: c for key, c in error.terms.items() if key[0]})
         claim.needs(scope["along"], same_as_one_of(scope["along"], options), relative, sizes)

@@ -22,7 +22,7 @@ class Context:
         self.choices, self.taken = list(choices), 0
         self.underflows, self.reaches = underflows, reaches or (lambda name: name)
         self.differences = differences or {}
-        self.half = half
+        self.half, self.kinds = half, []
         self.sizes, self.count, self.compared, self.lemmas = {}, 0, [], []
 
     def rounding(self, kind="e", size=None):
@@ -35,8 +35,9 @@ class Context:
         self.count += 1
         return f"n{self.count}"
 
-    def choose(self, options):
+    def choose(self, options, kind="either"):
         """One of some values: the run is repeated for the others."""
+        self.kinds.append(kind)
         while self.taken >= len(self.choices):
             self.choices.append((0, len(options)))
         index, _ = self.choices[self.taken]
@@ -177,9 +178,12 @@ class F:
         return self.alias or self
 
     def larger(self, other):
-        return self.context.choose([self, self.of(other)])
+        return self.context.choose([self, self.of(other)], "larger")
 
-    smaller = max = min = larger
+    def smaller(self, other):
+        return self.context.choose([self, self.of(other)], "smaller")
+
+    max, min = larger, smaller
 
     def clamp(self, *_):
         return self
@@ -230,11 +234,12 @@ class Pair:
     def abs(self):
         return Pair(*(x.abs() for x in self.ends))
 
-    def larger(self, other):
+    def larger(self, other, kind="larger"):
         first = next(x for x in (*self.ends, *other.ends) if isinstance(x, F))
-        return first.context.choose([self, other])
+        return first.context.choose([self, other], kind)
 
-    smaller = larger
+    def smaller(self, other):
+        return self.larger(other, "smaller")
 
     def largest(self):
         """The larger magnitude, of which there is a name."""
