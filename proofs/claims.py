@@ -1,8 +1,15 @@
 """The list of claims."""
 
 import bounds as b
-from prove import Claim
+from prove import Claim, Lemma
 from rounded import H, U
+
+# The model of a rounding, of the format itself: name, of what, under which condition, and how far off.
+LEMMAS = [
+    ("a rounding", "f64", "|x| in [1b-1021, 1b1023]", "x", "-/", U),
+    ("a rounding, underflow", "f64", "|x| <= 1b-1021", "x", "-", U**20 / 2**15),
+    ("a sum", "f64", "@FIX(a, -1074) /\\ @FIX(b, -1074)", "a + b", "-/", U),
+]
 
 MEETING = ("n", "u", "v", "before_b", "before_d")
 
@@ -14,6 +21,8 @@ def all_claims():
     def claim(name, where, build, *arguments, unit=U, unit_name="u", **more):
         add.append((Claim(name, where, unit, unit_name), lambda engine, claim: build(engine, claim, *arguments, **more)))
 
+    for lemma in LEMMAS:
+        add.append((Lemma(*lemma), lambda engine, claim: None))
     claim("margin of edges", "separate.rs", b.separated, "separate", "Motion", b.EDGE_MARGINS, ("smaller", "larger"))
     claim("margin of a face", "face/separate.rs", b.separated, "face/separate", None, b.FACE_MARGINS, ("smaller", "smaller"))
     for i in range(4):

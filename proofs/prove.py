@@ -234,3 +234,26 @@ def number_of(text):
         raise Refused(f"Gappa's number {text!r}")
     power = int(match.group(2) or 0)
     return int(match.group(1)) * (Fraction(2**power) if power >= 0 else Fraction(1, 2**-power))
+
+
+class Lemma(Claim):
+    """A statement about `f64` itself, with a size that can be no smaller."""
+
+    def __init__(self, name, where, hypothesis, rounded, operator, size):
+        super().__init__(name, where)
+        self.unit = None
+        self.hypothesis, self.rounded, self.operator, self.size = hypothesis, rounded, operator, Fraction(size)
+
+    def script(self, factor=None):
+        bound = text_of(self.size * (factor or 1))
+        goal = f"f({self.rounded}) {self.operator} ({self.rounded}) in [-{bound}, {bound}]"
+        return f"# {self.name}\n@f = float<ieee_64,ne>;\n{{ {self.hypothesis} -> {goal} }}\n"
+
+    def measure(self):
+        return Fraction(1), self.size, self.size, ()
+
+    def holds(self, factor=Fraction(1)):
+        factor = Fraction(factor)
+        if factor.denominator & (factor.denominator - 1):
+            factor = Fraction(factor.numerator * 2**60 // factor.denominator, 2**60)
+        return self.gappa(self.script(factor)).returncode == 0
