@@ -990,6 +990,80 @@ def excess_at_time(engine, claim):
             claim.needs(lane, exact, bound, sizes)
 
 
+def change_in_a_step(engine, claim):
+    """What `Instant` takes for the change of a vector."""
+    context = Context()
+    found = engine.interpreter(context).run(f"{HERE}thick/instant.rs", "change", differences(context, "k"))
+    said = engine.said("thick/turning", r"A change, of magnitude up to `2 e`, is within `([\d.]+) u e`")
+    for axis, component in zip(AXES, found):
+        exact = polynomial((1, f"k1{axis}"), (-1, f"k0{axis}"))
+        claim.needs(component, exact, F(context, {((f"K{axis}",), ()): said * U}), sizes_of_ends)
+
+
+def turning(engine, claim, kind, index, part):
+    """A coefficient of what a corner has beyond the radius of a plane that turns; `c` are changes, `n` the normal, `d` its turn."""
+    of, file = {"edges": ("EdgeEdge", "edges"), "face": ("VertexFace", "face/mod")}[kind]
+    said = [
+        engine.said("thick/turning", r"a component of a vector at a time is within `([\d.]+) u e`"),
+        engine.said("thick/turning", r"A change, of magnitude up to `2 e`, is within `([\d.]+) u e`"),
+    ]
+    normal, turn = [own(f"n{a}") for a in AXES], [own(f"d{a}") for a in AXES]
+    interpreter = engine.interpreter(Context())
+    corners = interpreter.constant(f"{HERE}{file}.rs", "CORNERS")
+    for u, v in corners:
+        context = Context()
+        interpreter = engine.interpreter(context)
+        vectors = [located_vector(context, name, ("", "r")) for name in "klm"]
+        changes = [located_vector(context, f"c{name}", ("", "r")) for name in "klm"]
+        boxes = Record("SweptBoxes", extent=[F.exactly(context, f"e{a}").rounded() for a in AXES])
+        this = Record("Moving", boxes=boxes, radius=F.exactly(context, "R"))
+        leaves = lambda name: [F.exactly(context, f"{name}{a}") for a in AXES]
+        scope = interpreter.scope_at(
+            f"{HERE}thick/turning.rs",
+            "stays_apart_turning",
+            "vectors",
+            this,
+            Record("Instant", at=vectors, change=changes),
+            Record("Turning", normal=leaves("n"), turn=leaves("d")),
+            None,
+            of="Moving",
+        )
+        corner = interpreter.run(f"{HERE}thick/advance.rs", "difference", scope["vectors"], u, v)
+        found = interpreter.run(f"{HERE}motion.rs", "sub", corner, scope["least"])[index]
+        at, change = ([total(own(f"{c}m{a}"), scaled(v, own(f"{c}l{a}")), scaled(-u, own(f"{c}k{a}"))) for a in AXES] for c in ("", "c"))
+        exact = [dot(at, normal), total(dot(change, normal), dot(at, turn)), dot(change, turn)][index]
+        turning_needs(claim, context, index, found, exact, said)
+    claim.keep(lambda of: ("R" in of) == (part == "radius"))
+
+
+def turning_needs(claim, context, index, found, exact, said):
+    def sizes(name):
+        match = re.fullmatch(r"(r?)(c?)([klm])([xyz])", name)
+        if not match:
+            return None
+        rounds, changes, _, axis = match.groups()
+        return polynomial((said[bool(changes)] * U if rounds else 1 + bool(changes), f"e{axis}"))
+
+    part = lambda is_in, sign=1: F(context, {key: sign * c for key, c in found.terms.items() if key[0] and is_in(key[0])})
+    of_corner = lambda names: any(re.fullmatch(r"r?c?[klm][xyz]", name) for name in names)
+    length, turn_length = "|nx,ny,nz|", "|dx,dy,dz|"
+    share = ("1/" + length, "R")
+    of_share = lambda names: index == 1 and share[0] in names
+    bound = part(lambda names: not of_corner(names) and not of_share(names), -1)
+    needed = {}
+    if index == 0:
+        needed = {("R", length): Fraction(1)}
+    if index == 2:
+        needed = {tuple(sorted((*share, f"d{a}", f"d{a}"))): Fraction(1, 2) for a in AXES}
+    claim.needs(part(of_corner), exact, bound, sizes, needed=needed)
+    if index == 1:
+        # By Cauchy and Schwarz the products with `R / |n|` add up to at most `R |d|`.
+        for a in AXES:
+            names = tuple(sorted((*share, f"n{a}", f"d{a}")))
+            along = {share[0]: {(): Fraction(1)}, f"n{a}": {(): Fraction(1)}, f"d{a}": own(turn_length)}
+            claim.needs(part(lambda key: key == names), {names: Fraction(-1)}, bound, along.get)
+
+
 # One instant
 
 
@@ -1031,6 +1105,60 @@ def instant_distance(engine, claim):
         error = scope["error"]
         relative = F(context, {key: c for key, c in error.terms.items() if key[0]})
         claim.needs(scope["along"], same_as_one_of(scope["along"], options), relative, sizes)
+
+
+# The normal: vectors with a bound on the length of their error
+
+
+def bounded(context, names, error):
+    """A vector whose size is the sum of its components' magnitudes, up to a few roundings."""
+    value = [F.exactly(context, name) for name in names]
+    size = value[0].plus(value[1]).plus(value[2])
+    for _ in range(4):
+        size = size.rounded()
+    return Record("Bounded", value=value, size=size, error=F.exactly(context, error))
+
+
+XS, YS = [f"x{a}" for a in AXES], [f"y{a}" for a in AXES]
+
+
+def bounded_operation(engine, claim, name, part):
+    """What an operation adds to the errors `a` and `b` of its operands: over all components."""
+    context = Context()
+    x, y = bounded(context, XS, "a"), bounded(context, YS, "b")
+    run = lambda name, *more: engine.interpreter(context).run(f"{HERE}normal/bounded.rs", name, *more, of="Bounded", this=x)
+    one_of = Fraction(1)
+    if name == "times":
+        found = run("times", F.exactly(context, "factor"), F.exactly(context, "inexact"))
+        exact = [polynomial((1, "factor", name)) for name in XS]
+        needed = {("a", "factor"): one_of, ("a", "inexact"): one_of, **{tuple(sorted(("inexact", n))): one_of for n in XS}}
+    elif name == "cross":
+        found = run("cross", y)
+        exact = cross([own(n) for n in XS], [own(n) for n in YS])
+        needed = {("a", "b"): one_of, **{("a", n): one_of for n in YS}, **{("b", n): one_of for n in XS}}
+    else:
+        found = run(name, y)
+        sign = 1 if name == "plus" else -1
+        exact = [polynomial((1, p), (sign, q)) for p, q in zip(XS, YS)]
+        needed = {("a",): one_of, ("b",): one_of}
+    for component, polynomial_of in zip(found.fields["value"], exact):
+        claim.needs(component, polynomial_of, found.fields["error"], lambda name: None, needed=needed)
+    claim.keep(lambda of: bool({"a", "b", "inexact"} & set(of)) == (part == "errors"))
+
+
+def bounded_difference(engine, claim, part):
+    """From one point to another at the time of impact, which is up to `late` after `toi`."""
+    pairs = {(f"q{end}{a}", f"p{end}{a}"): f"{'xy'[end]}{a}" for end in (0, 1) for a in AXES}
+    context = Context(differences=pairs)
+    point = lambda name, end: [F.exactly(context, f"{name}{end}{a}") for a in AXES]
+    start, end_of = ([point("p", end), point("q", end)] for end in (0, 1))
+    toi, late = F.exactly(context, "weight"), F.exactly(context, "late")
+    step = Record("Step", start=start, end=end_of, toi=toi, late=late)
+    found = engine.interpreter(context).run(f"{HERE}normal/bounded.rs", "difference", 0, 1, of="Step", this=step)
+    needed = {tuple(sorted(("late", n))): Fraction(1) for n in XS + YS}
+    for x, y, component in zip(XS, YS, found.fields["value"]):
+        claim.needs(component, polynomial((1, "rest", x), (1, "weight", y)), found.fields["error"], lambda name: None, needed=needed)
+    claim.keep(lambda of: ("late" in of) == (part == "errors"))
 
 
 # Stored positions

@@ -72,8 +72,19 @@ def all_claims():
     claim("least normal, while", "thick/nearness.rs", b.least_normal, part="width")
     claim("slope of the distance", "thick/refine_toi.rs", b.slope_of_distance)
     claim("difference in double-double", "thick/refine_toi.rs", b.excess_at_time, unit=H, unit_name="h")
+    claim("change in a step", "thick/instant.rs", b.change_in_a_step)
+    for kind in b.LEAST_CORNERS:
+        for i in range(3):
+            claim(f"turning plane, {kind}, {'abc'[i]}", "thick/turning.rs", b.turning, kind, i, part="margin")
+            unit, name = (U, "u") if i == 1 else (1, "R |n|" if i == 0 else "R d d/|n|")
+            claim(f"turning plane, {kind}, {'abc'[i]}, R", "thick/turning.rs", b.turning, kind, i, part="radius", unit=unit, unit_name=name)
     claim("difference at an instant", "discrete.rs", b.instant_difference)
     claim("distance at an instant", "discrete.rs", b.instant_distance)
+    for name in ("plus", "minus", "times", "cross"):
+        claim(f"bounded vector, {name}", "normal/bounded.rs", b.bounded_operation, name, part="roundings")
+        claim(f"bounded vector, {name}, errors", "normal/bounded.rs", b.bounded_operation, name, part="errors", unit=1, unit_name="")
+    claim("bounded vector, difference", "normal/bounded.rs", b.bounded_difference, part="roundings")
+    claim("bounded vector, difference, late", "normal/bounded.rs", b.bounded_difference, part="errors", unit=1, unit_name="")
     claim("stored position", "step.rs", b.stored)
     claim("stored position, overflow", "step.rs", b.stored, is_finite=False)
     claim("stored position, underflow", "step.rs", b.stored, underflows=True, unit=None)
@@ -109,10 +120,6 @@ BY_HAND = [
     ("start", None, "common_end"),
     ("discrete", "Edges", "distance"),
     ("discrete", None, "length"),
-    ("normal/bounded", "Step", "difference"),
-    ("normal/bounded", "Bounded", "times"),
-    ("normal/bounded", "Bounded", "combined"),
-    ("normal/bounded", "Bounded", "cross"),
     ("normal/bounded", "Bounded", "normal"),
     ("step", None, "coordinate"),
     ("step", None, "rounding"),

@@ -26,6 +26,13 @@ FAULTS = [
     ("thick/refine_toi", "64.0 * U * size2", "32.0 * U * size2"),
     ("thick/contact", "3.0 * cubic.error", "2.0 * cubic.error"),
     ("discrete", "24.0 * U * dot", "12.0 * U * dot"),
+    ("normal/bounded", "+ 3.0 * E * size", "+ 1.0 * E * size"),
+    ("normal/bounded", "5.0 * E * size", "3.0 * E * size"),
+    ("normal/bounded", "+ self.error * other.error) *", "+ self.error * self.error) *"),
+    ("thick/turning", "+ (3.0 * bound + 1.5 * turn_bound)", "+ (2.0 * bound + 1.5 * turn_bound)"),
+    ("thick/turning", "* (1.0 + 16.0 * U) + 3.0 * turn_bound", "* (1.0 + 16.0 * U) + 1.5 * turn_bound"),
+    ("thick/turning", "[p.start(), p.end() + q.start(), q.end()]", "[p.start(), p.end() - q.start(), q.end()]"),
+    ("thick/turning", "0.5 * share * turn_square", "0.25 * share * turn_square"),
     ("step", "3.0 * difference", "1.0 * difference"),
     ("step", "from_bits(16)", "from_bits(1)"),
     # What comments claim, where the next proof rests on it.
@@ -75,6 +82,6 @@ FAULTS = [
     ("cubic", "(size < LARGEST) & (self.permanent > SMALLEST)", "(size < LARGEST)"),
     ("thick/turning", "let discriminant = square - product + 16.0 * U * size;", "let discriminant = square - product;"),
     ("thick/nearness", "(first.most > SHORTEST && second.most > SHORTEST).then_some((fall, error))", "Some((fall, error))"),
-    ("normal/bounded", "+ 3.0 * E * size", "+ 1.0 * E * size"),
+    ("normal/bounded", "let relative = self.error / largest / length;", "let relative = self.error / length;"),
     ("refine", "cubic.curvature() * width * width", "cubic.curvature() * width"),
 ]

@@ -127,8 +127,10 @@ class F:
         return self + (-other)
 
     def __rsub__(self, other):
-        if other == 1 and self.leaf() == ("t", 1):
-            return F.exactly(self.context, "s").rounded()
+        # What a weight leaves of 1 has a name of its own.
+        rests = {("t", 1): "s", ("weight", 1): "rest"}
+        if other == 1 and self.leaf() in rests:
+            return F.exactly(self.context, rests[self.leaf()]).rounded()
         return self.of(other) + (-self)
 
     def __mul__(self, other):

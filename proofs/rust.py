@@ -400,9 +400,11 @@ class Sources:
 
     def module(self, user, name):
         """The file of a module, seen from a file."""
+        folder = Path(user.path).parent
+        if name == "super" and (self.root / f"{folder}.rs").is_file():
+            return self.file(f"{folder}.rs")
         if name in ("super", "self", "crate", "certified"):
             name = "mod"
-        folder = Path(user.path).parent
         for base in (folder, folder.parent, Path("src/certified")):
             for path in (base / f"{name}.rs", base / name / "mod.rs"):
                 if (self.root / path).is_file():
@@ -561,6 +563,8 @@ class Interpreter:
             home = self.sources.module(file, path[-2])
         elif name not in file.constants and (None, name) not in file.functions and name in file.imports:
             home = self.sources.module(file, file.imports[name])
+        while (None, name) not in home.functions and name not in home.constants and name in home.imports:
+            home = self.sources.module(home, home.imports[name])
         if name in home.constants:
             return self.value(Parser(home.constants[name]).expression(), {}, home, None)
         if (None, name) in home.functions:

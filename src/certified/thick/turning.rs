@@ -83,9 +83,9 @@ impl<E: Ends> Moving<E> {
     /// does while a polynomial of degree 2 is above 0.
     ///
     /// Error bound, with `S` the sum of `e_i |n_i|` of [`SweptBoxes::is_certain`], `T` that of
-    /// `e_i |d_i|`: a component of a vector at a time is within `4 u e`, its product with `n`
-    /// within `7.1 u S`, that of a corner, of three of these and with two sums, within `27 u S`. A
-    /// change, of magnitude up to `2 e`, is within `4 u e`; its product within `10.4 u S`, that of
+    /// `e_i |d_i|`: a component of a vector at a time is within `4.1 u e`, its product with
+    /// `n` within `7.2 u S`, that of a corner, of three of these and with two sums, within `27 u S`. A
+    /// change, of magnitude up to `2 e`, is within `4.1 u e`; its product within `10.4 u S`, that of
     /// a corner within `44 u S`. What is taken from them below adds up to `10 u S` for each.
     /// [`SweptBoxes::bound`] is `24 u S` or `24 u T`: once and a half, and three times that. The
     /// terms with the radius pass at most ten roundings.
