@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from bounds import HERE
+from engine import HERE
 from claims import BY_HAND
 
 KEPT = Path(__file__).resolve().parent / "by_hand.txt"

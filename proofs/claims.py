@@ -1,6 +1,10 @@
 """The list of claims."""
 
-import bounds as b
+import doubled
+import filters
+import others
+import places
+import thick
 from prove import Claim, Lemma
 from rounded import H, U
 
@@ -23,71 +27,71 @@ def all_claims():
 
     for lemma in LEMMAS:
         add.append((Lemma(*lemma), lambda engine, claim: None))
-    claim("margin of edges", "separate.rs", b.separated, "separate", "Motion", b.EDGE_MARGINS, ("smaller", "larger"))
-    claim("margin of a face", "face/separate.rs", b.separated, "face/separate", None, b.FACE_MARGINS, ("smaller", "smaller"))
+    claim("margin of edges", "separate.rs", filters.separated, "separate", "Motion", filters.EDGE_MARGINS, ("smaller", "larger"))
+    claim("margin of a face", "face/separate.rs", filters.separated, "face/separate", None, filters.FACE_MARGINS, ("smaller", "smaller"))
     for i in range(4):
-        claim(f"Bernstein coefficient {i}", "cubic.rs", b.bernstein, i)
+        claim(f"Bernstein coefficient {i}", "cubic.rs", filters.bernstein, i)
     for i in range(4):
-        claim(f"Bernstein coefficient {i}, underflow", "cubic.rs", b.bernstein_underflow, i, unit=None)
-    claim("subdivision, one level", "root.rs", b.subdivision)
-    claim("subdivision, all levels", "root.rs", b.parts, unit=1, unit_name="error")
-    claim("value", "root.rs", b.value, 0, "value_error", unit=1, unit_name="error")
-    claim("slope", "root.rs", b.value, 1, "slope_error", unit=1, unit_name="error")
-    claim("curvature", "root.rs", b.curvature, unit=1, unit_name="error")
-    claim("side of a contact", "thick/contact.rs", b.side, unit=1, unit_name="error")
-    claim("vector at a time", "locate.rs", b.at_time)
-    claim("vector at a time, underflow", "locate.rs", b.at_time_underflow, unit=None)
+        claim(f"Bernstein coefficient {i}, underflow", "cubic.rs", filters.bernstein_underflow, i, unit=None)
+    claim("subdivision, one level", "root.rs", filters.subdivision)
+    claim("subdivision, all levels", "root.rs", filters.parts, unit=1, unit_name="error")
+    claim("value", "root.rs", filters.value, 0, "value_error", unit=1, unit_name="error")
+    claim("slope", "root.rs", filters.value, 1, "slope_error", unit=1, unit_name="error")
+    claim("curvature", "root.rs", filters.curvature, unit=1, unit_name="error")
+    claim("side of a contact", "thick/contact.rs", filters.side, unit=1, unit_name="error")
+    claim("vector at a time", "locate.rs", places.at_time)
+    claim("vector at a time, underflow", "locate.rs", places.at_time_underflow, unit=None)
     for field in MEETING:
-        claim(f"meeting, {field}", "locate.rs", b.meeting, field, part="rounding")
-        claim(f"meeting, {field}, width", "locate.rs", b.meeting, field, part="width")
+        claim(f"meeting, {field}", "locate.rs", places.meeting, field, part="rounding")
+        claim(f"meeting, {field}, width", "locate.rs", places.meeting, field, part="width")
     for field in MEETING:
-        claim(f"meeting, {field}, underflow", "locate.rs", b.meeting, field, underflows=True, unit=None)
+        claim(f"meeting, {field}, underflow", "locate.rs", places.meeting, field, underflows=True, unit=None)
     for i in range(3):
-        claim(f"weight {'bcd'[i]} of a face", "face/place.rs", b.weights, i, part="rounding")
-        claim(f"weight {'bcd'[i]} of a face, width", "face/place.rs", b.weights, i, part="width")
+        claim(f"weight {'bcd'[i]} of a face", "face/place.rs", places.weights, i, part="rounding")
+        claim(f"weight {'bcd'[i]} of a face, width", "face/place.rs", places.weights, i, part="width")
     for i in range(3):
-        claim(f"weight {'bcd'[i]} of a face, underflow", "face/place.rs", b.weights, i, underflows=True, unit=None)
+        claim(f"weight {'bcd'[i]} of a face, underflow", "face/place.rs", places.weights, i, underflows=True, unit=None)
     for name in ("add", "sub", "mul"):
-        claim(f"double-double {name}", "double.rs", b.double_operation, name, unit=H, unit_name="h")
-    claim("difference at a time", "refine.rs", b.refined_difference, unit=H, unit_name="h")
-    claim("difference at a time, underflow", "refine.rs", b.refined_difference, underflows=True, unit=None)
-    claim("value in double-double", "refine.rs", b.refined_value, unit=H, unit_name="h")
-    claim("value in double-double, underflow", "refine.rs", b.refined_value, underflows=True, unit=None)
+        claim(f"double-double {name}", "double.rs", doubled.double_operation, name, unit=H, unit_name="h")
+    claim("difference at a time", "refine.rs", doubled.refined_difference, unit=H, unit_name="h")
+    claim("difference at a time, underflow", "refine.rs", doubled.refined_difference, underflows=True, unit=None)
+    claim("value in double-double", "refine.rs", doubled.refined_value, unit=H, unit_name="h")
+    claim("value in double-double, underflow", "refine.rs", doubled.refined_value, underflows=True, unit=None)
     for field in MEETING:
-        claim(f"minor, {field}", "refine.rs", b.refined_meeting, field, unit=H, unit_name="h", part="rounding")
-        claim(f"minor, {field}, width", "refine.rs", b.refined_meeting, field, part="width")
+        claim(f"minor, {field}", "refine.rs", doubled.refined_meeting, field, unit=H, unit_name="h", part="rounding")
+        claim(f"minor, {field}, width", "refine.rs", doubled.refined_meeting, field, part="width")
     for field in MEETING:
-        claim(f"minor, {field}, underflow", "refine.rs", b.refined_meeting, field, underflows=True, unit=None)
-    for kind in b.LEAST_CORNERS:
-        claim(f"margin with a radius, {kind}", "thick/advance.rs", b.thick_margin, kind, part="margin")
-        claim(f"margin with a radius, {kind}, R", "thick/advance.rs", b.thick_margin, kind, part="radius", unit=1, unit_name="R |d|")
-    claim("difference at a place", "thick/advance.rs", b.difference_at_place)
-    claim("velocity at a place", "thick/instant.rs", b.velocity_at_place)
-    for direction in b.DIRECTIONS:
-        claim(f"slope {direction}", "thick/nearness.rs", b.slope_of, direction, part="rounding")
-        claim(f"slope {direction}, while", "thick/nearness.rs", b.slope_of, direction, part="width")
-    claim("component of a slope, underflow", "thick/nearness.rs", b.component_underflow, unit=None)
-    claim("slope, underflow", "thick/nearness.rs", b.slope_underflow, unit=None)
-    claim("least normal", "thick/nearness.rs", b.least_normal, part="rounding")
-    claim("least normal, while", "thick/nearness.rs", b.least_normal, part="width")
-    claim("slope of the distance", "thick/refine_toi.rs", b.slope_of_distance)
-    claim("difference in double-double", "thick/refine_toi.rs", b.excess_at_time, unit=H, unit_name="h")
-    claim("change in a step", "thick/instant.rs", b.change_in_a_step)
-    for kind in b.LEAST_CORNERS:
+        claim(f"minor, {field}, underflow", "refine.rs", doubled.refined_meeting, field, underflows=True, unit=None)
+    for kind in thick.LEAST_CORNERS:
+        claim(f"margin with a radius, {kind}", "thick/advance.rs", thick.thick_margin, kind, part="margin")
+        claim(f"margin with a radius, {kind}, R", "thick/advance.rs", thick.thick_margin, kind, part="radius", unit=1, unit_name="R |d|")
+    claim("difference at a place", "thick/advance.rs", thick.difference_at_place)
+    claim("velocity at a place", "thick/instant.rs", thick.velocity_at_place)
+    for direction in thick.DIRECTIONS:
+        claim(f"slope {direction}", "thick/nearness.rs", thick.slope_of, direction, part="rounding")
+        claim(f"slope {direction}, while", "thick/nearness.rs", thick.slope_of, direction, part="width")
+    claim("component of a slope, underflow", "thick/nearness.rs", thick.component_underflow, unit=None)
+    claim("slope, underflow", "thick/nearness.rs", thick.slope_underflow, unit=None)
+    claim("least normal", "thick/nearness.rs", thick.least_normal, part="rounding")
+    claim("least normal, while", "thick/nearness.rs", thick.least_normal, part="width")
+    claim("slope of the distance", "thick/refine_toi.rs", thick.slope_of_distance)
+    claim("difference in double-double", "thick/refine_toi.rs", thick.excess_at_time, unit=H, unit_name="h")
+    claim("change in a step", "thick/instant.rs", thick.change_in_a_step)
+    for kind in thick.LEAST_CORNERS:
         for i in range(3):
-            claim(f"turning plane, {kind}, {'abc'[i]}", "thick/turning.rs", b.turning, kind, i, part="margin")
+            claim(f"turning plane, {kind}, {'abc'[i]}", "thick/turning.rs", thick.turning, kind, i, part="margin")
             unit, name = (U, "u") if i == 1 else (1, "R |n|" if i == 0 else "R d d/|n|")
-            claim(f"turning plane, {kind}, {'abc'[i]}, R", "thick/turning.rs", b.turning, kind, i, part="radius", unit=unit, unit_name=name)
-    claim("difference at an instant", "discrete.rs", b.instant_difference)
-    claim("distance at an instant", "discrete.rs", b.instant_distance)
+            claim(f"turning plane, {kind}, {'abc'[i]}, R", "thick/turning.rs", thick.turning, kind, i, part="radius", unit=unit, unit_name=name)
+    claim("difference at an instant", "discrete.rs", others.instant_difference)
+    claim("distance at an instant", "discrete.rs", others.instant_distance)
     for name in ("plus", "minus", "times", "cross"):
-        claim(f"bounded vector, {name}", "normal/bounded.rs", b.bounded_operation, name, part="roundings")
-        claim(f"bounded vector, {name}, errors", "normal/bounded.rs", b.bounded_operation, name, part="errors", unit=1, unit_name="")
-    claim("bounded vector, difference", "normal/bounded.rs", b.bounded_difference, part="roundings")
-    claim("bounded vector, difference, late", "normal/bounded.rs", b.bounded_difference, part="errors", unit=1, unit_name="")
-    claim("stored position", "step.rs", b.stored)
-    claim("stored position, overflow", "step.rs", b.stored, is_finite=False)
-    claim("stored position, underflow", "step.rs", b.stored, underflows=True, unit=None)
+        claim(f"bounded vector, {name}", "normal/bounded.rs", others.bounded_operation, name, part="roundings")
+        claim(f"bounded vector, {name}, errors", "normal/bounded.rs", others.bounded_operation, name, part="errors", unit=1, unit_name="")
+    claim("bounded vector, difference", "normal/bounded.rs", others.bounded_difference, part="roundings")
+    claim("bounded vector, difference, late", "normal/bounded.rs", others.bounded_difference, part="errors", unit=1, unit_name="")
+    claim("stored position", "step.rs", others.stored)
+    claim("stored position, overflow", "step.rs", others.stored, is_finite=False)
+    claim("stored position, underflow", "step.rs", others.stored, underflows=True, unit=None)
     return add
 
 
