@@ -71,7 +71,7 @@ FAULTS = [
     ("edges", "m + l.smaller(zero) - k.larger(zero)", "m + l.smaller(zero) - k.smaller(zero)", "margin with a radius, edges"),
     ("face/mod", "m + l.smaller(zero - k).smaller(zero)", "m + l.smaller(k).smaller(zero)", "margin with a radius, face"),
     # The order of operations.
-    ("locate", "(weights * *x).sum()", "weights.sum() * *x", "vector at a time"),
+    ("locate", "(weights * *x).sum()", "(weights * *y).sum()", "vector at a time"),
     ("step", "start + difference * step", "start * (1.0 - step) + difference * step", "stored position"),
     ("separate", "(size(0) + size(1) + size(2)) * (24.0 * U)", "(size(0) + size(1)) * (24.0 * U) + size(2) * U", "margin of edges"),
     ("cubic", "16.0 * U * permanent,", "16.0 * U * permanent * (1.0 - 0.5),", "Bernstein coefficient 0"),
