@@ -27,8 +27,11 @@ def all_claims():
 
     for lemma in LEMMAS:
         add.append((Lemma(*lemma), lambda engine, claim: None))
-    claim("margin of edges", "separate.rs", filters.separated, "separate", "Motion", filters.EDGE_MARGINS, ("smaller", "larger"))
-    claim("margin of a face", "face/separate.rs", filters.separated, "face/separate", None, filters.FACE_MARGINS, ("smaller", "smaller"))
+    edges = ("separate", "Motion", filters.EDGE_MARGINS, ("smaller", "larger"))
+    face = ("face/separate", None, filters.FACE_MARGINS, ("smaller", "smaller"))
+    for name, of in (("edges", edges), ("a face", face)):
+        claim(f"margin of {name}", f"{of[0]}.rs", filters.separated, *of)
+        claim(f"margin of {name}, underflow", f"{of[0]}.rs", filters.separated, *of, underflows=True, unit=None)
     for i in range(4):
         claim(f"Bernstein coefficient {i}", "cubic.rs", filters.bernstein, i)
     for i in range(4):
@@ -84,6 +87,7 @@ def all_claims():
             claim(f"turning plane, {kind}, {'abc'[i]}, R", "thick/turning.rs", thick.turning, kind, i, part="radius", unit=unit, unit_name=name)
     claim("difference at an instant", "discrete.rs", others.instant_difference)
     claim("distance at an instant", "discrete.rs", others.instant_distance)
+    claim("distance at an instant, underflow", "discrete.rs", others.instant_distance, underflows=True, unit=None)
     for name in ("plus", "minus", "times", "cross"):
         claim(f"bounded vector, {name}", "normal/bounded.rs", others.bounded_operation, name, part="roundings")
         claim(f"bounded vector, {name}, errors", "normal/bounded.rs", others.bounded_operation, name, part="errors", unit=1, unit_name="")

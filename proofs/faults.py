@@ -35,6 +35,8 @@ FAULTS = [
     ("thick/turning", "0.5 * share * turn_square", "0.25 * share * turn_square", "turning plane, edges, c, R"),
     ("step", "3.0 * difference", "1.0 * difference", "stored position"),
     ("step", "from_bits(16)", "from_bits(1)", "stored position, underflow"),
+    ("separate", "const TINY: f64 = 1e-300;", "const TINY: f64 = 1e-323;", "margin of edges, underflow"),
+    ("discrete", "const TINY: f64 = 1e-300;", "const TINY: f64 = 0.0;", "distance at an instant, underflow"),
     # What comments claim, where the next proof rests on it.
     ("locate", "within `4.1 u k_i`", "within `3 u k_i`", "vector at a time"),
     ("refine", "`56.1 h k`", "`48 h k`", "difference at a time"),

@@ -4,14 +4,21 @@ import re
 from fractions import Fraction
 
 from engine import AXES, HERE, cross, differences, dot, ends, own, reach_name, sizes_of_ends
-from prove import Refused, polynomial, scaled, text_of, total
+from prove import Refused, polynomial, scaled, text_of, total, underflowed
 from rounded import Context, F, U, runs
 from rust import Record
 
 # Separation
 
 
-def separated(engine, claim, file, of, options, kinds):
+def lost(bound):
+    """What underflow takes from a computed bound, and what the bound has that is of no size."""
+    of = lambda is_in: F(bound.context, {key: c for key, c in bound.terms.items() if is_in(key[0])})
+    constant = sum(of(lambda names: not names).terms.values(), Fraction(0))
+    return of(underflowed), constant * (1 - 64 * U)
+
+
+def separated(engine, claim, file, of, options, kinds, underflows=False):
     """A direction separates: the margin against the error bound of the boxes."""
 
     def body(context):
@@ -27,9 +34,13 @@ def separated(engine, claim, file, of, options, kinds):
         return context.compared
 
     sizes = lambda name: own("e" + name[2]) if re.fullmatch(r"[klm][01][xyz]", name) else None
-    for context, compared in runs(body):
+    for context, compared in runs(body, underflows=underflows):
         chosen(context, *kinds)
         for end, (margin, bound) in enumerate(compared[:2]):
+            if underflows:
+                taken, tiny = lost(bound)
+                claim.underflow(margin.plus(taken), lambda name: Fraction(1), tiny)
+                continue
             along = {name: dot(ends(name, end), [own(f"d{axis}") for axis in AXES]) for name in "klm"}
             exact = same_as_one_of(margin, [total(*(scaled(f, along[n]) for n, f in option.items())) for option in options])
             claim.needs(margin, exact, bound, sizes)

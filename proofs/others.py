@@ -3,7 +3,7 @@
 from fractions import Fraction
 
 from engine import AXES, HERE, cross, dot, own
-from filters import EDGE_MARGINS, chosen, same_as_one_of, value
+from filters import EDGE_MARGINS, chosen, lost, same_as_one_of
 from prove import polynomial, scaled, total
 from rounded import Context, F, U, runs
 from rust import Parser, Record
@@ -24,7 +24,7 @@ def instant_difference(engine, claim):
         claim.needs(component, exact, F(context, {((f"e{axis}",), ()): said * U}), sizes)
 
 
-def instant_distance(engine, claim):
+def instant_distance(engine, claim, underflows=False):
     """The least corner along a direction, against its error."""
 
     def body(context):
@@ -44,9 +44,13 @@ def instant_distance(engine, claim):
     sizes = lambda name: own("e" + name[1]) if name[0] in "klm" else None
     along = {name: dot([own(f"{name}{a}") for a in AXES], [own(f"d{a}") for a in AXES]) for name in "klm"}
     options = [total(*(scaled(f, along[n]) for n, f in option.items())) for option in EDGE_MARGINS]
-    for context, scope in runs(body):
+    for context, scope in runs(body, underflows=underflows):
         chosen(context, "smaller", "larger")
         error = scope["error"]
+        if underflows:
+            taken, tiny = lost(error)
+            claim.underflow(scope["along"].plus(taken), lambda name: Fraction(1), tiny)
+            continue
         relative = F(context, {key: c for key, c in error.terms.items() if key[0]})
         claim.needs(scope["along"], same_as_one_of(scope["along"], options), relative, sizes)
 
