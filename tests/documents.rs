@@ -19,7 +19,7 @@ const PAGE: usize = 400;
 const CITATION: [&str; 3] = ["Michael Brandl", "Umeå", "https://docslib.org/doc/4281663/"];
 
 /// The folders of the sources, by which a path in backquotes is known.
-const SOURCES: [&str; 13] = [
+const SOURCES: [&str; 14] = [
     "benches/",
     "c/",
     "cli/",
@@ -28,6 +28,7 @@ const SOURCES: [&str; 13] = [
     "fuzz/",
     "hosts/",
     "include/",
+    "proofs/",
     "python/",
     "reference/",
     "src/",

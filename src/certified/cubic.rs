@@ -34,8 +34,9 @@ impl Cubic {
     ///
     /// A product that underflows adds at most `2^-1075`, times at most one more factor;
     /// [`Cubic::new`] returns `None` unless all factors are below `2^180` and `P` is above
-    /// `2^-650`, so what underflow adds (fewer than 40 times `2^-895`) is far below the bound.
-    /// Overflow cannot happen then. NaN and infinities fail the same test.
+    /// `2^-600`, so what underflow adds (fewer than 40 times `2^-895`) is far below the bound.
+    /// What needs a larger `P` is `f` in double-double arithmetic (`refine`). Overflow cannot
+    /// happen then. NaN and infinities fail the same test.
     #[inline(always)]
     pub(super) fn new<E: Ends>(motion: &Motion<E>) -> Option<Self> {
         let cubic = Self::unchecked(motion);
@@ -106,7 +107,7 @@ pub(super) fn permanents(x: &Vector, y: &Vector) -> Vector {
 }
 
 const LARGEST: f64 = f64::from_bits((1023 + 180) << 52);
-const SMALLEST: f64 = f64::from_bits((1023 - 650) << 52);
+const SMALLEST: f64 = f64::from_bits((1023 - 600) << 52);
 
 #[cfg(test)]
 mod tests;

@@ -45,13 +45,18 @@ impl<E: Ends> Motion<E> {
     /// Where the lines meet at the root in the bracket.
     ///
     /// Error bound: let `w` be half the width of the bracket, `t` its middle and `p` the vector of
-    /// the `k_i l_j + k_j l_i` of larger magnitudes. A component of `K(t)` is within `4 u k_i` of
-    /// the exact one (rounded difference, `1 - t`, a product, a sum), so one of `N(t)` is within
-    /// `2 * 4 u p + 2 u p` of the exact one; moving to the root changes each component of `K` by at
+    /// the `k_i l_j + k_j l_i` of larger magnitudes. A component of `K(t)` is within `4.1 u k_i`
+    /// of the exact one (rounded difference, `1 - t`, a product, a sum), so one of `N(t)` is within
+    /// `2 * 4.1 u p + 2 u p` of the exact one; moving to the root changes each component of `K` by at
     /// most `2 k_i w`, so of `N` by at most `4 w p (1 + w)`. The product with `N` adds `3.1 u` of
     /// the sum of the `|N_i| p_i`. Below, `(20 u + 5 w)` times that sum, for `w < 1/8`, checked by
-    /// whoever reads the result; its computation has a relative error below `9 u`. What underflows
-    /// is at most `2^-1072` a component, times `w`, below `2^361`: `TINY` is more. What overflows
+    /// whoever reads the result; its computation has a relative error below `9 u`.
+    ///
+    /// What underflows: with a cubic all factors are below `2^180`. A component of `K(t)` is off by
+    /// at most `2^-1074`, one of a cross product so by `4 * 2^180` times that and `2^-1074` more.
+    /// Times `N`, below `2^361` a component, this is below `2^-529`: `TINY` is more. Without a
+    /// cubic `t` is 0, so that `K(t)` is exact: a component of `N` is off by at most `2^-1074`,
+    /// which times the computed one is below `2 u` of its square or below `2^-2000`. What overflows
     /// makes a bound infinite or NaN, so that nothing follows.
     #[inline(always)]
     pub(super) fn meeting(&self, cubic: &Cubic, bracket: &Bracket) -> Meeting {
@@ -152,8 +157,8 @@ impl Meeting {
     }
 }
 
-/// Far above what underflow adds, far below any bound that matters.
-pub(super) const TINY: f64 = f64::from_bits((1023 - 700) << 52);
+/// Far above what underflow adds to a product with `N`.
+const TINY: f64 = f64::from_bits((1023 - 500) << 52);
 
 #[cfg(test)]
 mod tests;

@@ -10,7 +10,7 @@ use wide::f64x2;
 use super::cubic::{Cubic, permanents};
 use super::double::{Double, two_difference, two_sum};
 use super::ends::Ends;
-use super::locate::{Meeting, TINY};
+use super::locate::Meeting;
 use super::motion::{Motion, Positions};
 use super::root::Bracket;
 use super::separate::U;
@@ -27,7 +27,7 @@ pub(super) struct Root {
 ///
 /// Error bound, with `h = 2^-106` and `k` the larger magnitude at both ends of the step: the
 /// differences at the ends are exact, their difference is within `16 h k`, the product with the
-/// time within `8 h 2 k` more, the sum within `24 h k` more (bounds at the operations): `56 h k`.
+/// time within `8 h 2 k` more, the sum within `24 h k` more (bounds at the operations): `56.1 h k`.
 #[inline(always)]
 fn difference<E: Ends>(from: [E; 2], to: [E; 2], time: Double<f64>) -> Double<E> {
     let ([from_start, from_end], [to_start, to_end]) =
@@ -41,11 +41,14 @@ fn difference<E: Ends>(from: [E; 2], to: [E; 2], time: Double<f64>) -> Double<E>
 
 /// `f` at a time, two numbers at a time.
 ///
-/// Error bound: a minor of two components is within `(8 + 2 * 56 + 8) h p_ij` of the exact one, a
-/// term of the determinant within `(8 + 56 + 128) h`, and the two last sums add `16 h`: `208 h P`,
+/// Error bound: a minor of two components is within `(8 + 2 * 56.1 + 8) h p_ij` of the exact one, a
+/// term of the determinant within `(8 + 57 + 129) h`, and the two last sums add `16 h`: `210 h P`,
 /// with `P` the permanent of [`Cubic`]. Below, `256 h P`. The rounding to `f64` is relative.
-/// Underflow: see [`Cubic::new`]; the errors of products that underflow are below `2^-885`, the
-/// bound above `2^-750`.
+///
+/// Underflow: all factors are below `2^180`. A product of two double-doubles takes six products in
+/// `f64`, each off by at most `2^-1075`: below `2^-1072`. The one with the time adds that to a
+/// component, which is then multiplied by two others: with those of the minors and of the
+/// determinant, below `18 * 2^-712`. As `P` is above `2^-600`, `40 h P` is more.
 fn evaluate(positions: &Positions, time: Double<f64>) -> f64 {
     let [a, b, c, d] = positions.points::<f64x2>();
     // K and L of an axis; M of two axes.
@@ -63,6 +66,9 @@ fn evaluate(positions: &Positions, time: Double<f64>) -> f64 {
 
 /// `2^-106`.
 const SQUARED_U: f64 = U * U;
+
+/// Far above what underflow adds to a minor.
+const TINY: f64 = f64::from_bits((1023 - 700) << 52);
 
 /// The error of [`evaluate`] in units of the permanent.
 const VALUE_ERROR: f64 = 256.0 * SQUARED_U;
@@ -119,8 +125,8 @@ impl Root {
     /// Error bound: a minor is within `128 h p` of the exact one at `time` (see [`evaluate`]), and
     /// moving to the root changes it by at most `4 e p (1 + e)`, `e` the error of the root. A
     /// difference of minors adds `8 h` of both. Below, `(160 h + 5 e) p`, for `e < 1/8`; the
-    /// computation of that has a relative error below `4 u`. What underflows is below `2^-1070`,
-    /// and `TINY` is more.
+    /// computation of that has a relative error below `4 u`. What underflows is below `2^-1072` in
+    /// a component (see [`evaluate`]), so below `2^-889` in a minor, and `TINY` is more.
     pub(super) fn meeting<E: Ends>(
         &self,
         positions: &Positions,

@@ -77,7 +77,9 @@ impl<E: Ends> Moving<E> {
     /// Up to when a plane with this normal certainly keeps them more than the radius apart, if not
     /// for the whole step: then 1 or more; 0 if not even at the start.
     ///
-    /// What is computed from the margins passes three roundings, which `8 u` outweigh.
+    /// What is computed from the margins passes three roundings, which `8 u` outweigh. Nothing
+    /// underflows: a margin above 0 is not below `2 u` of what is taken from it, which is at least
+    /// `24 u` of all that the other one is made of.
     #[inline(always)]
     pub(super) fn stays_apart_by<K: Stages>(&self, n: &Vector) -> f64 {
         let [start, end] = self.margins::<K>(n);

@@ -183,7 +183,8 @@ impl Moving<f64x2> {
     ///
     /// With the size `e` of the box around all points, a component of the difference is within
     /// `12 u e` of the exact one; its length then within `12 u |e|`, and computed with a relative
-    /// error below `4 u`.
+    /// error below `4 u`. Where squares underflow both lengths are off by less than `2^-536`, which
+    /// is nothing beside an ulp of the radius.
     fn is_within(&self, start: &Instant, radius: Radius) -> bool {
         let length = dot(&start.difference, &start.difference).sqrt();
         let high = (length + 16.0 * U * self.boxes.size()) * (1.0 + 16.0 * U) + f64::MIN_POSITIVE;

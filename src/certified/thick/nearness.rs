@@ -82,6 +82,12 @@ impl<E: Ends> Moving<E> {
     /// `(8 u + 3 T) |v|` and `8 u` of themselves; `N`, up to its sign the product of the
     /// directions, within `(16 u + 5 T)` of the permanents of their `v`. Everything here passes
     /// fewer than 30 roundings.
+    ///
+    /// What underflows: a component of a direction or of the difference is off by less than
+    /// `2^-1071`, and as the size of the boxes is below `2^180`, a product of the two by less than
+    /// `2^-885`: `TINY` is more. A length is off by less than `2^-536`, which is nothing beside
+    /// [`SHORTEST`]: a shorter one is not used. Slopes are not below `32 u` of the directions'
+    /// squares, so that quotients by these are not below `32 u`.
     pub(super) fn nearness<K: Stages>(&self, here: &Instant, while_: f64) -> Option<Nearness> {
         let ([k, l], size) = self.reaches();
         let directions = here.spot.directions;
@@ -126,7 +132,7 @@ impl<E: Ends> Moving<E> {
                     [true, false] => beside(second, first),
                     [false, false] => None,
                 };
-                held.unwrap_or_else(|| inside(first, second, normal))
+                held.or_else(|| inside(first, second, normal))?
             }
         };
         Some(Nearness {
@@ -172,19 +178,20 @@ fn beside(first: Slope, second: Slope) -> Option<(f64, f64)> {
 }
 
 /// The same where nothing is in the way, with a bound on `|N|`.
-fn inside(first: Slope, second: Slope, normal: f64) -> (f64, f64) {
+fn inside(first: Slope, second: Slope, normal: f64) -> Option<(f64, f64)> {
     let length = (first.size() * second.most + second.size() * first.most) / normal;
-    (
+    let (fall, error) = (
         length * length,
         length * ((first.most + second.most) / normal),
-    )
+    );
+    (first.most > SHORTEST && second.most > SHORTEST).then_some((fall, error))
 }
 
 /// 2^-450: what is longer has a square that loses nothing to underflow.
 const SHORTEST: f64 = f64::from_bits((1023 - 450) << 52);
 
-/// Far above what underflows.
-const TINY: f64 = SMALLEST;
+/// 2^-850: far above what underflow adds to a product of two vectors below 2^182 each.
+const TINY: f64 = f64::from_bits((1023 - 850) << 52);
 
 #[cfg(test)]
 mod tests;

@@ -1,0 +1,587 @@
+"""Reads the straight-line part of Rust that the filters are written in, and runs it on any numbers.
+
+A function is found by its file and name, parsed, and interpreted: `let`, arithmetic, calls of other functions of the sources (which
+are read too), closures, arrays, tuples and structures. What it does not know is an error, not a guess.
+"""
+
+import re
+from pathlib import Path
+
+TOKEN = re.compile(
+    r"""(?P<number>\d[\d_]*\.\d[\d_]*(?:e-?\d+)?|\d[\d_]*e-?\d+|\d[\d_]*(?:u32|u64|f64|usize|i64)?)
+      | (?P<name>'?[A-Za-z_][A-Za-z_0-9]*)
+      | (?P<text>"(?:[^"\\]|\\.)*")
+      | (?P<mark>\.\.=|\.\.|::|->|=>|<<|>=|<=|==|!=|&&|\|\||[-+*/%=<>!&|^.,;:(){}\[\]?\#])
+      | (?P<space>\s+)""",
+    re.X,
+)
+
+
+class Unknown(Exception):
+    """Rust that this program does not read."""
+
+
+def tokens_of(text):
+    text = re.sub(r"//[^\n]*", "", text)
+    found, at = [], 0
+    while at < len(text):
+        match = TOKEN.match(text, at)
+        if not match:
+            raise Unknown(f"the text {text[at:at + 30]!r}")
+        if match.lastgroup != "space":
+            found.append((match.lastgroup, match.group()))
+        at = match.end()
+    return found
+
+
+class Function:
+    def __init__(self, file, name, of, generics, parameters, body):
+        self.file, self.name, self.of, self.generics = file, name, of, generics
+        self.parameters, self.body, self.tree = parameters, body, None
+
+    def text(self):
+        return " ".join(text for _, text in self.body)
+
+
+class File:
+    """The functions, constants and imports of a source file."""
+
+    def __init__(self, path, text):
+        self.path, self.functions, self.constants, self.imports = path, {}, {}, {}
+        self.text = text
+        text = re.sub(r"#\[cfg\(test\)\]\s*mod \w+;", "", text)
+        text = re.split(r"#\[cfg\(test\)\]\s*mod \w+ \{", text)[0]
+        self.tokens = tokens_of(text)
+        self.read_imports(text)
+        self.read_items()
+
+    def read_imports(self, text):
+        for tree in re.findall(r"^\s*(?:pub )?(?:\([^)]*\) )?use ([^;]+);", text, re.M):
+            tree = re.sub(r"\s+", "", tree)
+            head, _, inner = tree.partition("{")
+            names = inner.rstrip("}").split(",") if inner else [head.split("::")[-1]]
+            module = head.rstrip(":").split("::")
+            module = module if inner else module[:-1]
+            for name in filter(None, names):
+                self.imports[name.split("::")[-1]] = module[-1] if module else ""
+
+    def closing(self, at):
+        """The index of what closes the bracket at `at`."""
+        depth = 0
+        for i in range(at, len(self.tokens)):
+            depth += self.tokens[i][1] in "({[" and self.tokens[i][0] == "mark"
+            depth -= self.tokens[i][1] in ")}]" and self.tokens[i][0] == "mark"
+            if depth == 0:
+                return i
+        raise Unknown("brackets that do not close")
+
+    def end_of_item(self, at):
+        """The index of the `;` that is in no brackets."""
+        while self.tokens[at][1] != ";":
+            at = self.closing(at) if self.tokens[at][1] in "([{" and self.tokens[at][0] == "mark" else at
+            at += 1
+        return at
+
+    def read_items(self):
+        of, ends, at = None, -1, 0
+        while at < len(self.tokens):
+            word = self.tokens[at][1]
+            if at == ends:
+                of = None
+            if word == "impl" and self.tokens[at][0] == "name":
+                opened = next(i for i in range(at, len(self.tokens)) if self.tokens[i][1] == "{")
+                head = [text for _, text in self.tokens[at + 1 : opened]]
+                head = head[head.index("for") + 1 :] if "for" in head else head[self.after_generics(head, 0) :]
+                of, ends, at = head[0], self.closing(opened), opened
+            elif word == "const" and self.tokens[at + 1][0] == "name" and self.tokens[at + 2][1] == ":":
+                end = self.end_of_item(at)
+                value = next((i for i in range(at, end) if self.tokens[i][1] == "="), None)
+                if value and "usize" not in [text for _, text in self.tokens[value:end]]:
+                    self.constants[self.tokens[at + 1][1]] = self.tokens[value + 1 : end]
+                at = end
+            elif word == "fn" and self.tokens[at + 1][0] == "name":
+                at = self.read_function(at, of)
+            at += 1
+
+    @staticmethod
+    def after_generics(words, at):
+        if at >= len(words) or words[at] != "<":
+            return at
+        depth = 0
+        while True:
+            depth += (words[at] == "<") - (words[at] == ">")
+            at += 1
+            if depth == 0:
+                return at
+
+    def read_function(self, at, of):
+        name = self.tokens[at + 1][1]
+        words = [text for _, text in self.tokens]
+        opened = self.after_generics(words, at + 2)
+        closed = self.closing(opened)
+        parameters = Parser(self.tokens[opened + 1 : closed]).parameters()
+        body = closed
+        while self.tokens[body][1] not in "{;" or self.tokens[body][0] != "mark":
+            body = self.closing(body) if self.tokens[body][1] in "([" else body
+            body += 1
+        if self.tokens[body][1] == ";":
+            return body
+        end = self.closing(body)
+        function = Function(self, name, of, (), parameters, self.tokens[body : end + 1])
+        self.functions.setdefault((of, name), function)
+        # Constants inside of the body are found as well.
+        for i in range(body, end):
+            if self.tokens[i][1] == "const" and self.tokens[i + 2][1] == ":":
+                stop = next(j for j in range(i, end) if self.tokens[j][1] == ";")
+                start = next(j for j in range(i, stop) if self.tokens[j][1] == "=")
+                self.constants[self.tokens[i + 1][1]] = self.tokens[start + 1 : stop]
+        return end
+
+
+PRECEDENCE = [["||"], ["&&"], ["==", "!=", "<", ">", "<=", ">="], ["|"], ["^"], ["&"], ["<<"], ["+", "-"], ["*", "/", "%"]]
+
+
+class Parser:
+    def __init__(self, tokens):
+        self.tokens, self.at = tokens, 0
+
+    def peek(self, ahead=0):
+        return self.tokens[self.at + ahead][1] if self.at + ahead < len(self.tokens) else None
+
+    def kind(self):
+        return self.tokens[self.at][0] if self.at < len(self.tokens) else None
+
+    def next(self):
+        self.at += 1
+        return self.tokens[self.at - 1][1]
+
+    def take(self, word):
+        if self.peek() == word:
+            self.at += 1
+            return True
+        return False
+
+    def need(self, word):
+        if not self.take(word):
+            raise Unknown(f"{self.peek()!r} where {word!r} was expected")
+
+    def skip_generics(self):
+        if self.peek() == "<":
+            depth = 0
+            while True:
+                word = self.next()
+                depth += (word == "<") - (word == ">")
+                if depth == 0:
+                    return
+
+    def skip_type(self, ends):
+        depth = 0
+        while self.peek() is not None and (depth or self.peek() not in ends):
+            word = self.next()
+            depth += (word in "(<[") - (word in ")>]")
+
+    def parameters(self):
+        found = []
+        while self.peek() is not None:
+            found.append(self.pattern())
+            if self.take(":"):
+                self.skip_type([","])
+            self.take(",")
+        return found
+
+    def pattern(self):
+        while self.peek() in ("&", "&&", "mut", "ref") or (self.peek() or "").startswith("'"):
+            self.next()
+        if self.take("("):
+            return ("tuple", self.patterns(")"))
+        if self.take("["):
+            return ("tuple", self.patterns("]"))
+        if self.kind() != "name":
+            raise Unknown(f"the pattern {self.peek()!r}")
+        name = self.next()
+        while self.take("::"):
+            name = self.next()
+        if self.take("{"):
+            fields = []
+            while not self.take("}"):
+                if self.take(".."):
+                    continue
+                field = self.next()
+                fields.append((field, self.pattern() if self.take(":") else ("name", field)))
+                self.take(",")
+            return ("fields", fields)
+        return ("name", name)
+
+    def patterns(self, end):
+        found = []
+        while not self.take(end):
+            found.append(self.pattern())
+            self.take(",")
+        return found
+
+    def block(self):
+        self.need("{")
+        lets, value = [], ("unit",)
+        while not self.take("}"):
+            if self.take("let"):
+                pattern = self.pattern()
+                if self.take(":"):
+                    self.skip_type(["="])
+                self.need("=")
+                lets.append((pattern, self.expression()))
+                self.need(";")
+            elif self.peek() == "const":
+                while self.next() != ";":
+                    pass
+            else:
+                value = self.expression()
+                if self.take(";"):
+                    raise Unknown("a statement that is not a let")
+        return ("block", lets, value)
+
+    def lets_until(self, last):
+        """The `let`s of a body up to that of a name. What is returned early, on a condition, is left out."""
+        self.need("{")
+        lets = []
+        while True:
+            if self.take("let"):
+                pattern = self.pattern()
+                if self.take(":"):
+                    self.skip_type(["="])
+                self.need("=")
+                lets.append((pattern, self.expression()))
+                self.need(";")
+                if names_of(pattern) & {last}:
+                    return lets
+            elif self.peek() == "const":
+                while self.next() != ";":
+                    pass
+            elif self.peek() == "if":
+                while self.peek() != "{":
+                    self.next()
+                depth, words = 0, []
+                while True:
+                    words.append(self.next())
+                    depth += (words[-1] == "{") - (words[-1] == "}")
+                    if depth == 0:
+                        break
+                if "return" not in words:
+                    raise Unknown("a condition that changes something")
+            else:
+                raise Unknown(f"the statement {self.peek()!r}")
+
+    def expression(self, level=0, is_condition=False):
+        if level == len(PRECEDENCE):
+            return self.unary(is_condition)
+        left = self.expression(level + 1, is_condition)
+        while self.peek() in PRECEDENCE[level] and self.kind() == "mark":
+            operator = self.next()
+            left = ("binary", operator, left, self.expression(level + 1, is_condition))
+        return left
+
+    def unary(self, is_condition):
+        for mark in "-", "!":
+            if self.take(mark):
+                return ("unary", mark, self.unary(is_condition))
+        if self.peek() in ("&", "&&", "*") and self.kind() == "mark":
+            self.next()
+            return self.unary(is_condition)
+        return self.postfix(self.primary(is_condition), is_condition)
+
+    def arguments(self, end):
+        found = []
+        while not self.take(end):
+            found.append(self.expression())
+            if self.take(";"):
+                count = self.expression()
+                self.need(end)
+                return [found[0]] * int(count[1])
+            self.take(",")
+        return found
+
+    def postfix(self, value, is_condition):
+        while True:
+            if self.take("."):
+                name = self.next()
+                if self.take("::"):
+                    self.skip_generics()
+                if self.take("("):
+                    value = ("method", value, name, self.arguments(")"))
+                else:
+                    for part in name.split("."):
+                        value = ("field", value, part)
+            elif self.take("("):
+                value = ("call", value, self.arguments(")"))
+            elif self.take("["):
+                index = self.expression()
+                self.need("]")
+                value = ("index", value, index)
+            elif self.take("as"):
+                self.skip_type([")", ",", ";", "*", "+", "-", "/"])
+            elif self.peek() == "?":
+                raise Unknown("a question mark")
+            else:
+                return value
+
+    def primary(self, is_condition):
+        if self.kind() == "number":
+            text = re.sub(r"(u32|u64|f64|usize|i64)$", "", self.next()).replace("_", "")
+            return ("number", float(text) if re.search(r"[.e]", text) else int(text))
+        if self.take("("):
+            values = self.arguments(")")
+            comma = self.tokens[self.at - 2][1] == ","
+            return values[0] if len(values) == 1 and not comma else ("list", values)
+        if self.take("["):
+            return ("list", self.arguments("]"))
+        if self.peek() == "{":
+            return self.block()
+        if self.take("if"):
+            condition = self.expression(is_condition=True)
+            then = self.block()
+            self.need("else")
+            return ("if", condition, then, self.block() if self.peek() == "{" else self.primary(False))
+        if self.take("||"):
+            return ("closure", [], self.expression())
+        if self.take("|"):
+            parameters = []
+            while not self.take("|"):
+                parameters.append(self.pattern())
+                if self.take(":"):
+                    self.skip_type([",", "|"])
+                self.take(",")
+            return ("closure", parameters, self.expression())
+        if self.kind() != "name":
+            raise Unknown(f"the expression {self.peek()!r}")
+        path = [self.next()]
+        while self.take("::"):
+            if self.peek() == "<":
+                self.skip_generics()
+            else:
+                path.append(self.next())
+        if self.peek() == "{" and not is_condition and path[-1][0].isupper():
+            self.next()
+            fields, base = [], None
+            while not self.take("}"):
+                if self.take(".."):
+                    base = self.expression()
+                    continue
+                field = self.next()
+                fields.append((field, self.expression() if self.take(":") else ("path", [field])))
+                self.take(",")
+            return ("structure", path, fields, base)
+        return ("path", path)
+
+
+def names_of(pattern):
+    if pattern[0] == "name":
+        return {pattern[1]}
+    if pattern[0] == "tuple":
+        return set().union(*map(names_of, pattern[1]))
+    return set().union(*(names_of(part) for _, part in pattern[1]))
+
+
+class Record:
+    """A structure."""
+
+    def __init__(self, of, **fields):
+        self.of, self.fields = of, fields
+
+
+class Sources:
+    """The source files below a folder, as read when they are needed."""
+
+    def __init__(self, root):
+        self.root, self.files = Path(root), {}
+
+    def file(self, path):
+        if path not in self.files:
+            self.files[path] = File(path, (self.root / path).read_text())
+        return self.files[path]
+
+    def module(self, user, name):
+        """The file of a module, seen from a file."""
+        folder = Path(user.path).parent
+        if name == "super" and (self.root / f"{folder}.rs").is_file():
+            return self.file(f"{folder}.rs")
+        if name in ("super", "self", "crate", "certified"):
+            name = "mod"
+        for base in (folder, folder.parent, Path("src/certified")):
+            for path in (base / f"{name}.rs", base / name / "mod.rs"):
+                if (self.root / path).is_file():
+                    return self.file(str(path))
+        raise Unknown(f"the module {name!r}")
+
+
+class Interpreter:
+    """Runs functions of the sources on numbers that know `+`, `-`, `*`, `/` and what `builtins` do."""
+
+    def __init__(self, sources, builtins, methods, types):
+        self.sources, self.builtins, self.methods, self.types = sources, builtins, methods, types
+        # What methods of structures give, where that is not what their bodies say.
+        self.given = {}
+
+    def run(self, path, name, *arguments, of=None, this=None):
+        file = self.sources.file(path)
+        found = [f for (owner, known), f in file.functions.items() if known == name and of in (None, owner)]
+        if len(found) != 1:
+            raise Unknown(f"{len(found)} functions {name!r} in {path}")
+        return self.apply(found[0], ([this] if this is not None else []) + list(arguments))
+
+    def scope_at(self, path, name, last, *arguments, of=None):
+        """What is known in a function once a name is bound."""
+        file = self.sources.file(path)
+        function = file.functions[of, name]
+        scope = {}
+        for pattern, argument in zip(function.parameters, arguments):
+            self.bind(pattern, argument, scope)
+        for pattern, value in Parser(function.body).lets_until(last):
+            self.bind(pattern, self.value(value, scope, file, of), scope)
+        return scope
+
+    def constant(self, path, name):
+        file = self.sources.file(path)
+        return self.value(Parser(file.constants[name]).expression(), {}, file, None)
+
+    def apply(self, function, arguments):
+        if function.tree is None:
+            function.tree = Parser(function.body).block()
+        if len(arguments) != len(function.parameters):
+            raise Unknown(f"{len(arguments)} arguments of {function.name}")
+        scope = {}
+        for pattern, argument in zip(function.parameters, arguments):
+            self.bind(pattern, argument, scope)
+        return self.value(function.tree, scope, function.file, function.of)
+
+    def bind(self, pattern, value, scope):
+        if pattern[0] == "name":
+            scope[pattern[1]] = value
+        elif pattern[0] == "tuple":
+            if len(pattern[1]) != len(value):
+                raise Unknown("a pattern of another length")
+            for part, item in zip(pattern[1], value):
+                self.bind(part, item, scope)
+        else:
+            for field, part in pattern[1]:
+                self.bind(part, value.fields[field], scope)
+
+    def value(self, tree, scope, file, of):
+        kind = tree[0]
+        go = lambda tree: self.value(tree, scope, file, of)
+        if kind == "number":
+            return tree[1]
+        if kind == "list":
+            return [go(part) for part in tree[1]]
+        if kind == "block":
+            inner = dict(scope)
+            for pattern, value in tree[1]:
+                self.bind(pattern, self.value(value, inner, file, of), inner)
+            return self.value(tree[2], inner, file, of)
+        if kind == "binary":
+            return self.binary(tree[1], go(tree[2]), go(tree[3]))
+        if kind == "unary":
+            return -go(tree[2]) if tree[1] == "-" else not go(tree[2])
+        if kind == "if":
+            return go(tree[2]) if self.builtins["if"](tree[1], go) else go(tree[3])
+        if kind == "closure":
+            return self.closure(tree, scope, file, of)
+        if kind == "structure":
+            fields = {name: go(value) for name, value in tree[2]}
+            if tree[3] is not None:
+                fields = {**go(tree[3]).fields, **fields}
+            name = of if tree[1][-1] == "Self" else tree[1][-1]
+            build = self.builtins.get("structure " + name)
+            return build(fields) if build else Record(name, **fields)
+        if kind == "field":
+            value = go(tree[1])
+            if tree[2].isdigit():
+                return value[int(tree[2])]
+            return value.fields[tree[2]] if isinstance(value, Record) else getattr(value, tree[2])
+        if kind == "index":
+            return go(tree[1])[go(tree[2])]
+        if kind == "path":
+            return self.path(tree[1], scope, file, of)
+        if kind == "call":
+            function = self.path(tree[1][1], scope, file, of) if tree[1][0] == "path" else go(tree[1])
+            return function(*[go(argument) for argument in tree[2]])
+        if kind == "method":
+            return self.method(go(tree[1]), tree[2], [go(argument) for argument in tree[3]], file)
+        raise Unknown(kind)
+
+    def closure(self, tree, scope, file, of):
+        def call(*arguments):
+            inner = dict(scope)
+            for pattern, argument in zip(tree[1], arguments):
+                self.bind(pattern, argument, inner)
+            return self.value(tree[2], inner, file, of)
+
+        return call
+
+    @staticmethod
+    def binary(operator, x, y):
+        if operator == "+":
+            return x + y
+        if operator == "-":
+            return x - y
+        if operator == "*":
+            return x * y
+        if operator == "/":
+            return x / y
+        if operator == "<<":
+            return x << y
+        if operator == "%":
+            return x % y
+        if operator == "&":
+            return x & y
+        if operator == "|":
+            return x | y
+        if operator == ">":
+            return x > y
+        if operator == "<":
+            return x < y
+        raise Unknown(f"the operator {operator}")
+
+    def path(self, path, scope, file, of):
+        name = path[-1]
+        if len(path) == 1 and name in scope:
+            return scope[name]
+        whole = "::".join(path[-2:])
+        if whole in self.builtins:
+            return self.builtins[whole]
+        if len(path) == 1 and name in self.builtins:
+            return self.builtins[name]
+        if path[0] == "Self" and (of, name) in file.functions:
+            function = file.functions[of, name]
+            return lambda *arguments: self.apply(function, list(arguments))
+        owner = path[-2] if len(path) > 1 and path[-2][0].isupper() else None
+        if owner in self.types:
+            for known in map(self.sources.file, self.types[owner]):
+                if (owner, name) in known.functions:
+                    function = known.functions[owner, name]
+                    return lambda *arguments: self.apply(function, list(arguments))
+        home = file
+        if len(path) > 1 and owner is None:
+            home = self.sources.module(file, path[-2])
+        elif name not in file.constants and (None, name) not in file.functions and name in file.imports:
+            home = self.sources.module(file, file.imports[name])
+        while (None, name) not in home.functions and name not in home.constants and name in home.imports:
+            home = self.sources.module(home, home.imports[name])
+        if name in home.constants:
+            return self.value(Parser(home.constants[name]).expression(), {}, home, None)
+        if (None, name) in home.functions:
+            function = home.functions[None, name]
+            return lambda *arguments: self.apply(function, list(arguments))
+        raise Unknown("::".join(path))
+
+    def method(self, value, name, arguments, file):
+        if isinstance(value, Record):
+            if name in ("copied", "clone"):
+                return value
+            if (value.of, name) in self.given:
+                return self.given[value.of, name]
+            for known in map(self.sources.file, self.types[value.of]):
+                if (value.of, name) in known.functions:
+                    return self.apply(known.functions[value.of, name], [value, *arguments])
+            raise Unknown(f"the method {name} of {value.of}")
+        if name in self.methods:
+            return self.methods[name](value, *arguments)
+        return getattr(value, name)(*arguments)
