@@ -1,9 +1,8 @@
 """Claims about double-double arithmetic, and what is computed with it at a root."""
 
-import re
 from fractions import Fraction
 
-from engine import AXES, HERE, LARGE, cross, dot, own, reach_name, sizes_of_ends
+from engine import AXES, HERE, LARGE, cross, dot, reach_name, sizes_of_ends
 from filters import cubic_run
 from places import Located, check, exact_vectors, kept, magnitude
 from prove import Refused, polynomial, product, scaled, total
@@ -119,7 +118,7 @@ class Refined(Located):
 
     def __init__(self, engine, moves):
         double_sizes(engine)
-        self.said = engine.said("refine", r"the sum within `24 h k` more \(bounds at the operations\): `([\d.]+) h k`")
+        self.error = H * engine.said("refine", r"the sum within `24 h k` more \(bounds at the operations\): `([\d.]+) h k`")
         self.moves = moves
 
     def difference(self, context):
@@ -137,14 +136,6 @@ class Refined(Located):
             return Double(Pair(*lanes))
 
         return of
-
-    def sizes(self, name):
-        match = re.fullmatch(r"([wr]?)([klm])([xyz])", name)
-        if not match:
-            return None
-        kind, letter, axis = match.groups()
-        reach = letter.upper() + axis
-        return {"": own(reach), "w": polynomial((2, "W", reach)), "r": polynomial((self.said * H, reach))}[kind]
 
 
 class Corners:

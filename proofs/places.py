@@ -28,11 +28,21 @@ def at_time_underflow(engine, claim):
         claim.underflow(component, lambda name: Fraction(1), Fraction(2) ** -1074 * (1 + 4 * U))
 
 
+def sizes_at_time(name, error):
+    """Those of [`Located`], rounded by a relative error."""
+    match = re.fullmatch(r"([wr]?)([klm])([xyz])", name)
+    if not match:
+        return None
+    kind, letter, axis = match.groups()
+    reach = letter.upper() + axis
+    return {"": own(reach), "w": polynomial((2, "W", reach)), "r": polynomial((error, reach))}[kind]
+
+
 class Located:
     """Vectors at a computed time: exact ones at the root, what the way there changes, and what is rounded or underflows."""
 
     def __init__(self, engine, said):
-        self.said = said
+        self.error = said * U
 
     def vector(self, context, name):
         def component(axis):
@@ -45,12 +55,7 @@ class Located:
         return [component(axis) for axis in AXES]
 
     def sizes(self, name):
-        match = re.fullmatch(r"([wr]?)([klm])([xyz])", name)
-        if not match:
-            return None
-        kind, letter, axis = match.groups()
-        reach = letter.upper() + axis
-        return {"": own(reach), "w": polynomial((2, "W", reach)), "r": polynomial((self.said * U, reach))}[kind]
+        return sizes_at_time(name, self.error)
 
     @staticmethod
     def merge(names):

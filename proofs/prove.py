@@ -9,7 +9,7 @@ import subprocess
 from fractions import Fraction
 from math import comb
 
-from rounded import F, U
+from rounded import U
 
 PRECISION = "-Eprecision=300"
 

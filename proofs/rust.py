@@ -219,17 +219,22 @@ class Parser:
             self.take(",")
         return found
 
+    def let(self):
+        """The pattern and the value, after the word."""
+        pattern = self.pattern()
+        if self.take(":"):
+            self.skip_type(["="])
+        self.need("=")
+        value = self.expression()
+        self.need(";")
+        return pattern, value
+
     def block(self):
         self.need("{")
         lets, value = [], ("unit",)
         while not self.take("}"):
             if self.take("let"):
-                pattern = self.pattern()
-                if self.take(":"):
-                    self.skip_type(["="])
-                self.need("=")
-                lets.append((pattern, self.expression()))
-                self.need(";")
+                lets.append(self.let())
             elif self.peek() == "const":
                 while self.next() != ";":
                     pass
@@ -245,13 +250,8 @@ class Parser:
         lets = []
         while True:
             if self.take("let"):
-                pattern = self.pattern()
-                if self.take(":"):
-                    self.skip_type(["="])
-                self.need("=")
-                lets.append((pattern, self.expression()))
-                self.need(";")
-                if names_of(pattern) & {last}:
+                lets.append(self.let())
+                if names_of(lets[-1][0]) & {last}:
                     return lets
             elif self.peek() == "const":
                 while self.next() != ";":

@@ -6,7 +6,7 @@ from fractions import Fraction
 from doubled import Corners, double_sizes
 from engine import AXES, HERE, cross, differences, dot, ends, own, sizes_of_ends
 from filters import chosen, same_as_one_of
-from places import Located, kept, said_at
+from places import Located, kept, said_at, sizes_at_time
 from prove import polynomial, product, scaled, total
 from rounded import Context, Double, F, H, Pair, U, runs
 from rust import Record
@@ -170,15 +170,7 @@ def least_normal(engine, claim, part=None):
     )
     exact = cross([own(f"k{a}") for a in AXES], [own(f"l{a}") for a in AXES])
     near = engine.said("thick/nearness", r"a component of a direction is within `(\d+) u v` of the exact one")
-
-    def sizes(name):
-        match = re.fullmatch(r"([wr]?)([kl])([xyz])", name)
-        if not match:
-            return None
-        kind, letter, axis = match.groups()
-        reach = letter.upper() + axis
-        return {"": own(reach), "w": polynomial((2, "W", reach)), "r": polynomial((near * U, reach))}[kind]
-
+    sizes = lambda name: sizes_at_time(name, near * U)
     for component, polynomial_of in zip(scope["normal"], exact):
         claim.needs(component, polynomial_of, scope["error"], sizes, merge=Located.merge)
     kept(claim, part)

@@ -18,7 +18,6 @@ factor of the root divides it; otherwise balls of growing precision show its sig
 
 import functools
 import itertools
-import math
 import struct
 
 from flint import arb, ctx, fmpq, fmpq_poly, fmpz_poly
@@ -158,7 +157,7 @@ class Root:
 def order(root, other):
     """Which of two different roots is smaller."""
     while True:
-        if root.high <= other.low and (root.high, root.low) != (other.low, other.high):
+        if root.high <= other.low:
             return -1
         if other.high <= root.low:
             return 1
@@ -225,12 +224,3 @@ def time_of_impact(query):
             ):
                 return root.enclosure()
     return None
-
-
-# Wrong answers, to see that they are found.
-FAULTS = {
-    "miss": lambda toi: None,
-    "hit": lambda toi: toi or (0.5, 0.5),
-    "late": lambda toi: toi and (toi[0], math.nextafter(toi[1], 2.0)),
-    "early": lambda toi: toi and (math.nextafter(toi[0], -1.0), toi[1]),
-}
