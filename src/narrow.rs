@@ -101,6 +101,11 @@ impl Tolerance {
         near: 0.0,
         late: 0.0,
     };
+
+    /// Whether a time of impact may be later than the exact one by this.
+    pub fn permits_late(&self, by: f64) -> bool {
+        by <= self.late
+    }
 }
 
 /// The answer to one query, with how it was reached.

@@ -105,6 +105,13 @@ def test_parts_make_the_whole_to_the_last_byte():
         tunnelproof.merge(parts[:2])
     with pytest.raises(ValueError, match="part 1"):
         tunnelproof.merge([json.dumps({})])
+    other = tunnelproof.certify(certified, shard=(2, 3), late=1e-9, **settings).json
+    with pytest.raises(ValueError, match="another tolerance"):
+        tunnelproof.merge([parts[0], other, parts[1]])
+    whole = json.loads(parts[0])
+    whole["tolerances"] = []
+    with pytest.raises(ValueError, match='list of subjects.* is "certified"'):
+        tunnelproof.merge([json.dumps(whole)])
 
 
 def test_what_is_no_certification_is_refused():

@@ -178,15 +178,14 @@ impl Certify {
     }
 
     fn answering(&self) -> Result<Vec<Answering>, Failure> {
-        match self.subject.is_empty() {
-            true => {
-                let known = registry::judged_by_default().map(Answering::Known);
-                let known: Vec<_> = known.collect();
-                self.permit.check(&known)?;
-                Ok(known)
-            }
-            false => self.programs.start_all(&self.subject, self.permit),
-        }
+        let mut answering = match self.subject.is_empty() {
+            true => registry::judged_by_default()
+                .map(Answering::Known)
+                .collect(),
+            false => self.programs.start_all(&self.subject)?,
+        };
+        self.permit.grant(&mut answering)?;
+        Ok(answering)
     }
 
     fn panel<'a>(&self, answering: &'a [Answering]) -> Panel<'a> {

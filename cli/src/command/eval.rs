@@ -12,7 +12,7 @@ use tunnelproof_reference::report::answer;
 use tunnelproof_reference::subject::Subject;
 
 use super::output::standard_output;
-use super::subjects::{Asked, Permit, Programs, asked};
+use super::subjects::{Asked, Programs, asked};
 use super::{Failure, Reading};
 
 /// Answer every query of files, a line of JSON each
@@ -46,7 +46,7 @@ pub(super) struct Eval {
 
 impl Eval {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
-        let answering = self.programs.start(&self.subject, Permit::default())?;
+        let answering = self.programs.start(&self.subject)?;
         let mut output = BufWriter::new(io::stdout().lock());
         for path in self.files {
             let options = self.reading.options();

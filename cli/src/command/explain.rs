@@ -10,7 +10,7 @@ use tunnelproof_reference::oracle::decide_query;
 use tunnelproof_reference::registry;
 
 use super::output::{OutputFile, print};
-use super::subjects::{Answering, AskedList, Permit, Programs, asked_list};
+use super::subjects::{Answering, AskedList, Programs, asked_list};
 use super::{Failure, Reading, certify};
 
 /// Explain the exact answer to one query, and what every subject says
@@ -43,7 +43,7 @@ impl Explain {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
         let entry = locate(&self.query, self.reading.options())?;
         let svg = self.svg.as_deref().map(OutputFile::create).transpose()?;
-        let more = self.programs.start_all(&self.subject, Permit::default())?;
+        let more = self.programs.start_all(&self.subject)?;
         let subjects = registry::subjects().into_iter();
         let subjects = subjects.chain(more.iter().map(Answering::subject));
         let subjects: Vec<_> = subjects.map(certify::judged).collect();

@@ -1,6 +1,7 @@
 //! `shrink`: the smallest query on which a subject is wrong in the same way.
 
 use std::process::ExitCode;
+use std::slice;
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -59,7 +60,8 @@ const SHRUNK: &str = "/shrunk";
 
 impl Shrink {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
-        let answering = self.programs.start(&self.subject, self.permit)?;
+        let mut answering = self.programs.start(&self.subject)?;
+        self.permit.grant(slice::from_mut(&mut answering))?;
         let disagreement = Disagreement {
             subject: answering.subject(),
             truth: self.truth.truth,

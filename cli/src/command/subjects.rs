@@ -1,7 +1,7 @@
 //! Who answers: subjects of the registry, and programs of the user.
 
+use std::process;
 use std::time::Duration;
-use std::{process, slice};
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -84,19 +84,12 @@ fn hosted(path: &str, time_limit: Duration) -> Result<Command, String> {
         words: [own, "lib-host".to_owned(), path.to_owned()].to_vec(),
         wire: Wire::Binary,
         time_limit,
-        tolerance: Tolerance::NONE,
     })
 }
 
 impl Programs {
     /// Starts the subject, if it is a program.
-    pub(super) fn start(&self, asked: &Asked, permit: Permit) -> Result<Answering, Failure> {
-        let answering = self.answering(asked, permit)?;
-        permit.check(slice::from_ref(&answering))?;
-        Ok(answering)
-    }
-
-    fn answering(&self, asked: &Asked, permit: Permit) -> Result<Answering, Failure> {
+    pub(super) fn start(&self, asked: &Asked) -> Result<Answering, Failure> {
         let name = match asked {
             Asked::Known(subject) => return Ok(Answering::Known(*subject)),
             Asked::Program(name) => name,
@@ -113,8 +106,7 @@ impl Programs {
                 Command::parse(text, self.wire, limit).map_err(|error| error.to_string())
             }
         };
-        let mut command = command.map_err(failure)?;
-        command.tolerance = permit.permit.unwrap_or_default();
+        let command = command.map_err(failure)?;
         let program = Program::start(name, command);
         let program = program.map_err(|error| failure(format!("cannot be started: {error}")))?;
         Ok(Answering::Program(Box::new(program)))
@@ -126,27 +118,26 @@ impl Programs {
     }
 
     /// Starts all of them.
-    pub(super) fn start_all(
-        &self,
-        lists: &[AskedList],
-        permit: Permit,
-    ) -> Result<Vec<Answering>, Failure> {
+    pub(super) fn start_all(&self, lists: &[AskedList]) -> Result<Vec<Answering>, Failure> {
         let asked = lists.iter().flat_map(|AskedList(list)| list);
-        let answering = asked.map(|asked| self.answering(asked, permit));
-        let answering = answering.collect::<Result<Vec<_>, _>>()?;
-        permit.check(&answering)?;
-        Ok(answering)
+        asked.map(|asked| self.start(asked)).collect()
     }
 }
 
 impl Permit {
-    /// Nothing is permitted where no program is judged.
-    pub(super) fn check(self, answering: &[Answering]) -> Result<(), Failure> {
-        let is_program = |answering: &Answering| answering.program().is_some();
-        match self.permit.is_some() && !answering.iter().any(is_program) {
-            true => Err(Failure::Permit),
-            false => Ok(()),
+    /// Declares it of all programs among them. It is an error if there is none.
+    pub(super) fn grant(self, answering: &mut [Answering]) -> Result<(), Failure> {
+        let Some(tolerance) = self.permit else {
+            return Ok(());
+        };
+        let mut is_granted = false;
+        for answering in answering {
+            if let Answering::Program(program) = answering {
+                program.declare(tolerance);
+                is_granted = true;
+            }
         }
+        is_granted.then_some(()).ok_or(Failure::Permit)
     }
 
     /// The value of the option, to be written.
@@ -211,7 +202,7 @@ fn wire() -> impl TypedValueParser<Value = Wire> {
 /// Reads what is permitted, such as `late=1e-9,near=1e-8`.
 fn tolerance(text: &str) -> Result<Tolerance, String> {
     let [mut near, mut late] = [None; 2];
-    for part in text.split(',').filter(|_| !text.is_empty()) {
+    for part in text.split(',') {
         let (name, value) = part
             .split_once('=')
             .ok_or_else(|| format!("{part:?} is not near=METRES or late=STEPS"))?;

@@ -82,10 +82,10 @@ impl Counts {
     /// Adds the answer to one query, which comes after all that are counted.
     pub(super) fn add(&mut self, index: usize, truth: &Outline, judgement: &Judgement) {
         self.hits += u64::from(judgement.is_hit);
-        let tolerance = Thesis::default().tolerance().late;
+        let tolerance = Thesis::default().tolerance();
         for (fault, severity) in judgement.faults(truth, || 0.0) {
             match fault {
-                Fault::Late | Fault::Early if severity <= tolerance => {}
+                Fault::Late | Fault::Early if tolerance.permits_late(severity) => {}
                 Fault::FalseHit => self.false_hits.push(index),
                 _ => self.add_fault(fault, severity, index),
             }

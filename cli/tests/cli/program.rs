@@ -204,6 +204,7 @@ fn certify_of_a_program_goes_by_the_tolerance_that_is_declared_for_it() {
 #[test]
 fn certify_refuses_what_is_no_tolerance() {
     for (permit, problem) in [
+        ("", "\"\" is not near=METRES or late=STEPS"),
         ("1e-9", "\"1e-9\" is not near=METRES or late=STEPS"),
         ("early=1", "\"early\" is neither near nor late"),
         ("near=-1", "near is \"-1\", not a number from 0"),

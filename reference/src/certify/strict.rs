@@ -109,7 +109,7 @@ fn fails(tolerance: Tolerance, tally: &Tally, fault: Fault) -> bool {
     let counts = match fault {
         // A hit is near, not false, by the tolerance of whoever reports it.
         Fault::NearHit => tolerance.near == 0.0,
-        Fault::Late => tally.worst(Fault::Late) > tolerance.late,
+        Fault::Late => !tolerance.permits_late(tally.worst(Fault::Late)),
         Fault::Early | Fault::WrongCase => false,
         _ => true,
     };

@@ -223,7 +223,7 @@ mod tests {
             }
         }
         let outcome = |late| certify(Late(late)).families(["uniform"]).run().unwrap();
-        for late in [0.0, 0.99e-10] {
+        for late in [0.0, 0.99e-10, f64::NAN] {
             let failures = outcome(late).failures;
             assert!(failures[0].contains("late times of impact"), "{failures:?}");
         }

@@ -44,6 +44,7 @@ const MOST_HANGS: u64 = 20;
 pub struct Program {
     name: String,
     command: Command,
+    tolerance: Tolerance,
     /// Running programs that nobody is asking.
     idle: Mutex<Vec<Worker>>,
     stderr: Arc<Mutex<Stderr>>,
@@ -60,8 +61,6 @@ pub struct Command {
     pub wire: Wire,
     /// How long it may take for an answer.
     pub time_limit: Duration,
-    /// How far off its answers are declared to be.
-    pub tolerance: Tolerance,
 }
 
 /// What a program did besides answering.
@@ -86,7 +85,7 @@ pub enum CommandError {
 
 impl Command {
     /// The command of this text, split into words as a POSIX shell splits them; nothing else of a
-    /// shell. Without a tolerance.
+    /// shell.
     ///
     /// # Errors
     ///
@@ -99,7 +98,6 @@ impl Command {
                 words,
                 wire,
                 time_limit,
-                tolerance: Tolerance::NONE,
             }),
         }
     }
@@ -124,6 +122,7 @@ impl Program {
         let program = Program {
             name: name.into(),
             command,
+            tolerance: Tolerance::NONE,
             idle: Mutex::default(),
             stderr: Arc::default(),
             starts: AtomicU64::new(0),
@@ -132,6 +131,11 @@ impl Program {
         let worker = program.start_worker()?;
         program.idle().push(worker);
         Ok(program)
+    }
+
+    /// Declares how far off its answers may be; nothing, unless this is called.
+    pub fn declare(&mut self, tolerance: Tolerance) {
+        self.tolerance = tolerance;
     }
 
     /// Ends the running programs, by the end of their input, and says what they did.
@@ -219,7 +223,7 @@ impl Subject for Program {
     }
 
     fn tolerance(&self) -> Tolerance {
-        self.command.tolerance
+        self.tolerance
     }
 }
 

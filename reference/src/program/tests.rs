@@ -1,7 +1,7 @@
 //! What programs write, read; programs in a shell, asked.
 
 use tunnelproof::contact::Case;
-use tunnelproof::narrow::{Tolerance, Unsupported};
+use tunnelproof::narrow::Unsupported;
 use tunnelproof::query::{Query, QueryKind};
 
 use super::wire::{Message, Reply, Wire};
@@ -240,7 +240,6 @@ fn shell(body: &str, limit: Duration) -> Program {
         words: words.map(str::to_owned).to_vec(),
         wire: Wire::Lines,
         time_limit: limit,
-        tolerance: Tolerance::NONE,
     };
     Program::start("cmd:sh", command).unwrap()
 }

@@ -93,6 +93,17 @@ impl Kept {
     ///
     /// [`MergeError`] if a value in it has no meaning.
     pub fn new(results: &Results) -> Result<Self, MergeError> {
+        let declared = || results.tolerances.iter().map(|row| &row.subject);
+        for source in &results.sources {
+            let names = || source.subjects.iter().map(|row| &row.subject);
+            if names().ne(declared()) {
+                let names: Vec<_> = names().map(String::as_str).collect();
+                return Err(MergeError::Value {
+                    what: "the list of subjects, which is not that of tolerances,",
+                    value: names.join(", "),
+                });
+            }
+        }
         let judges = results.second_judges.iter();
         let programs = results.programs.iter().map(|row| {
             let conduct = Conduct {
@@ -138,6 +149,7 @@ impl Kept {
     /// [`MergeError::Other`] if it is of another one.
     pub fn join(&mut self, other: Kept) -> Result<(), MergeError> {
         let names = |absent: &[Absent]| absent.iter().map(|a| a.name.clone()).collect::<Vec<_>>();
+        let tolerances = |absent: &[Absent]| absent.iter().map(|a| a.tolerance).collect::<Vec<_>>();
         let sources = |kept: &Kept| {
             kept.blocks
                 .iter()
@@ -157,6 +169,10 @@ impl Kept {
             (
                 "list of subjects",
                 names(&self.subjects) == names(&other.subjects),
+            ),
+            (
+                "tolerance",
+                tolerances(&self.subjects) == tolerances(&other.subjects),
             ),
             (
                 "list of judges",

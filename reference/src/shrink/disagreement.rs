@@ -42,9 +42,9 @@ impl<'a> Disagreement<'a> {
             subject: self.subject,
             explain: None,
         };
-        let late = self.subject.tolerance().late;
+        let tolerance = self.subject.tolerance();
         let counts = |&(fault, severity): &(Fault, f64)| match fault {
-            Fault::Late | Fault::Early => severity > late,
+            Fault::Late | Fault::Early => !tolerance.permits_late(severity),
             _ => true,
         };
         let faults = judged.judge(query, &truth).faults;

@@ -8,7 +8,9 @@ use tunnelproof_reference::certify::block::Block;
 use tunnelproof_reference::certify::findings::Findings;
 use tunnelproof_reference::certify::judged::Judged;
 use tunnelproof_reference::certify::strict;
-use tunnelproof_reference::certify::table::{command, grouped, lapse_counts, measure, short};
+use tunnelproof_reference::certify::table::{
+    command, grouped, lapse_counts, measure, short, tolerance,
+};
 use tunnelproof_reference::certify::tally::{Fault, Statement, Tally, Witness};
 use tunnelproof_reference::field::{self, Integer};
 use tunnelproof_reference::program::Conduct;
@@ -44,9 +46,12 @@ fn subject(findings: &Findings, index: usize, judged: &Judged) -> Markup {
     let all = (blocks.len() > 1).then_some(&findings.total);
     let tally = &findings.total.tallies[index];
     let failures = strict::failures_of(judged, &findings.total, tally);
+    let tolerated = strict::tolerated(judged, tally);
+    let declared = tolerance(judged.subject.tolerance());
     html! {
         h2 { (name) " " (verdict(failures.is_empty())) }
         @if !failures.is_empty() { p { (failures.join(", ")) "." } }
+        @if !tolerated.is_empty() { p { "Fails without its tolerance, " (declared) ": " (tolerated.join(", ")) "." } }
         @if !tally.lapses.is_empty() { p { "No answer: " (lapse_counts(tally)) "." } }
         .table { table {
             tr {
