@@ -9,6 +9,7 @@ pub mod difference;
 pub mod field;
 pub mod figures;
 pub mod generate;
+pub mod instant;
 pub mod oracle;
 pub mod poly;
 pub mod program;
