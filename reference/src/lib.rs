@@ -11,6 +11,7 @@ pub mod figures;
 pub mod generate;
 pub mod instant;
 pub mod oracle;
+pub mod places;
 pub mod poly;
 pub mod program;
 pub mod registry;
