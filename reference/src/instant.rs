@@ -41,7 +41,7 @@ pub fn wrongs(query: &EdgeEdge, found: &Proximity) -> Vec<Wrong> {
     if !(0.0..=f64::MAX).contains(&found.distance_low) {
         return vec![Wrong::Low];
     }
-    if !(found.distance_high >= found.distance_low) {
+    if found.distance_high.is_nan() || found.distance_high < found.distance_low {
         return vec![Wrong::High];
     }
     let exact = Instant::new(query.start());
