@@ -75,6 +75,7 @@ pub(super) use passage::{Passage, passage_of_edges, passage_of_face};
 use scaled::Scaled;
 pub(super) use thick::{
     decide_thick_edges, decide_thick_face, normal_of_edges_exactly, normal_of_face_exactly,
+    perpendicular_of_edges,
 };
 use time::Time;
 use width::{Fixed, Number, Unlimited, Wide, Width};

@@ -38,7 +38,9 @@ use crate::contact::{EdgePlace, EdgePoint, FacePlace, Flags, Hit};
 use crate::query::Radius;
 use edges::Edges;
 use face::Face;
-pub(in crate::certified) use normal::{normal_of_edges_exactly, normal_of_face_exactly};
+pub(in crate::certified) use normal::{
+    normal_of_edges_exactly, normal_of_face_exactly, perpendicular_of_edges,
+};
 use pair::{Pair, Place};
 use roots::Roots;
 use vector::Vector;

@@ -41,6 +41,18 @@ pub(in crate::certified) fn normal_of_edges_exactly(
     normal(&corners, &Edges::new(&points), &reach, toi)
 }
 
+/// The direction of `(B - A) x (D - C)` at the start, within 2^-50; `None` if that is 0.
+pub(in crate::certified) fn perpendicular_of_edges(
+    positions: &Positions,
+) -> Option<motion::Vector> {
+    let (points, _) = integers(positions, [0.0; 2]);
+    let [a, b, c, d] = &points;
+    let normal = cross(&sub(b, a), &sub(d, c));
+    let time = Time::At(Dyadic::zero());
+    let is_parallel = normal.iter().all(|x| time.sign_of(x).is_eq());
+    (!is_parallel).then(|| direction(&normal, &time))
+}
+
 /// The same from a vertex A to a face BCD.
 pub(in crate::certified) fn normal_of_face_exactly(
     positions: &Positions,
