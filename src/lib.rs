@@ -42,6 +42,7 @@
 //!
 //! # Modules
 //!
+//! - [`rigid`] asks about rigid bodies that turn within the step: [`decide_rigid`].
 //! - [`query`] is what is asked, [`contact`] what is answered, [`certified`] the method.
 //! - [`mesh`] asks about whole meshes, and makes certified steps: the positions to store, with a
 //!   proof that nothing touches on the way.
@@ -72,13 +73,14 @@ pub mod environment;
 pub mod mesh;
 pub mod narrow;
 pub mod query;
+pub mod rigid;
 pub mod thesis;
 #[cfg(feature = "wire")]
 pub mod wire;
 
 pub use certified::{
     Advance, Batch, BatchError, Blocked, Clearance, ClearanceError, Kind, Normal, Proximity,
-    advance, classify, decide, decide_discrete, decide_exactly, interpolate,
+    advance, classify, decide, decide_discrete, decide_exactly, decide_rigid, interpolate,
 };
 pub use contact::{
     Case, Contact, ContactKind, ContactPoint, EdgePlace, EdgePoint, FacePlace, Flags, Hit,

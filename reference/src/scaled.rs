@@ -4,6 +4,7 @@
 //! Every predicate of contact is homogeneous, so its sign is the same for the scaled points.
 
 use tunnelproof::query::{Point, Query};
+use tunnelproof::rigid::RigidQuery;
 
 use crate::algebraic::decompose;
 use crate::field::Integer;
@@ -27,19 +28,8 @@ impl<Z: Integer> Scaled<Z> {
             .iter()
             .chain(query.end())
             .flat_map(|point| point.iter());
-        let exponents = all
-            .filter(|&&value| value != 0.0)
-            .map(|&value| decompose(value).1);
-        let exponent = exponents.min().unwrap_or(0);
-        let integer = |value: f64| {
-            let (mantissa, own) = decompose(value);
-            let shift = if mantissa == 0 {
-                0
-            } else {
-                own.abs_diff(exponent)
-            };
-            Z::from_i64(mantissa).shl(shift)
-        };
+        let exponent = common_exponent(all);
+        let integer = |value: f64| integer(value, exponent);
         let point = |point: &Point| [point.x, point.y, point.z].map(integer);
         Scaled {
             start: query.start().each_ref().map(point),
@@ -47,6 +37,58 @@ impl<Z: Integer> Scaled<Z> {
             exponent,
         }
     }
+}
+
+/// The numbers of a query of a body that turns.
+#[derive(Clone, Debug)]
+pub struct ScaledRigid<Z> {
+    /// The points in space at `t = 0` and at `t = 1`, scaled by one power of two.
+    pub world: Vec<[[Z; 3]; 2]>,
+    /// The points in the body's frame, scaled by the same.
+    pub local: Vec<[Z; 3]>,
+    /// The centre at `t = 0` and at `t = 1`, scaled by the same.
+    pub centres: [[Z; 3]; 2],
+    /// w, x, y and z of the quaternions, the nearer one at the end, scaled by a power of their own.
+    pub quaternions: [[Z; 4]; 2],
+}
+
+impl<Z: Integer> ScaledRigid<Z> {
+    /// The numbers of a query, exactly.
+    pub fn new(query: &RigidQuery) -> Self {
+        let motion = query.motion();
+        let centres = [motion.start(), motion.end()].map(|pose| pose.centre);
+        let points = query.start().iter().chain(query.end()).chain(query.local());
+        let exponent = common_exponent(points.chain(&centres).flat_map(|point| point.iter()));
+        let point = |point: &Point| [point.x, point.y, point.z].map(|x| integer(x, exponent));
+        let quaternions = motion.quaternions();
+        let own = common_exponent(quaternions.iter().flatten());
+        let both = query.start().iter().zip(query.end());
+        ScaledRigid {
+            world: both
+                .map(|(start, end)| [point(start), point(end)])
+                .collect(),
+            local: query.local().iter().map(point).collect(),
+            centres: centres.each_ref().map(point),
+            quaternions: quaternions.map(|q| q.map(|x| integer(x, own))),
+        }
+    }
+}
+
+/// The exponent of the largest power of two of which all these numbers are multiples; 0 if all are
+/// 0.
+fn common_exponent<'a>(numbers: impl Iterator<Item = &'a f64>) -> i64 {
+    let used = numbers.filter(|&&value| value != 0.0);
+    used.map(|&value| decompose(value).1).min().unwrap_or(0)
+}
+
+/// A number in multiples of `2^exponent`.
+fn integer<Z: Integer>(value: f64, exponent: i64) -> Z {
+    let (mantissa, own) = decompose(value);
+    let shift = match mantissa {
+        0 => 0,
+        _ => own.abs_diff(exponent),
+    };
+    Z::from_i64(mantissa).shl(shift)
 }
 
 #[cfg(test)]

@@ -71,6 +71,7 @@ mod narrow;
 mod nearest;
 mod normal;
 mod refine;
+mod rigid;
 mod root;
 mod separate;
 mod stage;
@@ -88,6 +89,7 @@ pub use kind::Kind;
 pub(crate) use motion::Positions;
 pub use narrow::Certified;
 pub use normal::Normal;
+pub use rigid::{RigidKind, decide_rigid, decide_rigid_exactly};
 pub use stage::Stage;
 pub use step::{Advance, Blocked, Clearance, ClearanceError, advance, interpolate};
 pub(crate) use step::{

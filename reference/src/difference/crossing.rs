@@ -69,16 +69,14 @@ impl<Z: Integer> Polygon<Z> {
         let mut crossings = Vec::new();
         for &edge in self.edges() {
             let roots = isolate_roots(&self.turn(edge));
-            // A component has degree 2. If one changes its sign, its root is simple, and so the
-            // normal reverses its direction; if none does, all have a double root, and it comes
-            // back.
-            let normal = self.normal(edge);
+            // The normal is a vector without a zero, times the common divisor of its components:
+            // it reverses its direction where that changes its sign.
+            let [x, y, z] = self.normal(edge);
+            let divisor = x.gcd(&y).gcd(&z);
+            let times = isolate_roots(&divisor);
             let turns_back = |time: &Algebraic<Z>| {
-                normal.iter().any(|component| {
-                    let times = around(&isolate_roots(component), time);
-                    let [before, after] = times.map(|time| time.sign_of(component));
-                    before != after
-                })
+                let [before, after] = around(&times, time).map(|time| time.sign_of(&divisor));
+                before != after
             };
             let touches = |time: &Algebraic<Z>| {
                 time.sign_of(self.dot(edge.0, edge.1)).is_lt() || contact.overlaps(time)

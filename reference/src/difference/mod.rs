@@ -11,7 +11,7 @@
 //! seen at fractions before and after it, not by derivatives. The two know nothing of each other.
 
 use tunnelproof::contact::{Case, ContactKind, Flags};
-use tunnelproof::query::{Query, QueryKind};
+use tunnelproof::query::{Query, QueryKind, Radius};
 
 use crate::algebraic::Algebraic;
 use crate::answer::{ExactAnswer, ExactHit};
@@ -23,9 +23,11 @@ use crate::subject::{Answer, NoAnswer, Subject};
 mod crossing;
 mod part;
 mod polygon;
+mod rigid;
 
 use part::Distance;
 use polygon::Polygon;
+pub use rigid::decide_rigid;
 
 /// The second judge as a subject; it takes every query.
 #[derive(Clone, Copy, Debug, Default)]
@@ -45,10 +47,14 @@ impl Subject for Difference {
 pub fn decide<Z: Integer>(query: &Query) -> ExactAnswer {
     let points = Scaled::<Z>::new(query);
     let polygon = Polygon::new(query.kind(), &points);
-    let distance = Distance::new(&polygon, query.radius(), points.exponent);
+    decide_polygon(&polygon, query.radius(), points.exponent)
+}
+
+fn decide_polygon<Z: Integer>(polygon: &Polygon<Z>, radius: Radius, unit: i64) -> ExactAnswer {
+    let distance = Distance::new(polygon, radius, unit);
     let hit = distance.first_contact().map(|toi| {
         let crossings = polygon.crossings();
-        let is_crossing = match query.radius().is_zero() {
+        let is_crossing = match radius.is_zero() {
             true => crossings.iter().any(|time| time.compare(&toi).is_eq()),
             false => !crossings.is_empty(),
         };
@@ -64,11 +70,11 @@ pub fn decide<Z: Integer>(query: &Query) -> ExactAnswer {
             features,
             first,
             second,
-            flags: flags(&polygon, &toi),
+            flags: flags(polygon, &toi),
         }
     });
     ExactAnswer {
-        case: case(&polygon),
+        case: case(polygon),
         hit,
     }
 }

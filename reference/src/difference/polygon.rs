@@ -9,37 +9,52 @@ use crate::scaled::Scaled;
 /// A point in space.
 pub(super) type Place<Z> = [Z; 3];
 
-/// The difference of the two sides: a parallelogram or a triangle whose corners move linearly.
+/// The points from which and to which the corners lead.
+pub(super) fn ways(kind: QueryKind) -> &'static [(usize, usize)] {
+    match kind {
+        QueryKind::EdgeEdge => &[(0, 2), (0, 3), (1, 2), (1, 3)],
+        QueryKind::VertexFace => &[(0, 1), (0, 2), (0, 3)],
+    }
+}
+
+/// The difference of the two sides: a parallelogram or a triangle whose corners move.
 pub(super) struct Polygon<Z> {
     pub(super) kind: QueryKind,
-    /// At the start and at the end of the step. Of edges `C - A`, `D - A`, `C - B` and `D - B`; of
-    /// a vertex and a face `B - A`, `C - A` and `D - A`.
-    corners: Vec<[Place<Z>; 2]>,
-    /// The scalar products of the corners.
+    /// Of edges `C - A`, `D - A`, `C - B` and `D - B`; of a vertex and a face `B - A`, `C - A` and
+    /// `D - A`. Of a body that turns, times something positive.
+    corners: Vec<[Poly<Z>; 3]>,
+    /// The scalar products of the corners; of a body that turns, times something positive.
     products: Vec<Vec<Poly<Z>>>,
 }
 
 impl<Z: Integer> Polygon<Z> {
     pub(super) fn new(kind: QueryKind, points: &Scaled<Z>) -> Self {
-        let ways: &[(usize, usize)] = match kind {
-            QueryKind::EdgeEdge => &[(0, 2), (0, 3), (1, 2), (1, 3)],
-            QueryKind::VertexFace => &[(0, 1), (0, 2), (0, 3)],
-        };
         let at = |points: &[Place<Z>; 4], (from, to): (usize, usize)| {
             [0, 1, 2].map(|axis| points[to][axis].sub(&points[from][axis]))
         };
-        let both = |&way| [at(&points.start, way), at(&points.end, way)];
-        let corners: Vec<_> = ways.iter().map(both).collect();
-        let product = |x: &[Place<Z>; 2], y: &[Place<Z>; 2]| {
+        let corner = |&way| {
+            let (start, end) = (at(&points.start, way), at(&points.end, way));
+            [0, 1, 2].map(|axis| Poly::line(&start[axis], &end[axis]))
+        };
+        let corners: Vec<_> = ways(kind).iter().map(corner).collect();
+        let product = |x: &[Poly<Z>; 3], y: &[Poly<Z>; 3]| {
             let mut sum = Poly::zero();
-            for axis in 0..3 {
-                let line = |x: &[Place<Z>; 2]| Poly::line(&x[0][axis], &x[1][axis]);
-                sum.add_product(&line(x), &line(y));
+            for (x, y) in x.iter().zip(y) {
+                sum.add_product(x, y);
             }
             sum
         };
         let row = |x| corners.iter().map(|y| product(x, y)).collect();
         let products = corners.iter().map(row).collect();
+        Polygon::of(kind, corners, products)
+    }
+
+    /// The polygon with these corners, which have these products.
+    pub(super) fn of(
+        kind: QueryKind,
+        corners: Vec<[Poly<Z>; 3]>,
+        products: Vec<Vec<Poly<Z>>>,
+    ) -> Self {
         Polygon {
             kind,
             corners,
@@ -112,15 +127,9 @@ impl<Z: Integer> Polygon<Z> {
         self.edges().iter().all(|&edge| self.turn(edge).is_zero())
     }
 
-    /// A corner's coordinates.
-    fn corner(&self, index: usize) -> [Poly<Z>; 3] {
-        let [start, end] = &self.corners[index];
-        [0, 1, 2].map(|axis| Poly::line(&start[axis], &end[axis]))
-    }
-
     /// The vector product of two corners.
     pub(super) fn normal(&self, (y, z): (usize, usize)) -> [Poly<Z>; 3] {
-        let (y, z) = (self.corner(y), self.corner(z));
+        let (y, z) = (&self.corners[y], &self.corners[z]);
         [(1, 2), (2, 0), (0, 1)].map(|(i, j)| {
             let mut component = y[i].mul(&z[j]);
             component.sub_product(&y[j], &z[i]);
@@ -131,7 +140,7 @@ impl<Z: Integer> Polygon<Z> {
     /// The triple product `f` of the two sides (see [`crate::answer`]).
     pub(super) fn volume(&self) -> Poly<Z> {
         let mut sum = Poly::zero();
-        for (x, normal) in self.corner(0).iter().zip(&self.normal((1, 2))) {
+        for (x, normal) in self.corners[0].iter().zip(&self.normal((1, 2))) {
             sum.add_product(x, normal);
         }
         // det(x_0, x_1, x_2): of edges (C - A) . (D - C) x (A - B) = f, of a face -f.

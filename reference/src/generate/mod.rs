@@ -16,6 +16,7 @@ use rand_chacha::rand_core::SeedableRng;
 use tunnelproof::query::{EdgeEdge, Point, Query};
 
 use motion::Motion;
+pub use rigid::{RIGID_FAMILIES, RigidFamily, rigid_by_name};
 
 mod cancellation;
 mod confine;
@@ -32,6 +33,7 @@ mod near_coplanar;
 mod near_parallel;
 mod nudge;
 mod point_on_line;
+mod rigid;
 mod scales;
 mod shared_start;
 mod slow;

@@ -8,6 +8,7 @@ use std::cmp::Ordering;
 use crate::algebraic::{Algebraic, isolate_roots};
 use crate::field::Integer;
 
+use super::general::signs_around;
 use super::motion::{End, Motion};
 use super::{Hit, is_inside, kind};
 
@@ -45,7 +46,6 @@ fn crossings<Z: Integer>(motion: &dyn Motion<Z>, ends: &[End<Z>]) -> Vec<Algebra
 /// The times at which a vertex passes through the line of an edge, in contact with it.
 fn planar_crossings<Z: Integer>(motion: &dyn Motion<Z>, end: &End<Z>) -> Vec<Algebraic<Z>> {
     let zeros = end.turn.common_zeros();
-    let slope = zeros.derivative();
     let mut times = isolate_roots(&zeros);
     times.retain(|time| {
         let overlaps = || {
@@ -53,10 +53,10 @@ fn planar_crossings<Z: Integer>(motion: &dyn Motion<Z>, end: &End<Z>) -> Vec<Alg
                 .locus(time)
                 .is_some_and(|locus| locus.second.is_some())
         };
-        // The turn has components of degree 2, so an odd root is a simple one.
-        is_inside(time)
-            && time.sign_of(&slope).is_ne()
-            && (time.sign_of(&end.between).is_lt() || overlaps())
+        // The turn reverses its direction where the common divisor of its components changes its
+        // sign.
+        let (before, after) = signs_around(&zeros, time);
+        is_inside(time) && before != after && (time.sign_of(&end.between).is_lt() || overlaps())
     });
     times
 }

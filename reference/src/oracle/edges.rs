@@ -147,6 +147,11 @@ impl<Z: Integer> Motion<Z> for Edges<Z> {
 impl<Z: Integer> Edges<Z> {
     pub(super) fn new(points: &Scaled<Z>) -> Self {
         let [k, l, m] = [(0, 1), (2, 3), (0, 2)].map(|(from, to)| way(points, from, to));
+        Edges::of(k, l, m)
+    }
+
+    /// From `K`, `L` and `M`, all times the same.
+    pub(super) fn of(k: Vector<Z>, l: Vector<Z>, m: Vector<Z>) -> Self {
         let n = k.cross(&l);
         let f = m.dot(&n);
         Edges { k, l, m, n, f }

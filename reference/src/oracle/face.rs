@@ -111,6 +111,11 @@ impl<Z: Integer> Motion<Z> for Face<Z> {
 impl<Z: Integer> Face<Z> {
     pub(super) fn new(points: &Scaled<Z>) -> Self {
         let [w, e1, e2] = [(1, 0), (1, 2), (1, 3)].map(|(from, to)| way(points, from, to));
+        Face::of(w, e1, e2)
+    }
+
+    /// From `w`, `E1` and `E2`, all times the same.
+    pub(super) fn of(w: Vector<Z>, e1: Vector<Z>, e2: Vector<Z>) -> Self {
         let n = e1.cross(&e2);
         let f = w.dot(&n);
         Face { w, e1, e2, n, f }

@@ -40,6 +40,7 @@ mod locus;
 mod motion;
 mod pair;
 mod proximity;
+mod rigid;
 mod steps;
 #[cfg(test)]
 mod tests;
@@ -47,6 +48,7 @@ mod vector;
 
 pub use beside::passages_beside;
 pub use gap::{comes_within, estimate_gap, least_gap, least_gap_to};
+pub use rigid::{decide_rigid, decide_rigid_query};
 pub use steps::{Event, Step};
 
 use confined::decide_confined;

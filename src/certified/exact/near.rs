@@ -85,7 +85,7 @@ pub(super) fn radius_in_unit(radii: [f64; 2], unit: i32) -> Integer {
 }
 
 /// A number in multiples of `2^unit`.
-fn integer(x: f64, unit: i32) -> Integer {
+pub(super) fn integer(x: f64, unit: i32) -> Integer {
     match decompose(x) {
         (0, _) => Integer::default(),
         (mantissa, exponent) => {

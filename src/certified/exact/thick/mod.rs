@@ -24,7 +24,7 @@ mod face;
 mod normal;
 mod pair;
 mod roots;
-mod vector;
+pub(super) mod vector;
 
 use std::cmp::Ordering;
 
@@ -41,18 +41,19 @@ use face::Face;
 pub(in crate::certified) use normal::{
     normal_of_edges_exactly, normal_of_face_exactly, perpendicular_of_edges,
 };
-use pair::{Pair, Place};
-use roots::Roots;
+use pair::Pair;
+pub(super) use pair::{Place, Share};
+pub(super) use roots::Roots;
 use vector::Vector;
 
 use super::dyadic::Dyadic;
 use super::integer::Integer;
 
 /// Polynomials of degree at most 6, on the heap: these move a lot.
-type Poly = poly::Poly<0>;
+pub(super) type Poly = poly::Poly<0>;
 
 /// Times at which such a polynomial is 0.
-type Time<'a> = AlgebraicTime<'a, 0>;
+pub(super) type Time<'a> = AlgebraicTime<'a, 0>;
 
 /// The first contact at a distance. A place has `W` numbers: `u` and `v`, or the weights of B, C
 /// and D.

@@ -22,12 +22,14 @@ pub(super) struct Pair<const W: usize> {
 
 /// Numbers that say where the nearest points are.
 #[derive(Clone)]
-pub(super) struct Place<const W: usize>(pub(super) [Share; W]);
+pub(in crate::certified::exact) struct Place<const W: usize>(
+    pub(in crate::certified::exact) [Share; W],
+);
 
 /// A parameter on an edge or a weight in a face, in `[0, 1]` at a time that is known from the
 /// context.
 #[derive(Clone)]
-pub(super) enum Share {
+pub(in crate::certified::exact) enum Share {
     /// 0.
     None,
     /// 1.
@@ -37,7 +39,7 @@ pub(super) enum Share {
 }
 
 impl<const W: usize> Place<W> {
-    pub(super) fn values(&self, time: &Time) -> [f64; W] {
+    pub(in crate::certified::exact) fn values(&self, time: &Time) -> [f64; W] {
         self.0.each_ref().map(|share| match share {
             Share::None => 0.0,
             Share::All => 1.0,

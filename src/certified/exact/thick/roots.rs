@@ -16,7 +16,7 @@ use crate::certified::exact::remainders::Remainders;
 const FEW_HALVINGS: u64 = 20;
 
 /// The distinct roots in `(0, 1]`, in ascending order; none of the polynomial that is 0.
-pub(super) struct Roots {
+pub(in crate::certified::exact) struct Roots {
     /// A polynomial with these roots.
     poly: Poly,
     cells: SmallVec<[Cell; 2]>,
@@ -36,7 +36,7 @@ enum Cell {
 }
 
 impl Roots {
-    pub(super) fn new(poly: Poly) -> Self {
+    pub(in crate::certified::exact) fn new(poly: Poly) -> Self {
         if poly.is_zero() {
             let cells = SmallVec::new();
             return Roots { poly, cells };
@@ -51,7 +51,7 @@ impl Roots {
     }
 
     /// The roots, each with its neighbours in `f64`.
-    pub(super) fn times(&self) -> impl Iterator<Item = (Time<'_>, [f64; 2])> {
+    pub(in crate::certified::exact) fn times(&self) -> impl Iterator<Item = (Time<'_>, [f64; 2])> {
         self.cells.iter().map(|cell| match cell {
             Cell::At(at) => (Time::At(at.clone()), [at.below(), at.above()]),
             Cell::Between { low, high, before } => {

@@ -2,27 +2,27 @@
 
 use super::Poly;
 
-pub(super) type Vector = [Poly; 3];
+pub(in crate::certified::exact) type Vector = [Poly; 3];
 
-pub(super) fn add(x: &Vector, y: &Vector) -> Vector {
+pub(in crate::certified::exact) fn add(x: &Vector, y: &Vector) -> Vector {
     [0, 1, 2].map(|i| Poly::sum(&x[i], &y[i]))
 }
 
-pub(super) fn sub(x: &Vector, y: &Vector) -> Vector {
+pub(in crate::certified::exact) fn sub(x: &Vector, y: &Vector) -> Vector {
     [0, 1, 2].map(|i| Poly::difference(&x[i], &y[i]))
 }
 
-pub(super) fn cross(x: &Vector, y: &Vector) -> Vector {
+pub(in crate::certified::exact) fn cross(x: &Vector, y: &Vector) -> Vector {
     [(1, 2), (2, 0), (0, 1)]
         .map(|(i, j)| Poly::difference(&Poly::product(&x[i], &y[j]), &Poly::product(&x[j], &y[i])))
 }
 
-pub(super) fn dot(x: &Vector, y: &Vector) -> Poly {
+pub(in crate::certified::exact) fn dot(x: &Vector, y: &Vector) -> Poly {
     let [a, b, c] = [0, 1, 2].map(|i| Poly::product(&x[i], &y[i]));
     Poly::sum(&Poly::sum(&a, &b), &c)
 }
 
 /// Whether it is 0 for the whole step.
-pub(super) fn is_zero(x: &Vector) -> bool {
+pub(in crate::certified::exact) fn is_zero(x: &Vector) -> bool {
     x.iter().all(Poly::is_zero)
 }

@@ -1,0 +1,96 @@
+//! The truth about an edge or a vertex and a body that turns.
+//!
+//! In the body's frame and times `D(t) = |q(t)|^2 > 0`, the four points move polynomially: a point
+//! `A` of space as `q* (A - c) q`, the vector part of a product of quaternions, of degree 3, and a
+//! point `x` of the body as `D x`. All differences of the four are then `D` times those in space,
+//! turned. Every predicate of the oracle is homogeneous in the differences and the same in a turned
+//! frame, and none of its reasons needs more than that the motion is continuous and polynomial. So
+//! it is the oracle for linear motion, on other polynomials.
+
+use tunnelproof::rigid::RigidQuery;
+
+use crate::answer::ExactAnswer;
+use crate::field::{self, Integer};
+use crate::poly::Poly;
+use crate::scaled::ScaledRigid;
+
+use super::edges::Edges;
+use super::face::Face;
+use super::motion::Motion;
+use super::vector::Vector;
+use super::{Decision, decide_contact};
+
+/// The exact answer to a query of a body that turns, by the default backend.
+pub fn decide_rigid_query(query: &RigidQuery) -> ExactAnswer {
+    decide_rigid::<field::Default>(query).written()
+}
+
+/// The exact answer to a query of a body that turns, its numbers still algebraic.
+pub fn decide_rigid<Z: Integer>(query: &RigidQuery) -> Decision<Z> {
+    let points = in_body::<Z>(&ScaledRigid::new(query));
+    let way = |from: usize, to: usize| points[to].sub(&points[from]);
+    let motion: Box<dyn Motion<Z>> = match query {
+        RigidQuery::EdgeTurningEdge(_) => Box::new(Edges::of(way(0, 1), way(2, 3), way(0, 2))),
+        RigidQuery::VertexTurningFace(_) => Box::new(Face::of(way(1, 0), way(1, 2), way(1, 3))),
+    };
+    let hit = decide_contact(&*motion);
+    Decision {
+        motion,
+        near: None,
+        hit,
+    }
+}
+
+/// The four points in the body's frame, times `D`.
+fn in_body<Z: Integer>(points: &ScaledRigid<Z>) -> Vec<Vector<Z>> {
+    let [q0, q1] = &points.quaternions;
+    let q = Quaternion([0, 1, 2, 3].map(|i| Poly::line(&q0[i], &q1[i])));
+    let conjugate = q.conjugate();
+    let [real, ..] = conjugate.product(&q).0;
+    let [c0, c1] = &points.centres;
+    let world = points.world.iter().map(|[start, end]| {
+        let from_centre =
+            |point: &[Z; 3], centre: &[Z; 3]| [0, 1, 2].map(|h| point[h].sub(&centre[h]));
+        let Vector([x, y, z]) = Vector::linear(&from_centre(start, c0), &from_centre(end, c1));
+        let way = Quaternion([Poly::zero(), x, y, z]);
+        let Quaternion([_, x, y, z]) = conjugate.product(&way).product(&q);
+        Vector([x, y, z])
+    });
+    let local = points.local.iter().map(|point| {
+        let coordinate = |h: usize| real.scale(&point[h]);
+        Vector([0, 1, 2].map(coordinate))
+    });
+    world.chain(local).collect()
+}
+
+/// w, x, y and z.
+struct Quaternion<Z>([Poly<Z>; 4]);
+
+impl<Z: Integer> Quaternion<Z> {
+    fn conjugate(&self) -> Self {
+        let [w, x, y, z] = &self.0;
+        Quaternion([w.clone(), x.neg(), y.neg(), z.neg()])
+    }
+
+    /// Hamilton's product.
+    fn product(&self, other: &Self) -> Self {
+        // Row `i` of the table: of which component of `other`, and with which sign, component `j`
+        // of `self` is a factor of component `i` of the product.
+        const TABLE: [[(usize, bool); 4]; 4] = [
+            [(0, true), (1, false), (2, false), (3, false)],
+            [(1, true), (0, true), (3, true), (2, false)],
+            [(2, true), (3, false), (0, true), (1, true)],
+            [(3, true), (2, true), (1, false), (0, true)],
+        ];
+        Quaternion(TABLE.map(|row| {
+            let mut sum = Poly::zero();
+            for (own, (at, is_plus)) in self.0.iter().zip(row) {
+                match is_plus {
+                    true => sum.add_product(own, &other.0[at]),
+                    false => sum.sub_product(own, &other.0[at]),
+                }
+            }
+            sum
+        }))
+    }
+}

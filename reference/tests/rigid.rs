@@ -1,0 +1,68 @@
+//! Bodies that turn: the oracle and the second judge agree, and faults are seen.
+
+use tunnelproof::rigid::RigidQuery;
+use tunnelproof_reference::answer::ExactAnswer;
+use tunnelproof_reference::generate::{RIGID_FAMILIES, RigidFamily};
+use tunnelproof_reference::oracle::decide_rigid_query;
+use tunnelproof_reference::{difference, field};
+
+/// How many queries of each family are judged; `TUNNELPROOF_RIGID_COUNT` asks for more.
+fn count() -> u64 {
+    let asked = std::env::var("TUNNELPROOF_RIGID_COUNT").ok();
+    let usual = if cfg!(debug_assertions) { 1000 } else { 13_000 };
+    asked.map_or(usual, |text| text.parse().expect("a number"))
+}
+
+const SEED: u64 = 2031;
+
+fn second(query: &RigidQuery) -> ExactAnswer {
+    difference::decide_rigid::<field::Default>(query)
+}
+
+/// The queries on which the two judges differ, and the number of hits.
+fn compare(family: &RigidFamily, count: u64) -> (Vec<u64>, u64) {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from) as u64;
+    let part = |own: u64| {
+        let (mut differing, mut hits) = (Vec::new(), 0);
+        for index in (own..count).step_by(threads as usize) {
+            let query = family.query(SEED, index);
+            let truth = decide_rigid_query(&query);
+            hits += u64::from(truth.hit.is_some());
+            if truth != second(&query) {
+                differing.push(index);
+            }
+        }
+        (differing, hits)
+    };
+    std::thread::scope(|scope| {
+        let handles: Vec<_> = (0..threads)
+            .map(|own| scope.spawn(move || part(own)))
+            .collect();
+        let mut all = (Vec::new(), 0);
+        for handle in handles {
+            let (differing, hits) = handle.join().expect("no judge panics");
+            all.0.extend(differing);
+            all.1 += hits;
+        }
+        all.0.sort_unstable();
+        all
+    })
+}
+
+#[test]
+fn rigid_judges_agree_on_every_family() {
+    for family in RIGID_FAMILIES {
+        let (differing, hits) = compare(family, count());
+        println!("{}: {} queries, {hits} hits", family.name(), count());
+        if let Some(&index) = differing.first() {
+            let query = family.query(SEED, index);
+            panic!(
+                "{} of {}: {index}: {query:?}\n{:?}\n{:?}",
+                differing.len(),
+                family.name(),
+                decide_rigid_query(&query),
+                second(&query)
+            );
+        }
+    }
+}

@@ -1,0 +1,276 @@
+//! Bodies that turn: an edge or a vertex against a body's edge or face, certified.
+//!
+//! The path for linear motion is the filter. On a part of the step each point of the body stays
+//! near its chord, the linear motion between its places at both ends: let `rho` bound how far it
+//! strays. If the two sides of the linear query of these places are farther apart than `rho` for
+//! the whole part, then the turning ones do not touch in it: a point of either side is a mean of its
+//! corners, with the same weights in both motions, so that no difference of two points is off by
+//! more than `rho`. A part of half the length has a quarter of the stray. What stays open is
+//! decided in integers (`exact::rigid`), so that no answer depends on `rho` being small.
+//!
+//! # The stray
+//!
+//! `q(t)` stays in a plane, and its angle there has the velocity `W / D`, `W = |q0 ^ q1|` and
+//! `D = |q|^2`. The body turns by twice that angle about a fixed axis. So a point at the distance
+//! `p` from the centre has an acceleration, the centre's being 0, of at most
+//!
+//! ```text
+//! p (w^2 + |w'|)  with  w = 2 W / D,  |w'| = 2 W |D'| / D^2
+//! ```
+//!
+//! and strays from the chord of a part of the length `h` by at most `h^2 / 8` times that. Here
+//! `W <= |q0| |q1 - q0|`, likewise with `q1`; `D'` is linear in `t`, so that it is largest at an
+//! end; and `D >= min(D0, D1) (1 + cos) / 2`, with the angle between `q0` and `q1`: both ends, and so
+//! all between them, are beyond the plane that is across the middle of that angle at this distance.
+//!
+//! # Rounding
+//!
+//! With `u = 2^-53`: `q0` and `q1` are at 45 degrees or less, so that `(1 - t) |q0| + t |q1|` is at
+//! most `1.09 |q(t)|`. So `q(t)` is computed with an error below `5 u |q|`, which turns a point
+//! by less than `10 u p`. [`turned`] adds a vector made of products of size up to `2.42 p`, with
+//! fewer than 30 roundings: less than `75 u p`. The centre and the points in space have less than
+//! `8 u` times their largest coordinate, and the sum less than `2 u` of both. [`ROUNDING`] is
+//! `256 u`, times all of these. Bounds themselves are computed with a few roundings, which [`UP`]
+//! outweighs.
+
+use super::exact;
+use super::kind::{Sealed, Stages};
+use super::motion::{Positions, Vector};
+use super::thick;
+use crate::contact::{EdgePlace, FacePlace, Hit, Place};
+use crate::environment;
+use crate::query::{EdgeEdge, Point, Radius, VertexFace};
+use crate::rigid::{EdgeTurningEdge, RigidMotion, VertexTurningFace};
+
+/// A kind of query about a body that turns: [`EdgeTurningEdge`] or [`VertexTurningFace`].
+///
+/// The trait is sealed: no other type can be one.
+pub trait RigidKind: Sealed + Copy + Send + Sync + 'static {
+    /// Where the two sides touch.
+    type Place: Copy + std::fmt::Debug + PartialEq + Send + Sync + Into<Place> + 'static;
+
+    #[doc(hidden)]
+    fn is_apart(&self) -> bool;
+
+    #[doc(hidden)]
+    fn decide_in_integers(&self) -> Option<Hit<Self::Place>>;
+}
+
+/// Whether and when an edge or a vertex touches an edge or a face of a body that turns: certified,
+/// without thresholds.
+///
+/// The query is an [`EdgeTurningEdge`] or a [`VertexTurningFace`]. The answer is as that of
+/// [`decide`](crate::decide): no hit is false, no contact is missed, [`toi`](Hit::toi) is the exact
+/// time of impact rounded down, and the place has an error of at most `2^-50`.
+///
+/// # Panics
+///
+/// In debug builds, if the floating-point environment is not the one that the proofs assume.
+pub fn decide_rigid<K: RigidKind>(query: &K) -> Option<Hit<K::Place>> {
+    debug_assert_eq!(environment::check(), Ok(()));
+    match query.is_apart() {
+        true => None,
+        false => query.decide_in_integers(),
+    }
+}
+
+/// As [`decide_rigid`], by integer arithmetic alone.
+pub fn decide_rigid_exactly<K: RigidKind>(query: &K) -> Option<Hit<K::Place>> {
+    query.decide_in_integers()
+}
+
+impl Sealed for EdgeTurningEdge {}
+
+impl RigidKind for EdgeTurningEdge {
+    type Place = EdgePlace;
+
+    fn is_apart(&self) -> bool {
+        let local = self.local();
+        let moving = Moving::new(self.start(), self.end(), local, self.motion());
+        moving.is_some_and(|moving| moving.is_apart::<EdgeEdge>())
+    }
+
+    fn decide_in_integers(&self) -> Option<Hit<EdgePlace>> {
+        exact::decide_turning_edges(self)
+    }
+}
+
+impl Sealed for VertexTurningFace {}
+
+impl RigidKind for VertexTurningFace {
+    type Place = FacePlace;
+
+    fn is_apart(&self) -> bool {
+        let local = self.local();
+        let moving = Moving::new(self.start(), self.end(), local, self.motion());
+        moving.is_some_and(|moving| moving.is_apart::<VertexFace>())
+    }
+
+    fn decide_in_integers(&self) -> Option<Hit<FacePlace>> {
+        exact::decide_turning_face(self)
+    }
+}
+
+/// `256 u`.
+const ROUNDING: f64 = f64::from_bits((1023 - 45) << 52);
+
+/// More than the roundings of a bound.
+const UP: f64 = 1.0 + f64::from_bits((1023 - 40) << 52);
+
+/// What underflow adds to a distance, and more: 2^-800.
+const LEAST: f64 = f64::from_bits((1023 - 800) << 52);
+
+/// 2^160: below it no product over- nor underflows in a way that matters.
+const LARGEST: f64 = f64::from_bits((1023 + 160) << 52);
+
+/// The shortest part of the step that is looked at before integers decide, and the most parts.
+const SHORTEST: f64 = 1.0 / 256.0;
+const MOST_PARTS: u32 = 24;
+
+/// A query in `f64`, of numbers of ordinary size.
+struct Moving<'a, const WORLD: usize, const LOCAL: usize> {
+    start: &'a [Point; WORLD],
+    end: &'a [Point; WORLD],
+    local: &'a [Point; LOCAL],
+    centres: [Vector; 2],
+    quaternions: [[f64; 4]; 2],
+    /// At most this, times the square of its length, is the stray of a part.
+    bend: f64,
+    /// What rounding adds to that.
+    rounding: f64,
+}
+
+impl<'a, const WORLD: usize, const LOCAL: usize> Moving<'a, WORLD, LOCAL> {
+    /// `None` where squares could over- or underflow.
+    fn new(
+        start: &'a [Point; WORLD],
+        end: &'a [Point; WORLD],
+        local: &'a [Point; LOCAL],
+        motion: &RigidMotion,
+    ) -> Option<Self> {
+        let quaternions = motion.quaternions();
+        let centres = [motion.start(), motion.end()].map(|pose| plain(&pose.centre));
+        let reach = local.iter().map(|p| p.coords.norm_squared());
+        let reach = reach.fold(0.0, f64::max).sqrt() * UP;
+        let points = start.iter().chain(end).flat_map(|p| p.iter());
+        let far = points
+            .chain(centres.iter().flatten())
+            .fold(0.0, |a: f64, b| a.max(b.abs()));
+        let bend = bend(&quaternions)? * reach;
+        let is_ordinary = far < LARGEST && reach < LARGEST;
+        is_ordinary.then_some(Moving {
+            start,
+            end,
+            local,
+            centres,
+            quaternions,
+            bend,
+            rounding: ROUNDING * (far + reach) + LEAST,
+        })
+    }
+
+    /// Whether the two sides are certainly apart for the whole step.
+    #[inline(always)]
+    fn is_apart<K: Stages>(&self) -> bool {
+        let (mut from, mut length) = (0.0, 1.0);
+        // Ends: after so many parts.
+        for _ in 0..MOST_PARTS {
+            let to = f64::min(from + length, 1.0);
+            let stray = (self.bend * (to - from) * (to - from) + self.rounding) * UP;
+            let part = self.part(from, to);
+            let until = thick::apart_until::<K>(&part, Radius::from(stray));
+            if until >= 1.0 {
+                if to == 1.0 {
+                    return true;
+                }
+                (from, length) = (to, 2.0 * length);
+                continue;
+            }
+            // What is taken off outweighs the roundings, as no part is as short as that.
+            if until > 0.125 {
+                from += 0.999 * until * (to - from);
+            }
+            length *= 0.25;
+            if length < SHORTEST {
+                break;
+            }
+        }
+        false
+    }
+
+    /// The places of all points at both ends of a part of the step.
+    #[inline(always)]
+    fn part(&self, from: f64, to: f64) -> Positions {
+        Positions {
+            start: self.places(from),
+            end: self.places(to),
+        }
+    }
+
+    #[inline(always)]
+    fn places(&self, t: f64) -> [Vector; 4] {
+        let [c0, c1] = &self.centres;
+        let [q0, q1] = &self.quaternions;
+        let q: [f64; 4] = std::array::from_fn(|i| between(q0[i], q1[i], t));
+        let centre: Vector = std::array::from_fn(|i| between(c0[i], c1[i], t));
+        let factor = 2.0 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+        std::array::from_fn(|i| match i < WORLD {
+            true => {
+                let (from, to) = (plain(&self.start[i]), plain(&self.end[i]));
+                std::array::from_fn(|axis| between(from[axis], to[axis], t))
+            }
+            false => {
+                let turned = turned(&q, factor, &plain(&self.local[i - WORLD]));
+                std::array::from_fn(|axis| centre[axis] + turned[axis])
+            }
+        })
+    }
+}
+
+fn plain(p: &Point) -> Vector {
+    [p.x, p.y, p.z]
+}
+
+#[inline(always)]
+fn between(from: f64, to: f64, t: f64) -> f64 {
+    (1.0 - t) * from + t * to
+}
+
+/// `p + 2 (w (v x p) + v x (v x p)) / D`, with `factor` for `2 / D`.
+#[inline(always)]
+fn turned(&[w, x, y, z]: &[f64; 4], factor: f64, p: &Vector) -> Vector {
+    let cross = |p: &Vector| {
+        [
+            y * p[2] - z * p[1],
+            z * p[0] - x * p[2],
+            x * p[1] - y * p[0],
+        ]
+    };
+    let once = cross(p);
+    let twice = cross(&once);
+    std::array::from_fn(|i| p[i] + factor * (w * once[i] + twice[i]))
+}
+
+/// A bound on `(w^2 + |w'|) / 8`; `None` where squares could over- or underflow.
+#[inline(always)]
+fn bend([q0, q1]: &[[f64; 4]; 2]) -> Option<f64> {
+    let product =
+        |x: &[f64; 4], y: &[f64; 4]| x[0] * y[0] + x[1] * y[1] + x[2] * y[2] + x[3] * y[3];
+    let change: [f64; 4] = std::array::from_fn(|i| q1[i] - q0[i]);
+    let (d0, d1, along) = (product(q0, q0), product(q1, q1), product(q0, q1));
+    let is_ordinary = |d: f64| d > 1.0 / LARGEST && d < LARGEST;
+    if !(is_ordinary(d0) && is_ordinary(d1)) {
+        return None;
+    }
+    let (smaller, square) = (d0.min(d1), product(&change, &change));
+    let cosine = along / (d0 * d1).sqrt();
+    let least = smaller * (1.0 + cosine) * 0.5;
+    // W^2, and |D'|, which is twice the product of q with q', at the ends.
+    let turn = smaller * square;
+    let slope = 2.0 * f64::max(product(q0, &change).abs(), product(q1, &change).abs());
+    let slope = slope + ROUNDING * (d0 + d1);
+    Some((4.0 * turn + 2.0 * turn.sqrt() * slope) / (8.0 * least * least) * UP)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,95 @@
+use super::*;
+
+fn pose(quaternion: [f64; 4]) -> Pose {
+    let [w, x, y, z] = quaternion;
+    Pose::new(Point::new(1.0, 2.0, 3.0), Quaternion::new(w, x, y, z))
+}
+
+fn error(start: Pose, end: Pose) -> String {
+    RigidMotion::new(start, end).unwrap_err().to_string()
+}
+
+#[test]
+fn rigid_motion_new_names_what_is_no_pose() {
+    let still = pose([1.0, 0.0, 0.0, 0.0]);
+    assert_eq!(
+        error(still, pose([0.0, -0.0, 0.0, 0.0])),
+        "the quaternion at t = 1 is 0; it needs a length"
+    );
+    assert_eq!(
+        error(pose([0.0, 1.0, f64::NAN, 0.0]), still),
+        "y of the quaternion at t = 0 is NaN, not a finite number"
+    );
+    let mut away = still;
+    away.centre.z = f64::INFINITY;
+    assert_eq!(
+        error(still, away),
+        "z of the centre at t = 1 is inf, not a finite number"
+    );
+}
+
+#[test]
+fn rigid_motion_new_refuses_more_than_a_quarter_turn() {
+    let still = pose([1.0, 0.0, 0.0, 0.0]);
+    let turned = |degrees: f64, size: f64| {
+        let (sin, cos) = (degrees / 2.0).to_radians().sin_cos();
+        pose([size * cos, 0.0, size * sin, 0.0])
+    };
+    let least = f64::from_bits(1) * 4096.0;
+    for size in [1.0, -1.0, 1e300, -1e-300, least] {
+        let degrees = if size == least { 89.0 } else { 89.999_999 };
+        assert!(RigidMotion::new(still, turned(degrees, size)).is_ok());
+        assert!(RigidMotion::new(turned(degrees, size), still).is_ok());
+        assert!(RigidMotion::new(still, turned(91.0, size)).is_err());
+        assert!(RigidMotion::new(still, turned(180.0, size)).is_err());
+    }
+    assert_eq!(
+        error(still, turned(120.0, 1.0)),
+        "the body turns by 120.000 degrees in the step; divide the step so that it turns by at \
+         most 90"
+    );
+    let right = pose([1.0, 1.0, 0.0, 0.0]);
+    assert!(RigidMotion::new(still, right).is_ok());
+}
+
+#[test]
+fn quaternions_have_the_nearer_sign() {
+    let motion = RigidMotion::new(pose([1.0, 0.0, 0.0, 0.0]), pose([-1.0, 0.0, 0.0, -0.5]));
+    assert_eq!(
+        motion.unwrap().quaternions(),
+        [[1.0, 0.0, 0.0, 0.0], [1.0, -0.0, -0.0, 0.5]]
+    );
+}
+
+#[test]
+fn position_passes_through_both_poses_and_turns_the_shorter_way() {
+    for size in [1.0, -3.0, 1e-310, 1e300] {
+        let start = pose([size, 0.0, 0.0, 0.0]);
+        let end = pose([-size, 0.0, 0.0, -size]);
+        let motion = RigidMotion::new(start, end).unwrap();
+        let at =
+            |t: f64| motion.position(&Point::new(1.0, 0.0, 4.0), t).coords - start.centre.coords;
+        assert!((at(0.0) - Vector3::new(1.0, 0.0, 4.0)).norm() < 1e-14);
+        assert!((at(1.0) - Vector3::new(0.0, 1.0, 4.0)).norm() < 1e-14);
+        let half = 0.5f64.atan() * 2.0;
+        assert!((at(0.5) - Vector3::new(half.cos(), half.sin(), 4.0)).norm() < 1e-14);
+    }
+}
+
+#[test]
+fn query_new_names_the_point() {
+    let still = pose([1.0, 0.0, 0.0, 0.0]);
+    let motion = RigidMotion::new(still, still).unwrap();
+    let (zero, mut bad) = (Point::origin(), Point::origin());
+    bad.y = f64::NEG_INFINITY;
+    let error = EdgeTurningEdge::new([zero; 2], [zero, bad], [zero; 2], motion).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "y of point B at t = 1 is -inf, not a finite number"
+    );
+    let error = VertexTurningFace::new([zero], [zero], [zero, zero, bad], motion).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "y of point D in the body's frame is -inf, not a finite number"
+    );
+}
