@@ -13,6 +13,7 @@ use tunnelproof_reference::oracle;
 use tunnelproof_reference::shadow::Shadow;
 
 mod scene;
+mod zeros;
 
 /// Families are asked with this seed.
 const SEED: u64 = 20;
@@ -25,6 +26,8 @@ const JUDGED: u64 = 20;
 pub enum Part {
     /// Queries of a family.
     Family(&'static Family),
+    /// Queries with zeros of both signs, whose larger and smaller ones no standard tells apart.
+    Zeros,
     /// The wire stepper.
     Scene,
 }
@@ -32,13 +35,14 @@ pub enum Part {
 impl Part {
     /// All parts, in order.
     pub fn all() -> impl Iterator<Item = Part> {
-        generate::all().map(Part::Family).chain([Part::Scene])
+        generate::all().map(Part::Family).chain([Part::Zeros, Part::Scene])
     }
 
     /// Its name, as a word.
     pub fn name(&self) -> &'static str {
         match self {
             Part::Family(family) => family.name(),
+            Part::Zeros => "zeros",
             Part::Scene => "scene",
         }
     }
@@ -46,7 +50,8 @@ impl Part {
     /// The digest of all answers: to so many queries of a family, or of as many steps of the scene.
     pub fn digest(&self, count: u64) -> u64 {
         match self {
-            Part::Family(family) => of_family(family, count),
+            Part::Family(family) => of_queries(count, |index| family.query(SEED, index)),
+            Part::Zeros => of_queries(count, zeros::query),
             Part::Scene => scene::digest(count),
         }
     }
@@ -61,11 +66,11 @@ pub extern "C" fn tunnelproof_targets_digest(part: u32, count: u32) -> u64 {
     part.map_or(0, |part| part.digest(count.into()))
 }
 
-fn of_family(family: &Family, count: u64) -> u64 {
+fn of_queries(count: u64, query: impl Fn(u64) -> Query) -> u64 {
     let mut digest = Digest::new();
     let (mut edges, mut faces) = (Batch::new(), Batch::new());
     for index in 0..count {
-        let query = family.query(SEED, index);
+        let query = query(index);
         match &query {
             Query::EdgeEdge(query) => {
                 edges.push(query);
