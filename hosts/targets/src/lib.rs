@@ -35,7 +35,9 @@ pub enum Part {
 impl Part {
     /// All parts, in order.
     pub fn all() -> impl Iterator<Item = Part> {
-        generate::all().map(Part::Family).chain([Part::Zeros, Part::Scene])
+        generate::all()
+            .map(Part::Family)
+            .chain([Part::Zeros, Part::Scene])
     }
 
     /// Its name, as a word.
