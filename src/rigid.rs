@@ -29,7 +29,9 @@
 //! let query = EdgeTurningEdge::new(wire, wire, rod, motion)?;
 //!
 //! let hit = decide_rigid(&query).expect("the rod passes the wire");
-//! assert_eq!(hit.toi, 2f64.sqrt() - 1.0);
+//! // The square root of 2, less 1: rounded down and up.
+//! assert_eq!(hit.toi, 0.414_213_562_373_095_03);
+//! assert_eq!(hit.toi_above, 0.414_213_562_373_095_1);
 //! # Ok::<(), tunnelproof::rigid::RigidError>(())
 //! ```
 
