@@ -52,11 +52,14 @@ pub fn text(findings: &Findings, paint: Paint) -> String {
 /// What was found, a block of lines for each source; those without a fault together.
 fn blocks(panel: &Panel, blocks: &[&Block], paint: Paint) -> String {
     let width = name_width(panel);
-    let mut lines = vec![
-        line(width, "", |(heading, ..)| heading[0].to_owned()),
-        line(width, "subject", |(heading, ..)| heading[1].to_owned()),
-    ];
     let (clean, faulty): (Vec<_>, Vec<_>) = blocks.iter().partition(|block| is_clean(block));
+    let mut lines = Vec::new();
+    if !faulty.is_empty() {
+        lines.push(line(width, "", |(heading, ..)| heading[0].to_owned()));
+        lines.push(line(width, "subject", |(heading, ..)| {
+            heading[1].to_owned()
+        }));
+    }
     for block in faulty {
         lines.push(String::new());
         lines.push(paint(Tone::Heading, &heading(block)));
@@ -66,7 +69,6 @@ fn blocks(panel: &Panel, blocks: &[&Block], paint: Paint) -> String {
         }
     }
     for block in clean {
-        lines.push(String::new());
         lines.push(paint(Tone::Heading, &heading(block)) + ": no fault");
         lines.extend(description(&block.name).map(|words| format!("  {words}")));
     }

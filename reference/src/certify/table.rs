@@ -65,7 +65,7 @@ pub fn text(findings: &Findings, shown: Shown) -> String {
         parts.push(summary::notes(panel, total));
         parts.push(summary::witnesses(findings, shown.paint));
     }
-    parts.push(programs(&findings.programs));
+    parts.push(programs(&findings.programs).trim_start().to_owned());
     parts.retain(|part| !part.is_empty());
     parts.join("\n")
 }

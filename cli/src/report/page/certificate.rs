@@ -53,7 +53,7 @@ fn lead(findings: &Findings) -> Markup {
             (term("crossing", "the two swap sides, and small disturbances do not undo it")) ". Each answer was compared with the "
             (term("exact one", "computed in integers and real algebraic numbers, without rounding")) "."
         }
-        p { strong { (passing) " of " (findings.panel.subjects.len()) " subjects pass." }
+        p { strong { (passing) " of " (findings.panel.subjects.len()) " subjects " (if passing == 1 { "passes" } else { "pass" }) "." }
             " A subject passes if it misses no contact, invents none, is never late, and answers every query that it takes." }
     }
 }
