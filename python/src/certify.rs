@@ -1,28 +1,35 @@
 //! Certification of a method in Python.
 
+use std::io::Cursor;
 use std::sync::Arc;
 
 use numpy::{PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use tunnelproof::narrow::Tolerance;
-use tunnelproof_cli::report::page;
+use tunnelproof_cli::report::{explanation, page};
 use tunnelproof_float_env::with_default;
+use tunnelproof_reference::certify::caller::{Caller, in_quotes};
+use tunnelproof_reference::certify::defaults;
 use tunnelproof_reference::certify::findings::{Findings, Settings};
 use tunnelproof_reference::certify::judged::Judged;
 use tunnelproof_reference::certify::run::Panel;
 use tunnelproof_reference::certify::shard::Shard;
 use tunnelproof_reference::certify::source::Source;
-use tunnelproof_reference::certify::table;
-use tunnelproof_reference::generate;
+use tunnelproof_reference::certify::table::{self, Shown};
+use tunnelproof_reference::corpus::locate::locate;
+use tunnelproof_reference::corpus::{self, CorpusError, Entry, Format, Problem, ReadOptions};
+use tunnelproof_reference::generate::{self, Family};
+use tunnelproof_reference::registry;
 use tunnelproof_reference::report::merge::{Kept, merge as join};
 use tunnelproof_reference::report::results::Results;
+use tunnelproof_reference::subject::Subject;
 
 use crate::method::Method;
 use crate::queries::{self, Rows};
 
-/// The result as JSON, as text and as a page.
-type Certificate = (String, String, String);
+/// The result as JSON, as text, as text with all details, and as a page.
+type Certificate = (String, String, String, String);
 
 /// What is judged besides families: a name, a kind, points and radii.
 type Own<'py> = (
@@ -45,43 +52,42 @@ pub(crate) fn certify(
     name: String,
     near: f64,
     late: f64,
-    families: Vec<String>,
+    families: Option<Vec<String>>,
     own: Vec<Own<'_>>,
     count: u64,
     seed: u64,
     shard: (u64, u64),
 ) -> PyResult<Certificate> {
-    let mut sources = Vec::new();
-    for family in &families {
-        let family = generate::by_name(family)
-            .ok_or_else(|| PyValueError::new_err(format!("there is no family {family:?}")))?;
-        sources.push(Source::Family {
-            family,
-            seed,
-            count,
-        });
-    }
+    let shard: Shard = format!("{}/{}", shard.0, shard.1)
+        .parse()
+        .map_err(|error| PyValueError::new_err(format!("shard is {shard:?}: {error}")))?;
+    let tolerance = tolerance(near, late)?;
+    let subject = Method {
+        name,
+        call,
+        tolerance,
+    };
+    let command = command(&subject, families.as_deref(), !own.is_empty(), count, seed);
+    let families = match families {
+        Some(names) => names
+            .iter()
+            .map(|name| family(name))
+            .collect::<PyResult<_>>()?,
+        None if own.is_empty() => py.detach(|| with_default(|| defaults::families(&[&subject]))),
+        None => Vec::new(),
+    };
+    let families = families.into_iter().map(|family| Source::Family {
+        family,
+        seed,
+        count,
+    });
+    let mut sources: Vec<_> = families.collect();
     for (name, kind, points, radii) in own {
         let rows = Rows::new(&points, &radii)?;
         let kind = queries::kind(&kind)?;
         let queries: Arc<[_]> = with_default(|| rows.queries(kind))?.into();
         sources.push(Source::Queries { name, queries });
     }
-    let shard: Shard = format!("{}/{}", shard.0, shard.1)
-        .parse()
-        .map_err(|error| PyValueError::new_err(format!("shard is {shard:?}: {error}")))?;
-    for (name, value) in [("near", near), ("late", late)] {
-        if !(value >= 0.0 && value.is_finite()) {
-            let message = format!("{name} is {value}, not a number from 0");
-            return Err(PyValueError::new_err(message));
-        }
-    }
-    let tolerance = Tolerance { near, late };
-    let subject = Method {
-        name,
-        call,
-        tolerance,
-    };
     let panel = Panel {
         second_judges: Vec::new(),
         subjects: vec![Judged {
@@ -97,13 +103,92 @@ pub(crate) fn certify(
         py.check_signals()?;
     }
     let settings = Settings {
-        command: String::new(),
+        command,
+        caller: Caller::Python,
         seed,
         count,
         shard,
     };
     let certificate = || written(&Findings::new(panel, settings, blocks, Vec::new()));
     Ok(py.detach(|| with_default(certificate)))
+}
+
+fn family(name: &str) -> PyResult<&'static Family> {
+    let refuse = || PyValueError::new_err(format!("there is no family {name:?}"));
+    generate::by_name(name).ok_or_else(refuse)
+}
+
+fn tolerance(near: f64, late: f64) -> PyResult<Tolerance> {
+    for (name, value) in [("near", near), ("late", late)] {
+        if !(value >= 0.0 && value.is_finite()) {
+            let message = format!("{name} is {value}, not a number from 0");
+            return Err(PyValueError::new_err(message));
+        }
+    }
+    Ok(Tolerance { near, late })
+}
+
+/// The expression that judges again.
+fn command(
+    method: &Method,
+    families: Option<&[String]>,
+    has_own: bool,
+    count: u64,
+    seed: u64,
+) -> String {
+    let mut words = vec![
+        "method".to_owned(),
+        format!("name={}", in_quotes(&method.name)),
+    ];
+    if let Some(names) = families {
+        let names: Vec<_> = names.iter().map(|name| in_quotes(name)).collect();
+        words.push(format!("families=[{}]", names.join(", ")));
+    }
+    words.extend(has_own.then(|| "own=own".to_owned()));
+    words.push(format!("count={count}"));
+    words.push(format!("seed={seed}"));
+    let Tolerance { near, late } = method.tolerance;
+    let tolerances = [("near", near), ("late", late)].into_iter();
+    let tolerances = tolerances.filter(|(_, value)| *value > 0.0);
+    words.extend(tolerances.map(|(name, value)| format!("{name}={value:e}")));
+    format!("tunnelproof.certify({})", words.join(", "))
+}
+
+/// A query explained, and what a callable says of it if there is one: by its name, such as
+/// `lattice:1:4711`, or as a line of JSON.
+#[pyfunction]
+pub(crate) fn explain(
+    py: Python<'_>,
+    query: &str,
+    method: Option<(String, Py<PyAny>)>,
+) -> PyResult<String> {
+    let entry = match query.trim_start().starts_with('{') {
+        true => line(query),
+        false => locate(query, ReadOptions::default()),
+    };
+    let entry = entry.map_err(|error| PyValueError::new_err(error.to_string()))?;
+    let method = method.map(|(name, call)| Method {
+        name,
+        call,
+        tolerance: Tolerance::NONE,
+    });
+    let own = method.iter().map(|method| method as &dyn Subject);
+    let subjects = registry::subjects().into_iter().chain(own);
+    let subjects: Vec<_> = subjects
+        .map(|subject| Judged {
+            subject,
+            explain: None,
+        })
+        .collect();
+    let text = || explanation::explain(&entry.id, &entry.query, &subjects);
+    Ok(py.detach(|| with_default(text)))
+}
+
+fn line(text: &str) -> Result<Entry, CorpusError> {
+    let lines = Cursor::new(text.to_owned());
+    let mut entries = corpus::read(lines, "query", Some(Format::Jsonl), ReadOptions::default())?;
+    let none = || Err(CorpusError::new("query", Problem::Empty));
+    entries.next().unwrap_or_else(none)
 }
 
 /// The certificate of the whole, from those of all its shards as JSON.
@@ -125,10 +210,10 @@ fn merged(parts: &[String]) -> PyResult<Certificate> {
 }
 
 fn written(findings: &Findings<'_>) -> Certificate {
-    let json = Results::new(findings).text();
     (
-        json,
-        table::text(findings, table::INSTALLED),
+        Results::new(findings).text(),
+        table::text(findings, Shown::SUMMARY),
+        table::text(findings, Shown::EVERYTHING),
         page::certificate(findings),
     )
 }

@@ -24,7 +24,7 @@ mod _tunnelproof {
     #[pymodule_export]
     use crate::certified::decide;
     #[pymodule_export]
-    use crate::certify::{certify, merge};
+    use crate::certify::{certify, explain, merge};
     #[pymodule_export]
     use crate::exact::exact;
     #[pymodule_export]

@@ -14,7 +14,8 @@ def certified(kind, points, radii):
 
 
 def test_certified_path_passes_on_every_family():
-    certificate = tunnelproof.certify(certified, name="certified", count=50)
+    names = [family.name for family in tunnelproof.families()]
+    certificate = tunnelproof.certify(certified, name="certified", families=names, count=50)
     assert certificate.failures == []
     results = certificate.results
     assert len(results["sources"]) == len(tunnelproof.families())
@@ -87,6 +88,35 @@ def test_what_a_method_does_not_take_is_not_judged():
     assert [sort["kind"] for sort in subject["refused"]] == ["vertex-face"]
 
 
+def test_families_are_those_that_a_method_takes():
+    def names(method):
+        return [source["name"] for source in tunnelproof.certify(method, count=2).results["sources"]]
+
+    def faces(kind, points, radii):
+        return certified(kind, points, radii) if kind == "vertex-face" and not radii.any() else None
+
+    def edges(kind, points, radii):
+        return certified(kind, points, radii) if kind == "edge-edge" else None
+
+    assert names(edges) == names(certified) and "lattice" in names(edges)
+    assert names(faces) and all(name.startswith("face_") for name in names(faces))
+
+
+def test_a_find_comes_with_an_expression_that_explains_it(capsys):
+    def blind(kind, points, radii):
+        return np.zeros(len(points), bool), np.zeros(len(points))
+
+    points, radii = tunnelproof.queries("uniform", 50)
+    for settings in ({"families": ["uniform"]}, {"own": {"mine": ("edge-edge", points, radii)}}):
+        certificate = tunnelproof.certify(blind, name="blind", **settings)
+        (line,) = [line for line in certificate.text.splitlines() if "explain" in line and "print" in line]
+        assert "cargo" not in certificate.text + certificate.json + certificate.html
+        exec(line.strip(), {"tunnelproof": tunnelproof, "blind": blind, "method": blind})
+        assert "blind" in capsys.readouterr().out
+    with pytest.raises(ValueError, match="not a query"):
+        tunnelproof.explain("nothing")
+
+
 def test_own_queries_are_judged():
     points, radii = tunnelproof.queries("thick_uniform", 100, seed=9)
     own = {"mine": ("edge-edge", points, radii)}
@@ -100,7 +130,7 @@ def test_parts_make_the_whole_to_the_last_byte():
     whole = tunnelproof.certify(certified, **settings)
     parts = [tunnelproof.certify(certified, shard=(i, 3), **settings).json for i in (3, 1, 2)]
     merged = tunnelproof.merge(parts)
-    assert merged.json == whole.json and merged.text == whole.text
+    assert merged.json == whole.json and merged.text == whole.text and merged.details == whole.details
     with pytest.raises(ValueError, match="missing"):
         tunnelproof.merge(parts[:2])
     with pytest.raises(ValueError, match="part 1"):

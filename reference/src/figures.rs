@@ -8,6 +8,12 @@
 use tunnelproof::contact::{Case, Flags};
 use tunnelproof::query::{EdgeEdge, Point};
 
+/// What the figures are called as a source of queries.
+pub const SOURCE: &str = "figures";
+
+/// What they are like, in one line.
+pub const DESCRIPTION: &str = "the collision cases of the thesis' figures 4.1 to 4.12";
+
 /// One figure: a motion and what is to be found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figure {

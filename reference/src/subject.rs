@@ -81,6 +81,7 @@ pub struct Lapse {
 
 /// The ways to fail on a query.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum LapseKind {
     /// It panics.
     Panicked,

@@ -6,7 +6,7 @@ use serde::{Serialize, Serializer};
 use tunnelproof::query::{EdgeEdge, Query};
 use tunnelproof::wire::SegmentId;
 
-use tunnelproof_reference::certify::table;
+use tunnelproof_reference::certify::caller;
 use tunnelproof_reference::corpus::Entry;
 use tunnelproof_reference::corpus::jsonl::{self, Numbers};
 
@@ -92,7 +92,7 @@ impl Finding {
 
     /// The command that explains the witness, ready to paste into a shell.
     pub fn command(&self) -> Option<String> {
-        self.entry().map(|entry| table::explain_line(&entry))
+        self.entry().map(|entry| caller::explain_line(&entry))
     }
 }
 

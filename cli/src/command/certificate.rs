@@ -4,14 +4,15 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use tunnelproof_cli::report::{junit, page};
+use tunnelproof_cli::report::{badge, junit, page};
 use tunnelproof_reference::certify::findings::Findings;
+use tunnelproof_reference::certify::run::Panel;
 use tunnelproof_reference::certify::strict::failures;
-use tunnelproof_reference::certify::table;
+use tunnelproof_reference::certify::table::{self, Shown};
 use tunnelproof_reference::report::results::Results;
 
 use super::Failure;
-use super::output::{JsonOutput, OutputFile, is_standard_output, print};
+use super::output::{JsonOutput, OutputFile, is_standard_output, paint, print};
 
 /// Where the findings are written, and whether they decide the exit code.
 #[derive(Args)]
@@ -25,6 +26,12 @@ pub(super) struct Certificate {
     /// Write what passes and what fails to this file, as JUnit XML
     #[arg(long, value_name = "OUT")]
     junit: Option<PathBuf>,
+    /// Write a badge that says whether the one subject passes to this file, as SVG
+    #[arg(long, value_name = "OUT")]
+    badge: Option<PathBuf>,
+    /// Also print every family, all witnesses and the errata
+    #[arg(long)]
+    details: bool,
     /// Exit with 1 unless every subject passes and all judges and labels agree
     #[arg(long)]
     strict: bool,
@@ -35,16 +42,36 @@ pub(super) struct Prepared {
     json: JsonOutput,
     html: Option<OutputFile>,
     junit: Option<OutputFile>,
+    badge: Option<OutputFile>,
+    shown: Shown,
 }
 
 impl Certificate {
     /// Sees to it that the files can be made.
-    pub(super) fn prepare(&self) -> Result<Prepared, Failure> {
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be written, or a badge for several subjects.
+    pub(super) fn prepare(&self, panel: &Panel) -> Result<Prepared, Failure> {
+        if self.badge.is_some() && panel.subjects.len() != 1 {
+            return Err(Failure::File {
+                path: "--badge".to_owned(),
+                problem: format!(
+                    "is about one subject, and {} are judged",
+                    panel.subjects.len()
+                ),
+            });
+        }
         let file = |path: &Option<PathBuf>| path.as_deref().map(OutputFile::create).transpose();
         Ok(Prepared {
             json: JsonOutput::create(self.json.as_deref())?,
             html: file(&self.html)?,
             junit: file(&self.junit)?,
+            badge: file(&self.badge)?,
+            shown: Shown {
+                details: self.details,
+                paint: paint(),
+            },
         })
     }
 }
@@ -58,10 +85,21 @@ impl Prepared {
         if let Some(file) = self.junit {
             file.write(&junit::text(findings))?;
         }
+        if let Some(file) = self.badge {
+            file.write(&badge::draw(findings))?;
+        }
         self.json.write(
             || Ok(Results::new(findings).text()),
-            || table::text(findings, table::CHECKOUT),
+            || table::text(findings, self.shown) + hint(self.shown),
         )
+    }
+}
+
+/// How to see more.
+fn hint(shown: Shown) -> &'static str {
+    match shown.details {
+        true => "",
+        false => "\n--details shows every family; --html FILE writes all of it as a page.\n",
     }
 }
 

@@ -4,24 +4,25 @@ use std::process::ExitCode;
 
 use clap::Args;
 use tunnelproof_reference::certify::block::Block;
+use tunnelproof_reference::certify::caller::{self, Caller};
+use tunnelproof_reference::certify::defaults;
 use tunnelproof_reference::certify::findings::{Findings, Settings};
 use tunnelproof_reference::certify::judged::Judged;
 use tunnelproof_reference::certify::run::Panel;
 use tunnelproof_reference::certify::shard::Shard;
 use tunnelproof_reference::certify::source::Source;
-use tunnelproof_reference::certify::table;
 use tunnelproof_reference::generate::{FAMILIES, Family};
 use tunnelproof_reference::program::Conduct;
 use tunnelproof_reference::registry;
-use tunnelproof_reference::report::merge::{Kept, MergeError};
 use tunnelproof_reference::shadow::Shadow;
 use tunnelproof_reference::shrink::{Disagreement, MOST_CALLS};
 use tunnelproof_reference::subject::Subject;
 
 use super::certificate::Certificate;
+use super::resume::Resumed;
 use super::sources::{family, of_families, of_files};
 use super::subjects::{Answering, AskedList, Permit, Programs, asked_list};
-use super::{Failure, Reading, merge, progress};
+use super::{Failure, Reading, output, progress};
 
 /// Judge subjects against the exact answer
 ///
@@ -34,19 +35,22 @@ Examples:
   tunnelproof certify --subject thesis --count 1000 --shrink
   tunnelproof certify --strict --subject oracle,shadow queries.jsonl unit-tests/edge-edge/*.csv
   tunnelproof certify --subject 'cmd:./my_ccd --flags' --html certificate.html
+  tunnelproof certify --subject lib:./my_ccd.so Sample-Scalable-CCD-Data/cloth-funnel
   tunnelproof certify --shard 3/8 --json part-3.json queries.jsonl.zst
+  tunnelproof certify --count 10000000 --json result.json --resume
 
-Without files: the figure cases and every family of edges without radius. With files: these, and the
-families asked for. Families of vertices and faces, and of radii: face_... and thick_...; subjects that do
-not take such queries are not asked.
+Without files: the figure cases and every family of edges without radius, or, if no subject takes
+these, every family that one of them takes. With files: these, and the families asked for. Families of
+vertices and faces, and of radii: face_... and thick_...; subjects that do not take such queries are not
+asked. A folder stands for the files of queries in it. Both public benchmarks are read as they are
+published, with their labels.
 
-Columns: hits that the subject reports; tunnels, crossings that it misses; missed grazes, contacts
-without crossing that it misses; false hits; near hits, false hits within the distance that the
-subject declares of itself; wrong cases; queries it takes and gives no answer to; and how far the worst time of
-impact is behind (late: dangerous) or ahead of (early: safe) the exact one. Joint tunnels are edges that
-pass through a wire at a node and are missed by both of its segments there.
+With --resume, what is judged so far is kept in OUT.part beside OUT, the file of --json, after each family
+and file. The same command goes on there, and removes it at the end. If OUT is there, it is taken. What
+programs wrote and how often they were started is counted from the last start.
 
-Of the witnesses, \"central\" is 1 if the time and the parameters of the missed contact are in the
+A line for each subject, those that fail first, and a line on what each column means. --details has
+every family. Of the witnesses, \"central\" is 1 if the time and the parameters of the missed contact are in the
 middle of the step and the edges, 0 if they are at the ends; \"gap\" is the least distance during the
 step.
 
@@ -54,7 +58,8 @@ A program is started once for each thread. It reads queries as eval does and wri
 {\"hit\": false} or {\"hit\": true, \"toi\": 0.25}. A crash, a hang or garbage is no answer to the query whose
 answer is due, and the program is started again. docs/bring-your-own.md has the rest.")]
 pub(super) struct Certify {
-    /// Files of queries (.jsonl or .csv); - is the standard input
+    /// Files of queries (.jsonl or .csv), or folders of them, such as the public benchmarks; - is the
+    /// standard input
     #[arg(value_name = "FILE")]
     files: Vec<String>,
     /// Who is judged: subjects by their names, cmd: and the command of a program, or lib: and the
@@ -84,7 +89,7 @@ pub(super) struct Certify {
     /// Judge part I of N of the queries alone; merge puts the parts together
     #[arg(long, value_name = "I/N", default_value_t = Shard::WHOLE)]
     shard: Shard,
-    /// If the file of --json is there and of the same command, take the result from it
+    /// Go on where the same command was interrupted, and keep what is judged beside the file of --json
     #[arg(long, requires = "json")]
     resume: bool,
     #[command(flatten)]
@@ -96,46 +101,39 @@ pub(super) struct Certify {
 impl Certify {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
         self.reading.check(&self.files)?;
-        let sources = self.sources();
-        if sources.is_empty() {
+        let files = of_files(&self.files, &self.reading)?;
+        if files.is_empty() && self.count == 0 && !self.family.is_empty() {
             return Err(Failure::Nothing);
         }
         let answering = self.answering()?;
         let settings = self.settings(&answering);
-        if let Some(kept) = self.kept(&settings)? {
+        let resumed = Resumed::new(self.resume, self.certificate.json.as_deref(), &settings)?;
+        if let Some(kept) = resumed.whole()? {
             let findings = kept.findings();
-            self.certificate.prepare()?.write(&findings)?;
+            self.certificate
+                .prepare(&findings.panel)?
+                .write(&findings)?;
             return Ok(self.certificate.code(&findings));
         }
-        let files = self.certificate.prepare()?;
         let panel = self.panel(&answering);
-        let blocks = judge(&panel, &sources, self.shard)?;
-        let findings = Findings::new(panel, settings, blocks, finish(&answering));
-        files.write(&findings)?;
+        let outputs = self.certificate.prepare(&panel)?;
+        let sources = self.sources(&panel, files);
+        let blocks = judge(&panel, &settings, &sources, &resumed)?;
+        let findings = Findings::new(panel, settings.clone(), blocks, finish(&answering));
+        outputs.write(&findings)?;
+        resumed.finish()?;
         if self.shrink {
             self.certificate.print_after(&shrunk_witnesses(&findings))?;
         }
         Ok(self.certificate.code(&findings))
     }
 
-    /// The result of this command that is there already, if it may be taken.
-    fn kept(&self, settings: &Settings) -> Result<Option<Kept>, Failure> {
-        let path = self.certificate.json.as_deref().filter(|_| self.resume);
-        let Some(path) = path else { return Ok(None) };
-        match merge::read_if_there(path)? {
-            Some(kept) if kept.settings() != settings => {
-                let path = path.display().to_string();
-                Err(Failure::merge(&path, MergeError::Other("command")))
-            }
-            kept => Ok(kept),
-        }
-    }
-
     /// What is judged, and the command that does it again.
     fn settings(&self, answering: &[Answering]) -> Settings {
-        let mut words = vec![format!("{} certify", table::CHECKOUT)];
+        let program = output::program();
+        let mut words = vec![format!("{program} certify")];
         let mut option = |name: &str, value: String| {
-            words.push(format!("--{name} {}", table::quoted(&value)));
+            words.push(format!("--{name} {}", caller::quoted(&value)));
         };
         if !self.subject.is_empty() {
             for answering in answering {
@@ -168,9 +166,13 @@ impl Certify {
             option("radius", radius.to_string());
         }
         words.extend(self.one_judge.then(|| "--one-judge".to_owned()));
-        words.extend(self.files.iter().map(|file| table::quoted(file)));
+        words.extend(self.files.iter().map(|file| caller::quoted(file)));
         Settings {
             command: words.join(" "),
+            caller: Caller::Shell {
+                program: program.to_owned(),
+                options: self.programs.options(),
+            },
             seed: self.seed,
             count: self.count,
             shard: self.shard,
@@ -200,15 +202,18 @@ impl Certify {
         }
     }
 
-    fn sources(&self) -> Vec<Source> {
-        let is_everything = self.family.is_empty() && self.files.is_empty();
-        let families = match is_everything {
-            true => FAMILIES.iter().collect(),
+    /// What is judged: by default what the subjects can answer.
+    fn sources(&self, panel: &Panel, files: Vec<Source>) -> Vec<Source> {
+        let families = match self.family.is_empty() && files.is_empty() {
+            true => {
+                let subjects: Vec<_> = panel.subjects.iter().map(|judged| judged.subject).collect();
+                defaults::families(&subjects)
+            }
             false => self.family.clone(),
         };
+        let is_everything = self.family.is_empty() && families.len() == FAMILIES.len();
         let figures = is_everything.then_some(Source::Figures);
         let families = of_families(&families, self.seed, self.count);
-        let files = of_files(&self.files, &self.reading);
         figures.into_iter().chain(families).chain(files).collect()
     }
 }
@@ -253,14 +258,24 @@ pub(super) fn judged(subject: &dyn Subject) -> Judged<'_> {
     }
 }
 
-/// Judges every source, with a progress bar on the standard error if that is a terminal.
-fn judge(panel: &Panel, sources: &[Source], shard: Shard) -> Result<Vec<Block>, Failure> {
-    let progress = progress::of_sources(sources, shard);
-    let blocks = sources.iter().map(|source| {
+/// Judges every source that is not judged yet, with a progress bar on the standard error if that is
+/// a terminal.
+fn judge(
+    panel: &Panel,
+    settings: &Settings,
+    sources: &[Source],
+    resumed: &Resumed,
+) -> Result<Vec<Block>, Failure> {
+    let mut blocks = resumed.blocks(sources)?;
+    let rest = &sources[blocks.len()..];
+    let progress = progress::of_sources(rest, settings.shard);
+    for source in rest {
         progress.set_message(source.name());
-        Ok(panel.run_shard(source, shard, |judged| progress.inc(judged))?)
-    });
-    let blocks = blocks.collect();
+        blocks.push(panel.run_shard(source, settings.shard, |judged| progress.inc(judged))?);
+        if blocks.len() < sources.len() {
+            resumed.keep(panel, &blocks)?;
+        }
+    }
     progress.finish_and_clear();
-    blocks
+    Ok(blocks)
 }

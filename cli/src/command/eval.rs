@@ -12,6 +12,7 @@ use tunnelproof_reference::report::answer;
 use tunnelproof_reference::subject::Subject;
 
 use super::output::standard_output;
+use super::sources::of_files;
 use super::subjects::{Asked, Programs, asked};
 use super::{Failure, Reading};
 
@@ -31,7 +32,7 @@ floats in quotes (\"0x1.8p-3\"). A .csv is in the public CCD query format.
 An exact number stands between its neighbours in f64, {\"below\": B, \"above\": A}, equal if it is
 an f64 itself.")]
 pub(super) struct Eval {
-    /// Files of queries (.jsonl or .csv); - is the standard input
+    /// Files of queries (.jsonl or .csv), or folders of them; - is the standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<String>,
     /// Who answers: a subject by its name, cmd: and the command of a program, or lib: and the path
@@ -48,9 +49,7 @@ impl Eval {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
         let answering = self.programs.start(&self.subject)?;
         let mut output = BufWriter::new(io::stdout().lock());
-        for path in self.files {
-            let options = self.reading.options();
-            let source = Source::File { path, options };
+        for source in of_files(&self.files, &self.reading)? {
             let entries = source.entries()?;
             map_chunks_in_order(
                 entries.map(|entry| entry.map_err(Failure::from)),

@@ -45,7 +45,9 @@ impl Explain {
         let svg = self.svg.as_deref().map(OutputFile::create).transpose()?;
         let more = self.programs.start_all(&self.subject)?;
         let subjects = registry::subjects().into_iter();
-        let subjects = subjects.chain(more.iter().map(Answering::subject));
+        // The known ones are asked without being named.
+        let programs = more.iter().filter(|more| more.program().is_some());
+        let subjects = subjects.chain(programs.map(Answering::subject));
         let subjects: Vec<_> = subjects.map(certify::judged).collect();
         let text = explanation::explain(&entry.id, &entry.query, &subjects);
         if let Some(file) = svg {

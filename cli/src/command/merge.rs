@@ -30,13 +30,14 @@ pub(super) struct Merge {
 
 impl Merge {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
-        let files = self.certificate.prepare()?;
         let parts: Vec<_> = (self.files.iter())
             .map(|path| Ok((path.as_str(), read(path)?)))
             .collect::<Result<_, Failure>>()?;
         let merged = merge::merge(parts).map_err(|(path, error)| Failure::merge(path, error))?;
         let findings = merged.findings();
-        files.write(&findings)?;
+        self.certificate
+            .prepare(&findings.panel)?
+            .write(&findings)?;
         Ok(self.certificate.code(&findings))
     }
 }

@@ -1,7 +1,7 @@
 //! The commands, what they have in common, and how they end.
 //!
-//! Exit code 0 is success, 1 a judged failure, 2 bad input or output that cannot be written, 130
-//! that Ctrl-C ended it; then one line on the standard error says what is wrong. Whoever closes the
+//! Exit code 0 is success, 1 a judged failure, 2 bad input or output that cannot be written, 3 an
+//! answer of `mesh-step` that the audit does not confirm, 130 that Ctrl-C ended it; then one line on the standard error says what is wrong. Whoever closes the
 //! standard output early wants no more: that is success.
 
 use std::fmt;
@@ -36,6 +36,8 @@ mod output;
 mod pages;
 mod progress;
 mod replay;
+mod resume;
+mod shell;
 mod shrink;
 mod simulate;
 mod sources;
@@ -75,6 +77,8 @@ enum Command {
     Simulate(simulate::Simulate),
     Audit(audit::Audit),
     Table(table::Table),
+    Completions(shell::Completions),
+    Man(shell::Man),
 }
 
 /// How files are read.
@@ -184,6 +188,8 @@ impl Cli {
             Command::Simulate(simulate) => simulate.run(),
             Command::Audit(audit) => audit.run(),
             Command::Table(table) => table.run(),
+            Command::Completions(completions) => completions.run(),
+            Command::Man(man) => man.run(),
         }
     }
 }

@@ -4,7 +4,11 @@ use std::fs::{self, File, Permissions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use anstream::{AutoStream, ColorChoice};
+use anstyle::{AnsiColor, Style};
 use tempfile::NamedTempFile;
+use tunnelproof_reference::certify::caller;
+use tunnelproof_reference::certify::table::{Paint, Shown, Tone};
 
 use super::Failure;
 
@@ -15,6 +19,32 @@ pub(super) fn print(text: &str) -> Result<(), Failure> {
         .write_all(text.as_bytes())
         .and_then(|()| output.flush())
         .map_err(standard_output)
+}
+
+/// What commands to paste begin with: as this one was started, by Cargo in a checkout or installed.
+pub(super) fn program() -> &'static str {
+    match std::env::var_os("CARGO") {
+        Some(_) => caller::CHECKOUT,
+        None => caller::INSTALLED,
+    }
+}
+
+/// How words on the standard output are coloured: not where it is no terminal, or `NO_COLOR` is set.
+pub(super) fn paint() -> Paint {
+    match AutoStream::choice(&io::stdout()) {
+        ColorChoice::Never => Shown::SUMMARY.paint,
+        _ => coloured,
+    }
+}
+
+fn coloured(tone: Tone, text: &str) -> String {
+    let style = match tone {
+        Tone::Good => AnsiColor::Green.on_default().bold(),
+        Tone::Bad => AnsiColor::Red.on_default().bold(),
+        Tone::Heading => Style::new().bold(),
+        _ => Style::new().dimmed(),
+    };
+    format!("{style}{text}{style:#}")
 }
 
 /// That the standard output cannot be written.

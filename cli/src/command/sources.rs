@@ -4,6 +4,7 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use tunnelproof_cli::sweep::{Domain, DomainError, Precision};
 use tunnelproof_reference::certify::source::Source;
+use tunnelproof_reference::corpus::folder;
 use tunnelproof_reference::generate::{self, FAMILIES, Family};
 
 use super::{Failure, Reading};
@@ -14,7 +15,7 @@ pub(super) struct Sources {
     /// Families of generated queries; by default all but scales, or none if files are given
     #[arg(long, value_delimiter = ',', value_parser = family())]
     family: Vec<&'static Family>,
-    /// Files of queries (.jsonl or .csv); - is the standard input
+    /// Files of queries (.jsonl or .csv), or folders of them; - is the standard input
     #[arg(long, value_name = "FILE", num_args = 1..)]
     corpus: Vec<String>,
     #[command(flatten)]
@@ -41,7 +42,7 @@ pub(super) struct Scene {
 impl Sources {
     /// # Errors
     ///
-    /// An option that says how to read files, without any.
+    /// An option that says how to read files, without any; a folder without a file of queries.
     pub(super) fn sources(&self, seed: u64, count: u64) -> Result<Vec<Source>, Failure> {
         self.reading.check(&self.corpus)?;
         let families = match self.family.is_empty() && self.corpus.is_empty() {
@@ -52,7 +53,7 @@ impl Sources {
             false => self.family.clone(),
         };
         let families = of_families(&families, seed, count);
-        let files = of_files(&self.corpus, &self.reading);
+        let files = of_files(&self.corpus, &self.reading)?;
         Ok(families.into_iter().chain(files).collect())
     }
 }
@@ -69,13 +70,24 @@ pub(super) fn of_families(families: &[&'static Family], seed: u64, count: u64) -
         .collect()
 }
 
-/// The queries of files.
-pub(super) fn of_files(files: &[String], reading: &Reading) -> Vec<Source> {
-    let file = |path: &String| Source::File {
-        path: path.clone(),
-        options: reading.options(),
-    };
-    files.iter().map(file).collect()
+/// The queries of files, and of the files in folders. A JSON schema among several has none.
+///
+/// # Errors
+///
+/// A folder that cannot be read, or has no file of queries.
+pub(super) fn of_files(files: &[String], reading: &Reading) -> Result<Vec<Source>, Failure> {
+    let mut sources = Vec::new();
+    for path in files {
+        if files.len() > 1 && folder::is_schema(path) {
+            continue;
+        }
+        let files = folder::files(path)?.into_iter();
+        sources.extend(files.map(|path| Source::File {
+            path,
+            options: reading.options(),
+        }));
+    }
+    Ok(sources)
 }
 
 impl Scene {

@@ -88,6 +88,11 @@ fn hosted(path: &str, time_limit: Duration) -> Result<Command, String> {
 }
 
 impl Programs {
+    const USUAL: Programs = Programs {
+        wire: Wire::Lines,
+        time_limit: program::TIME_LIMIT.as_secs_f64(),
+    };
+
     /// Starts the subject, if it is a program.
     pub(super) fn start(&self, asked: &Asked) -> Result<Answering, Failure> {
         let name = match asked {
@@ -115,6 +120,16 @@ impl Programs {
     /// The values of the options, to be written.
     pub(super) fn values(&self) -> [String; 2] {
         [self.wire.name().to_owned(), self.time_limit.to_string()]
+    }
+
+    /// The options that are not the default ones, to be written.
+    pub(super) fn options(&self) -> String {
+        let [wire, limit] = self.values();
+        let [lines, seconds] = Programs::USUAL.values();
+        let options = [("wire", wire, lines), ("time-limit", limit, seconds)].into_iter();
+        let options = options.filter(|(_, value, usual)| value != usual);
+        let options = options.map(|(name, value, _)| format!("--{name} {value}"));
+        options.collect::<Vec<_>>().join(" ")
     }
 
     /// Starts all of them.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use tunnelproof_cli::vectors::{self, VectorFile};
+use tunnelproof_cli::vectors::{self, VectorFile, package};
 use tunnelproof_reference::corpus::{CorpusError, Problem};
 
 use super::Failure;
@@ -16,6 +16,9 @@ use super::output::{OutputFile, print, unwritable};
 /// What is in the folder besides vectors.
 const SCHEMA: &str = "schema.json";
 
+/// What says what is in it.
+const README: &str = "README.md";
+
 /// Write test vectors: queries with their exact answers, as JSON
 #[derive(Args)]
 #[command(after_help = "\
@@ -23,11 +26,16 @@ Examples:
   tunnelproof vectors
   tunnelproof vectors --out /tmp/vectors
   tunnelproof vectors --check
+  tunnelproof vectors --package target/vectors
 
 One file for each source: figures, errata, reports, and a selection of each family. The files are the
 same on every machine; vectors/README.md says what is in them. With --check nothing is written: each
 difference between the folder and what would be written is a line on the standard error, and the exit
-code is 1 if there is any.")]
+code is 1 if there is any.
+
+With --package the files of the folder as they are become packages of data in another folder: an archive
+tunnelproof-vectors-VERSION.tar.gz with its checksum, a crate in crate/, and a package for Python in
+python/.")]
 pub(super) struct Vectors {
     /// The folder of the files
     #[arg(long, value_name = "FOLDER", default_value = "vectors")]
@@ -35,10 +43,16 @@ pub(super) struct Vectors {
     /// Compare the files with what would be written
     #[arg(long)]
     check: bool,
+    /// Make packages of the files in this folder: an archive, a crate and a package for Python
+    #[arg(long, value_name = "FOLDER", conflicts_with = "check")]
+    package: Option<PathBuf>,
 }
 
 impl Vectors {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
+        if let Some(to) = &self.package {
+            return self.package(to);
+        }
         // The folder first: making the vectors takes a while.
         if self.check {
             fs::read_dir(&self.out).map_err(|error| unreadable(&self.out, error))?;
@@ -50,6 +64,41 @@ impl Vectors {
             OutputFile::create(&self.out.join(&file.name))?.write(&file.text)?;
         }
         print(&summary(&files))?;
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// Writes the packages of the files that are there.
+    fn package(&self, to: &Path) -> Result<ExitCode, Failure> {
+        let entries = fs::read_dir(&self.out).map_err(|error| unreadable(&self.out, error))?;
+        let mut folder = Vec::new();
+        for entry in entries {
+            let path = entry.map_err(|error| unreadable(&self.out, error))?.path();
+            let name = path
+                .file_name()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned();
+            if name.ends_with(".json") || name == README {
+                let bytes = fs::read(&path).map_err(|error| unreadable(&path, error))?;
+                folder.push(package::File { path: name, bytes });
+            }
+        }
+        folder.sort_by(|a, b| a.path.cmp(&b.path));
+        if folder.is_empty() {
+            return Err(CorpusError::new(&self.out.display().to_string(), Problem::NoFile).into());
+        }
+        let packages = package::packages(&folder).map_err(|error| unwritable(to, error))?;
+        for file in &packages {
+            let path = to.join(&file.path);
+            let parent = path.parent().unwrap_or(to);
+            fs::create_dir_all(parent).map_err(|error| unwritable(parent, error))?;
+            OutputFile::create(&path)?.write_bytes(&file.bytes)?;
+        }
+        let archive = packages.first().map_or("", |file| &file.path);
+        print(&format!(
+            "{} files as {archive}, crate/ and python/\n",
+            folder.len()
+        ))?;
         Ok(ExitCode::SUCCESS)
     }
 

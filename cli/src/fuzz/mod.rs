@@ -12,7 +12,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tunnelproof::query::Query;
 
-use tunnelproof_reference::certify::table;
+use tunnelproof_reference::certify::caller;
 use tunnelproof_reference::corpus::Entry;
 use tunnelproof_reference::corpus::jsonl::{self, Numbers};
 use tunnelproof_reference::generate;
@@ -209,7 +209,7 @@ impl fmt::Display for Finding {
                 Err(_) => writeln!(f, "  {name} panics")?,
             }
         }
-        writeln!(f, "{}", table::explain_line(&entry))?;
+        writeln!(f, "{}", caller::explain_line(&entry))?;
         if let Some(shrunk) = self.shrunk(query) {
             writeln!(f, "shrunk, {shrunk}")?;
         }

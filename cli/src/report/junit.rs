@@ -6,7 +6,6 @@ use std::fmt::Write as _;
 use tunnelproof_reference::certify::block::Block;
 use tunnelproof_reference::certify::findings::Findings;
 use tunnelproof_reference::certify::strict;
-use tunnelproof_reference::certify::table::command;
 
 /// The findings as JUnit XML. A case fails if [`strict::failures_of`] says so, and is skipped if
 /// the subject takes none of its queries. What the judges and the labels disagree on is a suite of
@@ -23,7 +22,8 @@ pub fn text(findings: &Findings) -> String {
                 };
                 let witnesses = tally.faults.values().filter_map(|f| f.worst.as_ref());
                 let name = Some(judged.subject.name());
-                let commands = witnesses.map(|witness| command(witness, name));
+                let commands =
+                    witnesses.map(|witness| findings.settings.caller.explain(witness, name));
                 let commands: Vec<_> = commands.collect();
                 (block, outcome, commands)
             });

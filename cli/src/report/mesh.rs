@@ -135,10 +135,15 @@ impl StepReport {
         }
     }
 
-    /// Whether nothing touches in the whole step, and the oracle agrees.
-    pub fn passes(&self) -> bool {
+    /// Whether something touches in the whole step.
+    pub fn touches(&self) -> bool {
+        self.toi.is_some()
+    }
+
+    /// Whether the oracle does not agree.
+    pub fn has_fault(&self) -> bool {
         let has_fault = |audit: &AuditRow| audit.disagreements + audit.stored_contacts > 0;
-        self.toi.is_none() && !self.audit.as_ref().is_some_and(has_fault)
+        self.audit.as_ref().is_some_and(has_fault)
     }
 
     /// As JSON.

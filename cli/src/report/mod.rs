@@ -2,6 +2,7 @@
 //! text and JSON.
 
 pub mod audit;
+pub mod badge;
 mod caption;
 pub mod explanation;
 pub mod junit;

@@ -16,7 +16,8 @@ use serde_json::Value;
 use tunnelproof::thesis::Threshold;
 
 use crate::sweep::{Evaluated, Grid, Part, Price, Sample, Setting, Worst};
-use tunnelproof_reference::certify::table::{explain_line, grouped, short};
+use tunnelproof_reference::certify::caller::explain_line;
+use tunnelproof_reference::certify::table::{grouped, short};
 use tunnelproof_reference::corpus::jsonl::{self, Numbers};
 use tunnelproof_reference::field::{self, Integer};
 

@@ -21,6 +21,7 @@ mod flag;
 mod given;
 mod layout;
 mod method;
+pub mod package;
 mod reports;
 mod vector;
 

@@ -189,6 +189,87 @@ fn certify_resumes_from_a_result_of_the_same_command() {
     );
 }
 
+/// The result of the first so many sources.
+fn first_sources(result: &Value, count: usize) -> Value {
+    let mut part = result.clone();
+    part["sources"].as_array_mut().unwrap().truncate(count);
+    part
+}
+
+#[test]
+fn certify_goes_on_where_it_was_interrupted() {
+    let folder = Folder::new();
+    let result = |name: &str| {
+        [&FAMILIES[..], &["--json", &format!("@{name}"), "--resume"]]
+            .concat()
+            .join("\n")
+    };
+    let certify = |name: &str| {
+        let arguments = result(name);
+        folder.certify(&arguments.split('\n').collect::<Vec<_>>())
+    };
+    let whole = certify("whole.json");
+    assert!(!fs::exists(folder.path("whole.json.part")).unwrap());
+    let part = first_sources(&folder.json("whole.json"), 2);
+    fs::write(folder.path("other.json.part"), part.to_string()).unwrap();
+    assert_eq!(stdout(&certify("other.json")), stdout(&whole));
+    assert_eq!(folder.read("other.json"), folder.read("whole.json"));
+    assert!(!fs::exists(folder.path("other.json.part")).unwrap());
+    // What is kept is taken, whatever it says.
+    let doctored = part.to_string().replace("\"joints\":105", "\"joints\":999");
+    fs::write(folder.path("third.json.part"), doctored).unwrap();
+    assert!(stdout(&certify("third.json")).contains("999 joints"));
+    // Unless it is of something else.
+    let swapped = part
+        .to_string()
+        .replace("\"name\":\"joint\"", "\"name\":\"grazing\"");
+    fs::write(folder.path("fourth.json.part"), swapped).unwrap();
+    let arguments = result("fourth.json");
+    let arguments: Vec<_> = ["certify"]
+        .into_iter()
+        .chain(arguments.split('\n'))
+        .collect();
+    let refused = folder.run(&arguments);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(stderr(&refused).contains("fourth.json.part: is of another list of sources"));
+}
+
+#[test]
+fn badge_says_whether_the_one_subject_passes() {
+    let folder = Folder::new();
+    for (subject, said) in [("certified", "passes 422 queries"), ("additive", "fails: ")] {
+        let few = [
+            "--family",
+            "slow,lattice",
+            "--count",
+            "211",
+            "--badge",
+            "@badge.svg",
+        ];
+        folder.certify(&[&few[..], &["--subject", subject]].concat());
+        let text = folder.read("badge.svg");
+        let badge = roxmltree::Document::parse(&text).unwrap();
+        let texts = badge.descendants().filter(|node| node.has_tag_name("text"));
+        let texts: Vec<_> = texts.filter_map(|node| node.text()).collect();
+        assert!(
+            texts[0].starts_with("tunnelproof ") && texts[1].starts_with(said),
+            "{texts:?}"
+        );
+    }
+    let two = folder.run(&[
+        "certify",
+        "--subject",
+        "oracle,certified",
+        "--badge",
+        "@two.svg",
+    ]);
+    assert_eq!(two.status.code(), Some(2));
+    assert_eq!(
+        stderr(&two),
+        "--badge: is about one subject, and 2 are judged\n"
+    );
+}
+
 #[test]
 fn junit_has_a_case_for_each_subject_and_source() {
     let folder = Folder::new();

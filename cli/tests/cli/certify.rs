@@ -197,3 +197,72 @@ fn certify_refuses_to_read_no_files_in_another_way() {
         );
     }
 }
+
+#[test]
+fn certify_puts_those_that_fail_first_and_folds_what_has_no_fault() {
+    let arguments = [
+        "certify",
+        "--count",
+        "300",
+        "--family",
+        "uniform,lattice",
+        "--subject",
+    ];
+    let summary = tunnelproof(&[&arguments[..], &["certified,thesis"]].concat());
+    let text = stdout(&summary);
+    let line = |start: &str| text.lines().position(|line| line.starts_with(start));
+    assert!(
+        line("  thesis").unwrap() < line("  certified").unwrap(),
+        "{text}"
+    );
+    assert!(text.contains("  thesis    FAILS "), "{text}");
+    assert!(text.contains("  certified passes"), "{text}");
+    for meaning in ["tunnels ", "missed grazes ", "worst late "] {
+        assert!(line(&format!("  {meaning}")).is_some(), "{meaning}: {text}");
+    }
+    assert!(text.contains(" --subject thesis\n"), "{text}");
+    assert!(
+        !text.contains("\u{1b}"),
+        "colours where there is no terminal"
+    );
+    let details = tunnelproof(&[&arguments[..], &["certified", "--details"]].concat());
+    let text = stdout(&details);
+    for family in ["uniform: 300 queries", "lattice: 300 queries"] {
+        let line = text.lines().find(|line| line.starts_with(family)).unwrap();
+        assert!(line.ends_with(": no fault"), "{line}");
+    }
+    assert!(text.contains("small integers"), "{text}");
+}
+
+#[test]
+fn certify_reads_folders_and_names_wrong_labels() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        path
+    };
+    // Two edges that cross, twice, once labelled as a miss.
+    let rows = "0,1,0,1,0,1\n1,1,0,1,0,1\n1,2,-1,1,1,1\n1,2,1,1,1,1\n\
+                0,1,0,1,0,1\n1,1,0,1,0,1\n1,2,-1,1,-2,1\n1,2,1,1,-2,1\n";
+    fs::write(at("scene/queries/7ee.csv"), rows.repeat(2)).unwrap();
+    fs::write(at("scene/mma_bool/7ee_mma_bool.json"), "[true, false]").unwrap();
+    let path = folder.path().to_str().unwrap();
+    let output = tunnelproof(&["certify", "--strict", "--subject", "oracle", path]);
+    let text = stdout(&output);
+    assert_eq!(code(&output), 1, "{text}");
+    assert!(
+        text.contains("oracle and labels DISAGREE on 1 of 2 queries"),
+        "{text}"
+    );
+    let name = format!("{path}/scene/queries/7ee.csv#1");
+    assert!(text.contains(&format!("  wrong label: {name}\n")), "{text}");
+    let explained = tunnelproof(&["explain", &name]);
+    assert!(
+        stdout(&explained).contains("exactly   1/3"),
+        "{}",
+        stderr(&explained)
+    );
+    let answers = tunnelproof(&["eval", path]);
+    assert_eq!(stdout(&answers).lines().count(), 2, "{}", stderr(&answers));
+}

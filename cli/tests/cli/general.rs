@@ -116,3 +116,19 @@ fn help_and_version_are_there() {
     );
     assert!(stderr(&tunnelproof(&[])).contains("Commands:"));
 }
+
+#[test]
+fn shells_and_manuals_know_the_commands() {
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let output = tunnelproof(&["completions", shell]);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        assert!(stdout(&output).contains("mesh-step"), "{shell}");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let output = tunnelproof(&["man", folder.path().to_str().unwrap()]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let page = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+    assert!(page("tunnelproof.1").contains("certify"));
+    assert!(page("tunnelproof-certify.1").contains("subject"));
+    assert!(!folder.path().join("tunnelproof-lib-host.1").exists());
+}

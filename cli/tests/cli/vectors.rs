@@ -41,3 +41,35 @@ fn vectors_that_cannot_be_written_are_refused() {
     let output = tunnelproof(&["vectors", "--check", "--out", "no/such/folder"]);
     assert_refused(&output, "no/such/folder", None, "no such file");
 }
+
+#[test]
+fn vectors_are_packed_as_they_are_in_the_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    fs::create_dir(at("from")).unwrap();
+    for name in ["turning_more.json", "schema.json", "README.md", "notes.txt"] {
+        fs::write(at("from") + "/" + name, name).unwrap();
+    }
+    let pack = |to: &str| tunnelproof(&["vectors", "--out", &at("from"), "--package", &at(to)]);
+    let output = pack("to");
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    assert!(
+        stdout(&output).starts_with("3 files as tunnelproof-vectors-"),
+        "{}",
+        stdout(&output)
+    );
+    for name in [
+        "crate/data/turning_more.json.gz",
+        "python/tunnelproof_vectors/data/turning_more.json.gz",
+        "python/pyproject.toml",
+    ] {
+        assert!(fs::exists(at("to") + "/" + name).unwrap(), "{name}");
+    }
+    let archive = concat!("tunnelproof-vectors-", env!("CARGO_PKG_VERSION"), ".tar.gz");
+    let read = |to: &str| fs::read(at(to) + "/" + archive).unwrap();
+    pack("again");
+    assert_eq!(read("to"), read("again"));
+    fs::create_dir(at("empty")).unwrap();
+    let none = tunnelproof(&["vectors", "--out", &at("empty"), "--package", &at("no")]);
+    assert_refused(&none, &at("empty"), None, "no file of queries");
+}

@@ -16,7 +16,8 @@ time of impact is the exact one rounded down. Positions at that time are rounded
 past the contact. :func:`advance` gives positions to store instead: straight motion to them touches
 nothing. :class:`Mesh` does the same for whole meshes, whose pairs it finds itself. :func:`exact` is
 the oracle in exact arithmetic, by another method. :func:`certify` judges a method of your own
-against it on :func:`families` of queries, each of which aims at a weakness.
+against it on :func:`families` of queries, each of which aims at a weakness; :func:`explain` says
+what happens in a query.
 
 All functions release the global interpreter lock and use all cores. Arrays of other types are
 converted to ``float64``. Arguments are copied, but for positions of meshes: these are read where
@@ -63,6 +64,7 @@ __all__ = [
     "certify",
     "decide",
     "exact",
+    "explain",
     "families",
     "merge",
     "queries",
@@ -250,7 +252,9 @@ class Certificate:
     json: str
     """All that was found, as ``tunnelproof certify --json`` writes it."""
     text: str
-    """The table, with the worst witness of each kind."""
+    """The summary: a line for each subject, and the worst witness of each fault."""
+    details: str
+    """The same with every family."""
     html: str
     """A page without other files, with pictures of the worst."""
 
@@ -293,7 +297,9 @@ def certify(
         it does not take such queries. An exception counts as no answer to the query that raises it
         by itself.
     :param name: its name in tables.
-    :param families: names of :func:`families`; by default all.
+    :param families: names of :func:`families`; by default those of edges without a radius, or, for
+        a method that does not take these, all that it takes; none if there are queries of your
+        own.
     :param own: queries of your own by a name: kind, points and radius, as :func:`exact` takes
         them.
     :param count: how many queries of each family.
@@ -312,6 +318,41 @@ def certify(
     ['blind: 19 tunnels']
     """
 
+    rows = [
+        (key, kind, *query_arrays(points, radius)) for key, (kind, points, radius) in (own or {}).items()
+    ]
+    return Certificate(
+        *_tunnelproof.certify(
+            _checked(method),
+            name,
+            near,
+            late,
+            None if families is None else list(families),
+            rows,
+            count,
+            seed,
+            shard,
+        )
+    )
+
+
+def explain(query: str, method: Method | None = None) -> str:
+    """A query explained in words and numbers, and what every subject says of it.
+
+    :param query: its name, such as ``"lattice:1:4711"``, or the query as a line of JSON.
+    :param method: a method to ask besides, as :func:`certify` takes it.
+    :raises ValueError: if there is no such query.
+
+    >>> print(explain("lattice:1:4711").splitlines()[0])
+    lattice:1:4711
+    """
+    name = getattr(method, "__name__", "method")
+    return _tunnelproof.explain(query, None if method is None else (name, _checked(method)))
+
+
+def _checked(method: Method) -> Callable[..., tuple[Bools, Floats] | None]:
+    """The method, its answers converted, with an error for other shapes."""
+
     def call(kind: Kind, points: Floats, radii: Floats) -> tuple[Bools, Floats] | None:
         answer = method(kind, points, radii)
         if answer is None:
@@ -324,15 +365,7 @@ def certify(
             )
         return hit, toi
 
-    chosen = [family for family, _, _ in _tunnelproof.families()] if families is None else families
-    rows = [
-        (key, kind, *query_arrays(points, radius)) for key, (kind, points, radius) in (own or {}).items()
-    ]
-    return Certificate(
-        *_tunnelproof.certify(
-            call, name, near, late, list(chosen), rows, count, seed, shard
-        )
-    )
+    return call
 
 
 def merge(parts: Iterable[str]) -> Certificate:

@@ -7,6 +7,7 @@ use crate::subject::Answer;
 
 use super::fingerprint::Fingerprint;
 use super::judged::{Found, exact_gap};
+use super::named::Named;
 use super::reply::Reply;
 use super::tally::{Fault, Finding, Sort, Statement, Tally, Witness};
 use super::verdict::Outline;
@@ -30,6 +31,8 @@ pub struct Block {
     pub labels: u64,
     /// Labels that are not what the oracle says.
     pub wrong_labels: Finding,
+    /// The first of these queries by name.
+    pub wrong_label_names: Named,
     /// What each second judge was asked, in the order of the panel.
     pub agreements: Vec<Agreement>,
     /// What was found of each subject, in the order of the panel.
@@ -96,6 +99,7 @@ impl Block {
         self.labels += u64::from(case.label.is_some());
         if case.label.is_some_and(|label| label != hit.is_some()) {
             self.wrong_labels.add(case.witness(0.0));
+            self.wrong_label_names.add(case.place, &case.id);
         }
         if let Some((judge, reply)) = &case.second {
             let agreement = &mut self.agreements[*judge];
@@ -156,18 +160,19 @@ impl Block {
 
     /// Adds what was found on a later source.
     pub fn merge(&mut self, later: Block) {
-        self.add_block(later, Finding::merge, Tally::merge);
+        self.add_block(later, Finding::merge, Named::merge, Tally::merge);
     }
 
     /// Adds what was found on another part of the same source, whichever was first.
     pub fn join(&mut self, other: Block) {
-        self.add_block(other, Finding::join, Tally::join);
+        self.add_block(other, Finding::join, Named::join, Tally::join);
     }
 
     fn add_block(
         &mut self,
         later: Block,
         add: fn(&mut Finding, Finding),
+        add_names: fn(&mut Named, Named),
         add_tally: fn(&mut Tally, Tally),
     ) {
         self.fingerprint.merge(later.fingerprint);
@@ -177,6 +182,7 @@ impl Block {
         self.joints += later.joints;
         self.labels += later.labels;
         add(&mut self.wrong_labels, later.wrong_labels);
+        add_names(&mut self.wrong_label_names, later.wrong_label_names);
         self.agreements
             .resize_with(later.agreements.len(), Agreement::default);
         for (agreement, later) in self.agreements.iter_mut().zip(later.agreements) {

@@ -3,8 +3,10 @@
 use crate::program::Conduct;
 
 use super::block::Block;
+use super::caller::Caller;
 use super::run::Panel;
 use super::shard::Shard;
+use super::tally::Tally;
 
 /// What was judged, by whom, and what came of it.
 pub struct Findings<'a> {
@@ -25,6 +27,8 @@ pub struct Findings<'a> {
 pub struct Settings {
     /// The command that judges all of it again.
     pub command: String,
+    /// Who asked, which says what a command that explains a find looks like.
+    pub caller: Caller,
     /// The seed of the families.
     pub seed: u64,
     /// How many queries of each family.
@@ -46,6 +50,9 @@ impl<'a> Findings<'a> {
             ..Block::default()
         };
         blocks.iter().for_each(|block| total.merge(block.clone()));
+        total
+            .tallies
+            .resize_with(panel.subjects.len(), Tally::default);
         let subjects = panel.subjects.iter().zip(&mut total.tallies);
         for (judged, tally) in subjects {
             let own = programs

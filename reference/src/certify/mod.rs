@@ -6,21 +6,28 @@
 //!
 //! [`judged`] compares one answer with the exact one, [`verdict`] says what it is worth, [`tally`]
 //! counts, in a [`block`] for a whole [`source`] or a [`shard`] of it. [`run`] does it, all blocks
-//! are the [`findings`], [`strict`] says whether the result passes and [`table`] writes it down.
+//! are the [`findings`], [`strict`] says whether the result passes and [`table`] writes it down,
+//! with a [`summary`] first and [`details`] on request. [`caller`] says how a find is shown again,
+//! [`defaults`] which families a subject gets by itself.
 //! How far a subject may be off, it declares itself ([`tolerance`](crate::subject::Subject::tolerance));
 //! [`margin`] says where thresholds excuse the thesis path from a fuzz target.
 
 pub mod batch;
 pub mod block;
+pub mod caller;
+pub mod defaults;
+pub mod details;
 pub mod findings;
 pub mod fingerprint;
 pub mod judged;
 pub mod margin;
+pub mod named;
 mod reply;
 pub mod run;
 pub mod shard;
 pub mod source;
 pub mod strict;
+pub mod summary;
 pub mod table;
 pub mod tally;
 pub mod trial;

@@ -29,6 +29,7 @@ pub struct Panel<'a> {
 
 /// Why judging ended early.
 #[derive(Debug)]
+#[non_exhaustive]
 pub enum RunError {
     /// No family has this name.
     Family(String),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::figures::FIGURES;
+use crate::figures::{self, FIGURES};
 use tunnelproof::query::Query;
 
 use crate::corpus::{self, CorpusError, Entries, Entry, ReadOptions};
@@ -64,7 +64,7 @@ impl Source {
     /// The name used in tables.
     pub fn name(&self) -> String {
         match self {
-            Source::Figures => "figures".to_owned(),
+            Source::Figures => figures::SOURCE.to_owned(),
             Source::Family { family, .. } => family.name().to_owned(),
             Source::Queries { name, .. } => name.clone(),
             Source::File { path, .. } => path.clone(),

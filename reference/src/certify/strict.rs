@@ -70,7 +70,7 @@ pub fn disagreements(panel: &Panel, total: &Block) -> Vec<String> {
 }
 
 /// A subject that does not answer each query once does not pass.
-fn refusals(total: &Block, tally: &Tally) -> impl Iterator<Item = String> {
+pub(super) fn refusals(total: &Block, tally: &Tally) -> impl Iterator<Item = String> {
     let refused = tally.refused_of_taken();
     let of_taken = (refused > 0).then(|| {
         format!(
@@ -105,7 +105,7 @@ fn failing(tolerance: Tolerance, tally: &Tally) -> impl Iterator<Item = Fault> {
 }
 
 /// Whether there is such a fault, and it counts.
-fn fails(tolerance: Tolerance, tally: &Tally, fault: Fault) -> bool {
+pub fn fails(tolerance: Tolerance, tally: &Tally, fault: Fault) -> bool {
     let counts = match fault {
         // A hit is near, not false, by the tolerance of whoever reports it.
         Fault::NearHit => tolerance.near == 0.0,

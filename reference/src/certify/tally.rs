@@ -161,6 +161,38 @@ impl Fault {
     }
 }
 
+impl Fault {
+    /// What it counts, in a line.
+    pub const fn meaning(self) -> &'static str {
+        match self {
+            Fault::Tunnel => {
+                "contacts in which the two pass through each other, and which are missed"
+            }
+            Fault::JointTunnel => {
+                "passages through a wire at a node, missed by both segments there"
+            }
+            Fault::MissedGraze => {
+                "contacts in which the two touch and do not pass, and which are missed"
+            }
+            Fault::FalseHit => "hits of two that never touch in the step",
+            Fault::NearHit => "false hits within the distance that the subject declares of itself",
+            Fault::NoAnswer => {
+                "queries that it takes and does not answer: a crash, a hang, garbage, no time"
+            }
+            Fault::WrongCase => {
+                "cases, such as parallel, that are not the exact one; this fails nobody"
+            }
+            Fault::Differs => {
+                "answers of an exact subject, or of the certified path, wrong in any field"
+            }
+            Fault::Late => {
+                "times of impact after the exact one: positions then are past the contact"
+            }
+            Fault::Early => "times of impact before the exact one: safe; this fails nobody",
+        }
+    }
+}
+
 impl Judgement {
     /// What is wrong with the answer, each with its severity. `gap` is asked for a false hit alone.
     pub fn faults(&self, truth: &Outline, gap: impl FnOnce() -> f64) -> Vec<(Fault, f64)> {

@@ -7,6 +7,7 @@ use tunnelproof::narrow::{Report, Tolerance, Unsupported};
 use tunnelproof::query::{Point, Query};
 
 use super::block::Block;
+use super::details;
 use super::judged::Judged;
 use super::run::Panel;
 use super::source::Source;
@@ -213,7 +214,7 @@ fn certify_near_hits_pass_within_the_tolerance_alone() {
     assert_eq!(failures(&panel(&liar), &block), [""; 0]);
     let exact = exact_failures(&panel(&liar), &block);
     assert!(exact[0].ends_with(" near hits"), "{exact:?}");
-    let verdicts = table::verdicts(&panel(&liar), &block);
+    let verdicts = details::verdicts(&panel(&liar), &block);
     let lines: Vec<_> = verdicts.lines().collect();
     assert!(
         lines[1].ends_with("passes with its tolerance, near=1e9"),

@@ -5,19 +5,22 @@ use std::sync::Arc;
 use tunnelproof::narrow::NarrowPhase;
 use tunnelproof::query::Query;
 
-use crate::generate::{self, FAMILIES};
+use crate::generate::{self, Family};
 use crate::subject::{Engine, Subject};
 
+use super::caller::Caller;
+use super::defaults;
 use super::findings::{Findings, Settings};
 use super::judged::Judged;
 use super::run::{Panel, RunError};
 use super::shard::Shard;
 use super::source::Source;
 use super::strict::{exact_failures, failures};
-use super::table;
+use super::table::{self, Shown};
 
 /// Judges an engine against the exact answer: a thousand queries of seed 1 of every family of edges
-/// without radius, unless something else is asked for.
+/// without radius, or, for an engine that does not take these, of the [families](defaults::families)
+/// that it takes, unless something else is asked for.
 ///
 /// ```
 /// use tunnelproof::certified::Certified;
@@ -30,10 +33,7 @@ pub fn certify<N: NarrowPhase>(engine: N) -> Trial<N> {
     Trial {
         engine,
         sources: Vec::new(),
-        families: FAMILIES
-            .iter()
-            .map(|family| family.name().to_owned())
-            .collect(),
+        families: None,
         count: 1000,
         seed: 1,
     }
@@ -43,21 +43,35 @@ pub fn certify<N: NarrowPhase>(engine: N) -> Trial<N> {
 pub struct Trial<N> {
     engine: N,
     sources: Vec<Source>,
-    families: Vec<String>,
+    /// Names; by default what suits the engine.
+    families: Option<Vec<String>>,
     count: u64,
     seed: u64,
 }
 
 /// What came of a trial.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Outcome {
     /// What the engine fails by within its [tolerance](NarrowPhase::tolerance); empty if it passes.
     /// [`failures`] says what fails.
     pub failures: Vec<String>,
     /// What it would fail by without a tolerance.
     pub exact_failures: Vec<String>,
-    /// What was found, as `certify` prints it, with the worst witness of each kind.
+    /// What was found, as `certify` prints it, with the worst witness of each fault.
     pub text: String,
+    /// The same with every family, as `certify --details` prints it.
+    pub details: String,
+}
+
+fn by_name(name: &str) -> Result<&'static Family, RunError> {
+    generate::by_name(name).ok_or_else(|| RunError::Family(name.to_owned()))
+}
+
+/// The expression that judges again.
+fn command(families: Option<&[String]>, count: u64, seed: u64) -> String {
+    let families = families.map_or(String::new(), |names| format!(".families({names:?})"));
+    format!("tunnelproof_reference::certify(engine){families}.count({count}).seed({seed})")
 }
 
 impl<N: NarrowPhase> Trial<N> {
@@ -76,10 +90,8 @@ impl<N: NarrowPhase> Trial<N> {
     /// Judges the families of these names alone, such as `lattice`, `face_lattice` for vertices and
     /// faces, or `thick_lattice` for radii. `docs/families.md` has all.
     pub fn families<S: AsRef<str>>(mut self, names: impl IntoIterator<Item = S>) -> Self {
-        self.families = names
-            .into_iter()
-            .map(|name| name.as_ref().to_owned())
-            .collect();
+        let names = names.into_iter();
+        self.families = Some(names.map(|name| name.as_ref().to_owned()).collect());
         self
     }
 
@@ -108,21 +120,25 @@ impl<N: NarrowPhase> Trial<N> {
             }],
         };
         let (seed, count) = (self.seed, self.count);
-        let family = |name: String| {
-            let family = generate::by_name(&name).ok_or(RunError::Family(name))?;
-            Ok::<_, RunError>(Source::Family {
-                family,
-                seed,
-                count,
-            })
+        let families = match &self.families {
+            None => defaults::families(&[&subject]),
+            Some(names) => names
+                .iter()
+                .map(|name| by_name(name))
+                .collect::<Result<_, _>>()?,
         };
-        let families = self.families.into_iter().map(family);
-        let sources = families.collect::<Result<Vec<_>, _>>()?;
-        let sources = sources.into_iter().chain(self.sources);
+        let command = command(self.families.as_deref(), count, seed);
+        let families = families.into_iter().map(|family| Source::Family {
+            family,
+            seed,
+            count,
+        });
+        let sources = families.chain(self.sources);
         let blocks = sources.map(|source| panel.run(&source, |_| {}));
         let blocks = blocks.collect::<Result<_, _>>()?;
         let settings = Settings {
-            command: String::new(),
+            command,
+            caller: Caller::Test,
             seed,
             count,
             shard: Shard::WHOLE,
@@ -135,8 +151,8 @@ impl<N: NarrowPhase> Trial<N> {
         Ok(Outcome {
             failures: failures.into_iter().chain(none.clone()).collect(),
             exact_failures: exact.into_iter().chain(none).collect(),
-            // The test is in a package of its own.
-            text: table::text(&findings, table::INSTALLED),
+            text: table::text(&findings, Shown::SUMMARY),
+            details: table::text(&findings, Shown::EVERYTHING),
         })
     }
 
@@ -174,12 +190,12 @@ mod tests {
         let outcome = trial.queries("mine", queries).run().unwrap();
         assert_eq!(outcome.failures, [""; 0]);
         assert!(
-            outcome.text.contains("\nmine: 7 queries, "),
+            outcome.details.contains("\nmine: 7 queries, "),
             "{}",
-            outcome.text
+            outcome.details
         );
         assert!(
-            outcome.text.contains("\nall: 57 queries, "),
+            outcome.text.contains("\n57 queries of 2 sources: "),
             "{}",
             outcome.text
         );
@@ -241,7 +257,7 @@ mod tests {
         };
         assert!(failure.starts_with("additive: ") && failure.contains(" tunnels"));
         assert!(
-            outcome.text.contains("  tunnelproof explain slow:1:"),
+            outcome.text.contains("    tunnelproof explain slow:1:"),
             "{}",
             outcome.text
         );

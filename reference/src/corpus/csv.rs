@@ -5,10 +5,11 @@
 //! `f64`; the fraction need not be in lowest terms and its denominator may be negative. The label,
 //! 1 for a hit and 0 for a miss, is the same on the eight rows. The format comes with "A Large
 //! Scale Benchmark and an Inclusion-Based Algorithm for Continuous Collision Detection" (Wang,
-//! Ferguson, Schneider, Jiang, Attene, Panozzo, ACM TOG 2021).
+//! Ferguson, Schneider, Jiang, Attene, Panozzo, ACM TOG 2021). The newer benchmark has six columns:
+//! its labels are in a file beside ([`super::folder`]).
 //!
-//! A file does not say which kind its queries are, but the sets keep the kinds in folders of their
-//! names; see [`kind_in_path`].
+//! A file does not say which kind its queries are, but the sets name the kinds in their folders or
+//! files; see [`kind_in_path`].
 
 use std::path::{Component, Path};
 
@@ -16,6 +17,7 @@ use tunnelproof::query::{Point, Query, QueryKind, Radius};
 
 use super::dyadic::{exact_f64, exact_quotient};
 use super::error::{CorpusError, Problem};
+use super::folder::Labels;
 use super::lines::Line;
 use super::{Entry, ReadOptions};
 use crate::field::{self, Integer};
@@ -28,7 +30,8 @@ const COLUMNS: [&str; 7] = [
     "x_num", "x_den", "y_num", "y_den", "z_num", "z_den", "label",
 ];
 
-/// The kind that a path names, by a component that holds `edge-edge` or `vertex-face`.
+/// The kind that a path names, by a component that holds `edge-edge` or `vertex-face`, or by a file
+/// name of digits and `ee` or `vf`, such as `227ee.csv`.
 ///
 /// The component nearest to the file decides, the file's own name first. One that holds both names
 /// says nothing.
@@ -42,16 +45,28 @@ pub fn kind_in_path(path: &str) -> Option<QueryKind> {
         match (holds(QueryKind::EdgeEdge), holds(QueryKind::VertexFace)) {
             (true, false) => Some(QueryKind::EdgeEdge),
             (false, true) => Some(QueryKind::VertexFace),
-            _ => None,
+            _ => kind_in_short(&name),
         }
     })
+}
+
+/// The kind that a file name of digits and two letters says.
+fn kind_in_short(name: &str) -> Option<QueryKind> {
+    let (name, _) = name.split_once('.')?;
+    match name.trim_start_matches(|c: char| c.is_ascii_digit()) {
+        rest if rest == name => None,
+        "ee" => Some(QueryKind::EdgeEdge),
+        "vf" => Some(QueryKind::VertexFace),
+        _ => None,
+    }
 }
 
 /// The queries of the given lines.
 ///
 /// # Errors
 ///
-/// [`Problem::KindMissing`] or [`Problem::KindContradiction`] if the kind is not known.
+/// [`Problem::KindMissing`] or [`Problem::KindContradiction`] if the kind is not known; a file of
+/// labels beside it that is none.
 pub(super) fn entries<I: Iterator<Item = Result<Line, CorpusError>>>(
     lines: I,
     path: &str,
@@ -65,6 +80,7 @@ pub(super) fn entries<I: Iterator<Item = Result<Line, CorpusError>>>(
         path: path.to_owned(),
         kind,
         radius: options.radius.unwrap_or_default(),
+        labels: Labels::beside(path)?,
         index: 0,
     })
 }
@@ -74,6 +90,8 @@ struct Entries<I> {
     path: String,
     kind: QueryKind,
     radius: Radius,
+    /// Those of queries that state none.
+    labels: Option<Labels>,
     index: u64,
 }
 
@@ -81,12 +99,26 @@ impl<I: Iterator<Item = Result<Line, CorpusError>>> Iterator for Entries<I> {
     type Item = Result<Entry, CorpusError>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        let first = self.lines.next()?;
-        Some(first.and_then(|first| self.entry(&first)))
+        match self.lines.next() {
+            Some(first) => Some(first.and_then(|first| self.entry(&first))),
+            None => self.finish().err().map(Err),
+        }
     }
 }
 
 impl<I: Iterator<Item = Result<Line, CorpusError>>> Entries<I> {
+    /// Sees, once, that there is no label left.
+    fn finish(&mut self) -> Result<(), CorpusError> {
+        let labels = self.labels.take();
+        labels.map_or(Ok(()), |labels| labels.finish(self.index))
+    }
+
+    /// The label of the query that is being read, if it states none itself.
+    fn label_beside(&self) -> Result<Option<bool>, CorpusError> {
+        let labels = self.labels.as_ref();
+        labels.map(|labels| labels.get(self.index)).transpose()
+    }
+
     /// The query whose first row is given; the others are read.
     fn entry(&mut self, first: &Line) -> Result<Entry, CorpusError> {
         let (point, label) = self.row(first)?;
@@ -101,11 +133,7 @@ impl<I: Iterator<Item = Result<Line, CorpusError>>> Entries<I> {
             let line = line?;
             last = line.number;
             let (position, own) = self.row(&line)?;
-            if own != label {
-                let problem = Problem::LabelDisagrees {
-                    label: own,
-                    first: first.number,
-                };
+            if let Some(problem) = differs(label, own, first.number) {
                 return Err(CorpusError::at(&self.path, last, problem));
             }
             *point = position;
@@ -113,23 +141,40 @@ impl<I: Iterator<Item = Result<Line, CorpusError>>> Entries<I> {
         let [a, b, c, d, a1, b1, c1, d1] = points;
         let query = Query::new(self.kind, [a, b, c, d], [a1, b1, c1, d1], self.radius)
             .map_err(|error| CorpusError::at(&self.path, first.number, error.into()))?;
+        let label = match label {
+            Some(label) => Some(label),
+            None => self.label_beside()?,
+        };
         let id = format!("{}#{}", self.path, self.index);
         self.index += 1;
         Ok(Entry {
             id,
             query,
-            label: Some(label),
+            label,
             line: Some(first.number),
         })
     }
 
-    fn row(&self, line: &Line) -> Result<(Point, bool), CorpusError> {
+    fn row(&self, line: &Line) -> Result<(Point, Option<bool>), CorpusError> {
         row(&line.text).map_err(|problem| CorpusError::at(&self.path, line.number, problem))
     }
 }
 
-fn row(text: &str) -> Result<(Point, bool), Problem> {
-    let mut cells = [""; 7];
+/// What is wrong with the label of a row of a query whose first row, on this line, has another.
+fn differs(first: Option<bool>, own: Option<bool>, line: u64) -> Option<Problem> {
+    match (first, own) {
+        (Some(first), Some(label)) if first != label => {
+            Some(Problem::LabelDisagrees { label, first: line })
+        }
+        (Some(_), None) => Some(Problem::ColumnCount(COLUMNS.len() - 1)),
+        (None, Some(_)) => Some(Problem::ColumnCount(COLUMNS.len())),
+        _ => None,
+    }
+}
+
+/// A point, and the label if there is a column for it.
+fn row(text: &str) -> Result<(Point, Option<bool>), Problem> {
+    let mut cells = [""; COLUMNS.len()];
     let mut count = 0;
     for cell in text.split(',') {
         if let Some(place) = cells.get_mut(count) {
@@ -137,16 +182,18 @@ fn row(text: &str) -> Result<(Point, bool), Problem> {
         }
         count += 1;
     }
-    if count != cells.len() {
-        return Err(Problem::ColumnCount(count));
-    }
+    let has_label = match count.checked_sub(COLUMNS.len() - 1) {
+        Some(more @ 0..=1) => more == 1,
+        _ => return Err(Problem::ColumnCount(count)),
+    };
     let mut point = Point::origin();
     for axis in 0..3 {
         point[axis] = coordinate(axis, cells[2 * axis], cells[2 * axis + 1])?;
     }
     match cells[6] {
-        "0" => Ok((point, false)),
-        "1" => Ok((point, true)),
+        _ if !has_label => Ok((point, None)),
+        "0" => Ok((point, Some(false))),
+        "1" => Ok((point, Some(true))),
         label => Err(Problem::Label(label.to_owned())),
     }
 }

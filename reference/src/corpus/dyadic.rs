@@ -6,6 +6,7 @@ use crate::field::Integer;
 
 /// Why an exact number is not an `f64`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum NotF64 {
     /// It has this many significant bits; an `f64` has 53.
     TooManyBits(u64),

@@ -25,6 +25,7 @@ pub struct CorpusError {
 
 /// What is wrong with a corpus.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum Problem {
     /// The file cannot be opened or read.
     #[error("{}", describe(.0))]
@@ -92,9 +93,22 @@ pub enum Problem {
         /// What is wrong with it.
         reason: HexFloatError,
     },
-    /// The number of columns is not seven.
-    #[error("{0} columns, not the 7 of x_num,x_den,y_num,y_den,z_num,z_den,label")]
+    /// The number of columns is neither seven nor six, or not that of the query's first row.
+    #[error(
+        "{0} columns, not the 7 of x_num,x_den,y_num,y_den,z_num,z_den,label, or on all rows of a query the 6 without label"
+    )]
     ColumnCount(usize),
+    /// A file of labels has not as many as there are queries.
+    #[error("{labels} labels, and there are {} {queries} queries", if labels < queries { "at least" } else { "only" })]
+    LabelCount {
+        /// How many labels there are.
+        labels: u64,
+        /// How many queries were read.
+        queries: u64,
+    },
+    /// A folder has no file of queries.
+    #[error("no file of queries in this folder (.csv, .jsonl, .ndjson, .json)")]
+    NoFile,
     /// A column does not hold an integer.
     #[error("{column} is {}, not an integer", quoted(.text))]
     NotInteger {

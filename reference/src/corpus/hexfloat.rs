@@ -7,6 +7,7 @@ use super::dyadic::{NotF64, exact_f64};
 
 /// Why a text is not read as a hexadecimal float.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum HexFloatError {
     /// It is not of the form `[+-]0xH.Hp[+-]D`.
     #[error("is not a hexadecimal float such as 0x1.8p-3")]

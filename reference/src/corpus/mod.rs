@@ -3,7 +3,8 @@
 //! Read are [`jsonl`], this project's own format, [`csv`], the public CCD query format, and files
 //! of test vectors, each, with the feature `packed`, also packed by gzip (`.gz`) or zstd (`.zst`).
 //! The first two stream, so memory does not grow with the file. Input is exact: a coordinate is the
-//! `f64` that the file states, or the file is refused.
+//! `f64` that the file states, or the file is refused. [`folder`] finds the files of a folder, such
+//! as the public benchmarks.
 //!
 //! A query is known by an identifier that [`locate`](locate::locate) resolves:
 //!
@@ -29,6 +30,7 @@ pub mod csv;
 mod dyadic;
 mod error;
 pub mod figures;
+pub mod folder;
 pub mod hexfloat;
 pub mod jsonl;
 mod lines;
@@ -88,6 +90,7 @@ impl ReadOptions {
 
 /// The formats of corpora.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Format {
     /// [`jsonl`], or a file of test vectors.
     Jsonl,

@@ -180,6 +180,7 @@ impl GeneratedId {
 
 /// Why a text is not the name of a generated query.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum IdError {
     /// It is not three texts with a `:` between them.
     #[error("not of the form FAMILY:SEED:INDEX")]

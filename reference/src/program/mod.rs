@@ -76,6 +76,7 @@ pub struct Conduct {
 
 /// A text is no command.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum CommandError {
     /// There is no word in it.
     Empty,

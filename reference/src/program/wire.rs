@@ -11,6 +11,7 @@ use super::{frames, lines};
 
 /// The form of queries and answers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Wire {
     /// A line of JSON each; see [`lines`](mod@lines).
     #[default]

@@ -8,6 +8,7 @@ use tunnelproof::query::{Query, QueryKind};
 use crate::certify::block::{Agreement, Block};
 use crate::certify::findings::{Findings, Settings};
 use crate::certify::judged::Judged;
+use crate::certify::named::Named;
 use crate::certify::run::Panel;
 use crate::certify::shard::Shard;
 use crate::certify::tally::{Explained, Fault, Finding, Sort, Statement, Tally, Witness};
@@ -37,6 +38,7 @@ struct Absent {
 
 /// Results that cannot be read, or are not of one certification.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum MergeError {
     /// It is not JSON of this form.
     #[error("not a result of this version of certify: {0}")]
@@ -131,6 +133,7 @@ impl Kept {
                 .collect(),
             settings: Settings {
                 command: results.command.clone(),
+                caller: results.caller.clone(),
                 seed: results.seed,
                 count: results.count,
                 shard: word("shard", &results.shard, |text| text.parse().ok())?,
@@ -194,6 +197,11 @@ impl Kept {
             }
         }
         Ok(())
+    }
+
+    /// What was found on each source, of those judged so far, in their order.
+    pub fn blocks(&self) -> &[Block] {
+        &self.blocks
     }
 
     /// What was judged.
@@ -283,6 +291,11 @@ fn block(row: &SourceRow, judges: &[String]) -> Result<Block, MergeError> {
         joints: row.joints,
         labels: row.labels,
         wrong_labels: finding(&row.wrong_labels)?,
+        wrong_label_names: Named::new(
+            (row.wrong_label_names.iter())
+                .map(|row| (row.place, row.id.clone()))
+                .collect(),
+        ),
         agreements: agreements.collect::<Result<_, _>>()?,
         tallies: row.subjects.iter().map(tally).collect::<Result<_, _>>()?,
     })

@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | `version`, `arithmetic` | of this crate; the backend of the exact numbers |
 //! | `command` | that judges all of it again |
+//! | `caller` | who asked: `test`, `python`, or `shell` with what its commands begin with |
 //! | `seed`, `count` | of the families |
 //! | `shard` | which part of the queries this is, `1/1` for all |
 //! | `second_judges` | the first of them that takes a query has to agree with the oracle |
@@ -18,7 +19,7 @@
 //!
 //! A source has `name`, `fingerprint` ([`crate::certify::fingerprint`]), `queries`, `hits`,
 //! `crossings`, `joints` (pairs of consecutive segments of a wire that is passed), `labels`, the
-//! findings `wrong_labels`, `agreements` (oracle against each second judge, by its name: how many
+//! finding `wrong_labels`, the first of these queries by `place` and `id` in `wrong_label_names`, `agreements` (oracle against each second judge, by its name: how many
 //! `queries` it was asked, and the finding `disagreements`), and `subjects`. A subject has
 //! `subject`, `taken` and `refused` (sorts of queries: `kind`, `has_radius`,
 //! of those refused how many `queries`), `hits` (that it reports), `lapses` (in which ways it gives
@@ -38,11 +39,11 @@ use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::{Value, json};
 
 use crate::certify::block::Block;
+use crate::certify::caller::Caller;
 use crate::certify::findings::Findings;
 use crate::certify::judged::Judged;
 use crate::certify::run::Panel;
 use crate::certify::strict::{exact_failures, failures};
-use crate::certify::table::command;
 use crate::certify::tally::{Explained, Fault, Finding, Sort, Statement, Tally, Witness};
 use crate::corpus::jsonl::{self, Numbers};
 use crate::field::{self, Integer};
@@ -57,6 +58,7 @@ pub struct Results {
     pub(super) version: String,
     pub(super) arithmetic: String,
     pub(super) command: String,
+    pub(super) caller: Caller,
     pub(super) seed: u64,
     pub(super) count: u64,
     pub(super) shard: String,
@@ -94,8 +96,15 @@ pub(super) struct SourceRow {
     pub(super) joints: u64,
     pub(super) labels: u64,
     pub(super) wrong_labels: FindingRow,
+    pub(super) wrong_label_names: Vec<NameRow>,
     pub(super) agreements: BTreeMap<String, AgreementRow>,
     pub(super) subjects: Vec<SubjectRow>,
+}
+
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct NameRow {
+    pub(super) place: u64,
+    pub(super) id: String,
 }
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -188,13 +197,16 @@ impl Results {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             arithmetic: field::Default::BACKEND.to_owned(),
             command: settings.command.clone(),
+            caller: settings.caller.clone(),
             seed: settings.seed,
             count: settings.count,
             shard: settings.shard.to_string(),
             second_judges: judges.map(|judge| judge.name().to_owned()).collect(),
             tolerances: panel.subjects.iter().map(ToleranceRow::from).collect(),
-            sources: blocks.iter().map(|block| source(panel, block)).collect(),
-            total: source(panel, total),
+            sources: (blocks.iter())
+                .map(|block| source(panel, block, &settings.caller))
+                .collect(),
+            total: source(panel, total, &settings.caller),
             failures: failures(panel, total),
             exact_failures: exact_failures(panel, total),
             programs: programs.collect(),
@@ -208,13 +220,13 @@ impl Results {
     }
 }
 
-fn source(panel: &Panel, block: &Block) -> SourceRow {
+fn source(panel: &Panel, block: &Block, caller: &Caller) -> SourceRow {
     let subjects = panel.subjects.iter().zip(&block.tallies);
     let judges = panel.second_judges.iter().zip(&block.agreements);
     let agreements = judges.map(|(judge, agreement)| {
         let row = AgreementRow {
             queries: agreement.queries,
-            disagreements: (&agreement.disagreements).into(),
+            disagreements: FindingRow::new(&agreement.disagreements, None, caller),
         };
         (judge.name().to_owned(), row)
     });
@@ -226,15 +238,21 @@ fn source(panel: &Panel, block: &Block) -> SourceRow {
         crossings: block.crossings,
         joints: block.joints,
         labels: block.labels,
-        wrong_labels: (&block.wrong_labels).into(),
+        wrong_labels: FindingRow::new(&block.wrong_labels, None, caller),
+        wrong_label_names: (block.wrong_label_names.all().iter())
+            .map(|(place, id)| NameRow {
+                place: *place,
+                id: id.clone(),
+            })
+            .collect(),
         agreements: agreements.collect(),
         subjects: subjects
-            .map(|(judged, tally)| subject(judged, tally))
+            .map(|(judged, tally)| subject(judged, tally, caller))
             .collect(),
     }
 }
 
-fn subject(judged: &Judged, tally: &Tally) -> SubjectRow {
+fn subject(judged: &Judged, tally: &Tally, caller: &Caller) -> SubjectRow {
     let found = |fault| {
         let nothing = FindingRow {
             count: 0,
@@ -242,7 +260,7 @@ fn subject(judged: &Judged, tally: &Tally) -> SubjectRow {
         };
         let found = tally.faults.get(&fault);
         found.map_or(nothing, |found| {
-            FindingRow::new(found, Some(judged.subject.name()))
+            FindingRow::new(found, Some(judged.subject.name()), caller)
         })
     };
     let refused = tally.refused.iter().map(|(sort, queries)| RefusedRow {
@@ -264,7 +282,7 @@ fn subject(judged: &Judged, tally: &Tally) -> SubjectRow {
             .map(|fault| (fault.name().to_owned(), found(fault)))
             .collect(),
         errata: errata
-            .map(|(erratum, explained)| (erratum.clone(), explained.into()))
+            .map(|(erratum, explained)| (erratum.clone(), ExplainedRow::new(explained, caller)))
             .collect(),
     }
 }
@@ -298,32 +316,25 @@ impl From<&Judged<'_>> for ToleranceRow {
 }
 
 impl FindingRow {
-    fn new(finding: &Finding, subject: Option<&str>) -> Self {
+    fn new(finding: &Finding, subject: Option<&str>, caller: &Caller) -> Self {
         let worst = finding.worst.as_ref();
         FindingRow {
             count: finding.count,
-            worst: worst.map(|witness| WitnessRow::new(witness, subject)),
+            worst: worst.map(|witness| WitnessRow::new(witness, subject, caller)),
         }
     }
 }
 
-impl From<&Finding> for FindingRow {
-    fn from(finding: &Finding) -> Self {
-        FindingRow::new(finding, None)
-    }
-}
-
-impl From<&Explained> for ExplainedRow {
-    fn from(explained: &Explained) -> Self {
-        ExplainedRow {
-            alone: (&explained.alone).into(),
-            with_others: (&explained.with_others).into(),
-        }
+impl ExplainedRow {
+    fn new(explained: &Explained, caller: &Caller) -> Self {
+        let [alone, with_others] = [&explained.alone, &explained.with_others]
+            .map(|finding| FindingRow::new(finding, None, caller));
+        ExplainedRow { alone, with_others }
     }
 }
 
 impl WitnessRow {
-    fn new(witness: &Witness, subject: Option<&str>) -> Self {
+    fn new(witness: &Witness, subject: Option<&str>, caller: &Caller) -> Self {
         let entry = witness.entry();
         let query = |numbers| {
             let line = jsonl::write(&entry, numbers);
@@ -334,7 +345,7 @@ impl WitnessRow {
             rank: witness.rank,
             place: witness.place,
             id: witness.id.clone(),
-            command: command(witness, subject),
+            command: caller.explain(witness, subject),
             query: query(Numbers::Decimal),
             query_hexadecimal: query(Numbers::Hexadecimal),
             truth: json!(Fields::exact(&witness.truth)),

@@ -10,7 +10,7 @@ use std::fmt;
 
 use tunnelproof::query::Query;
 
-use crate::certify::table;
+use crate::certify::caller;
 use crate::corpus::Entry;
 use crate::corpus::jsonl::{self, Numbers};
 use crate::shape::Shape;
@@ -154,7 +154,7 @@ impl Shrunk {
 
     /// The command that explains the query, ready to paste into a shell.
     pub fn command(&self, id: &str) -> String {
-        table::explain_line(&Entry::unlabelled(id, self.query))
+        caller::explain_line(&Entry::unlabelled(id, self.query))
     }
 }
 

@@ -6,6 +6,7 @@ mod files;
 mod identifiers;
 mod properties;
 mod read_csv;
+mod read_folder;
 mod read_jsonl;
 mod read_vectors;
 

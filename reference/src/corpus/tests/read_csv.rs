@@ -48,11 +48,13 @@ fn csv_errors_name_the_column() {
     for (row, message) in [
         (
             "1,2,3,4,5,8",
-            "6 columns, not the 7 of x_num,x_den,y_num,y_den,z_num,z_den,label",
+            "6 columns, not the 7 of x_num,x_den,y_num,y_den,z_num,z_den,label, or on all rows of a \
+             query the 6 without label",
         ),
         (
             "1,2,3,4,5,8,0,",
-            "8 columns, not the 7 of x_num,x_den,y_num,y_den,z_num,z_den,label",
+            "8 columns, not the 7 of x_num,x_den,y_num,y_den,z_num,z_den,label, or on all rows of a \
+             query the 6 without label",
         ),
         ("1,2,3,four,5,8,0", "y_den is \"four\", not an integer"),
         ("1.5,1,3,4,5,8,0", "x_num is \"1.5\", not an integer"),
