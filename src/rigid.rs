@@ -35,11 +35,14 @@
 //! # Ok::<(), tunnelproof::rigid::RigidError>(())
 //! ```
 
-use std::fmt;
-
 use nalgebra::{Quaternion, Vector3};
 
-use crate::query::Point;
+use crate::query::{Point, Radius};
+
+mod error;
+
+pub use error::RigidError;
+use error::{check, first_not_finite};
 
 /// Where a body is: its centre, and a quaternion that turns its frame into space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,22 +71,26 @@ pub struct RigidMotion {
     sign: f64,
 }
 
-/// A moving edge `AB` and an edge `CD` of a turning body: do they touch during the step?
+/// A moving edge `AB` and an edge `CD` of a turning body: do they come within `radius` of each other
+/// during the step?
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgeTurningEdge {
     start: [Point; 2],
     end: [Point; 2],
     local: [Point; 2],
     motion: RigidMotion,
+    radius: Radius,
 }
 
-/// A moving vertex `A` and a face `BCD` of a turning body: do they touch during the step?
+/// A moving vertex `A` and a face `BCD` of a turning body: do they come within `radius` of each other
+/// during the step?
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VertexTurningFace {
     start: [Point; 1],
     end: [Point; 1],
     local: [Point; 3],
     motion: RigidMotion,
+    radius: Radius,
 }
 
 /// Either kind of query, for collections of both.
@@ -93,60 +100,6 @@ pub enum RigidQuery {
     EdgeTurningEdge(EdgeTurningEdge),
     /// Vertex against a face of a turning body.
     VertexTurningFace(VertexTurningFace),
-}
-
-/// Why poses or points are not a query.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum RigidError {
-    /// A coordinate of a centre is NaN or infinite.
-    Centre {
-        /// Whether it is that at the end of the step.
-        at_end: bool,
-        /// Which coordinate, 0 to 2 for x to z.
-        axis: usize,
-        /// The value refused.
-        value: f64,
-    },
-    /// A component of a quaternion is NaN or infinite.
-    Quaternion {
-        /// Whether it is that at the end of the step.
-        at_end: bool,
-        /// Which component, 0 to 3 for w, x, y, z.
-        component: usize,
-        /// The value refused.
-        value: f64,
-    },
-    /// A quaternion is 0, which is no orientation.
-    NoOrientation {
-        /// Whether it is that at the end of the step.
-        at_end: bool,
-    },
-    /// The body turns by more than [`MOST_DEGREES`]: the step has to be divided.
-    TurnsTooFar {
-        /// By how much, rounded.
-        degrees: f64,
-    },
-    /// A coordinate of a point in space is NaN or infinite.
-    World {
-        /// Which of the four points, 0 to 3 for A to D.
-        point: usize,
-        /// Whether it is the position at the end of the step.
-        at_end: bool,
-        /// Which coordinate, 0 to 2 for x to z.
-        axis: usize,
-        /// The value refused.
-        value: f64,
-    },
-    /// A coordinate of a point in the body's frame is NaN or infinite.
-    Local {
-        /// Which of the four points, 0 to 3 for A to D.
-        point: usize,
-        /// Which coordinate, 0 to 2 for x to z.
-        axis: usize,
-        /// The value refused.
-        value: f64,
-    },
 }
 
 /// The largest turn of a step, in degrees. Turns within 1e-12 of it may be taken or refused.
@@ -226,8 +179,9 @@ impl RigidMotion {
     /// Where a point of the body's frame is in space at a time in `[0, 1]`, rounded.
     pub fn position(&self, local: &Point, t: f64) -> Point {
         let [q0, q1] = self.quaternions();
-        let size = largest(&q0).max(largest(&q1));
-        let q: [f64; 4] = std::array::from_fn(|i| (1.0 - t) * (q0[i] / size) + t * (q1[i] / size));
+        let q: [f64; 4] = std::array::from_fn(|i| (1.0 - t) * q0[i] + t * q1[i]);
+        // It is 0 only where it is below every number that is not.
+        let q = scaled(q).or_else(|| scaled(q0)).unwrap_or(q0);
         let (w, v) = (q[0], Vector3::new(q[1], q[2], q[3]));
         let turn = v.cross(&local.coords) * 2.0;
         let turned = local.coords + (turn * w + v.cross(&turn)) / (w * w + v.dot(&v));
@@ -241,6 +195,9 @@ macro_rules! turning {
         impl $kind {
             #[doc = $first]
             ///
+            /// They touch where they share a point; [`with_radius`](Self::with_radius) asks for
+            /// contact at a distance.
+            ///
             /// # Errors
             ///
             /// [`RigidError`] names the first coordinate that is NaN or infinite.
@@ -250,12 +207,31 @@ macro_rules! turning {
                 local: [Point; $local],
                 motion: RigidMotion,
             ) -> Result<Self, RigidError> {
-                check(&start, &end, &local)?;
+                Self::with_radius(start, end, local, motion, Radius::ZERO)
+            }
+
+            /// As [`new`](Self::new), with the distance in metres at which the two count as
+            /// touching: one number, or two of which the exact sum is meant.
+            ///
+            /// # Errors
+            ///
+            /// [`RigidError`] names the first coordinate that is NaN or infinite, or a radius that
+            /// is not a finite number of at least 0.
+            pub fn with_radius(
+                start: [Point; $world],
+                end: [Point; $world],
+                local: [Point; $local],
+                motion: RigidMotion,
+                radius: impl Into<Radius>,
+            ) -> Result<Self, RigidError> {
+                let radius = radius.into();
+                check(&start, &end, &local, radius)?;
                 Ok(Self {
                     start,
                     end,
                     local,
                     motion,
+                    radius,
                 })
             }
 
@@ -277,6 +253,12 @@ macro_rules! turning {
             /// The motion of the body.
             pub fn motion(&self) -> &RigidMotion {
                 &self.motion
+            }
+
+            /// The distance at which the two count as touching; 0 asks for the midlines and the
+            /// face themselves.
+            pub fn radius(&self) -> Radius {
+                self.radius
             }
 
             /// All four points in space at a time in `[0, 1]`, rounded.
@@ -347,6 +329,14 @@ impl RigidQuery {
         }
     }
 
+    /// The distance at which the two count as touching.
+    pub fn radius(&self) -> Radius {
+        match self {
+            RigidQuery::EdgeTurningEdge(query) => query.radius(),
+            RigidQuery::VertexTurningFace(query) => query.radius(),
+        }
+    }
+
     /// All four points in space at a time in `[0, 1]`, rounded.
     pub fn positions(&self, t: f64) -> [Point; 4] {
         match self {
@@ -386,100 +376,6 @@ fn scaled(q: [f64; 4]) -> Option<[f64; 4]> {
 
 /// 2^60: times it, a subnormal number is a normal one.
 const SUBNORMAL: f64 = (1u64 << 60) as f64;
-
-fn first_not_finite(point: &Point) -> Option<(usize, f64)> {
-    let axis = point.iter().position(|value| !value.is_finite())?;
-    Some((axis, point[axis]))
-}
-
-fn check(start: &[Point], end: &[Point], local: &[Point]) -> Result<(), RigidError> {
-    for (at_end, points) in [(false, start), (true, end)] {
-        for (point, position) in points.iter().enumerate() {
-            if let Some((axis, value)) = first_not_finite(position) {
-                return Err(RigidError::World {
-                    point,
-                    at_end,
-                    axis,
-                    value,
-                });
-            }
-        }
-    }
-    for (point, position) in local.iter().enumerate() {
-        if let Some((axis, value)) = first_not_finite(position) {
-            let point = start.len() + point;
-            return Err(RigidError::Local { point, axis, value });
-        }
-    }
-    Ok(())
-}
-
-impl fmt::Display for RigidError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let axis = |axis: usize| ['x', 'y', 'z'][axis];
-        let point = |point: usize| ['A', 'B', 'C', 'D'][point];
-        match *self {
-            RigidError::Centre {
-                at_end,
-                axis: a,
-                value,
-            } => {
-                let (a, time) = (axis(a), u8::from(at_end));
-                write!(
-                    f,
-                    "{a} of the centre at t = {time} is {value}, not a finite number"
-                )
-            }
-            RigidError::Quaternion {
-                at_end,
-                component,
-                value,
-            } => {
-                let (name, time) = (['w', 'x', 'y', 'z'][component], u8::from(at_end));
-                write!(
-                    f,
-                    "{name} of the quaternion at t = {time} is {value}, not a finite number"
-                )
-            }
-            RigidError::NoOrientation { at_end } => {
-                let time = u8::from(at_end);
-                write!(f, "the quaternion at t = {time} is 0; it needs a length")
-            }
-            RigidError::TurnsTooFar { degrees } => {
-                write!(
-                    f,
-                    "the body turns by {degrees:.3} degrees in the step; divide the step so that \
-                     it turns by at most {MOST_DEGREES}"
-                )
-            }
-            RigidError::World {
-                point: p,
-                at_end,
-                axis: a,
-                value,
-            } => {
-                let (a, p, time) = (axis(a), point(p), u8::from(at_end));
-                write!(
-                    f,
-                    "{a} of point {p} at t = {time} is {value}, not a finite number"
-                )
-            }
-            RigidError::Local {
-                point: p,
-                axis: a,
-                value,
-            } => {
-                let (a, p) = (axis(a), point(p));
-                write!(
-                    f,
-                    "{a} of point {p} in the body's frame is {value}, not a finite number"
-                )
-            }
-        }
-    }
-}
-
-impl std::error::Error for RigidError {}
 
 #[cfg(test)]
 mod tests;

@@ -3,13 +3,16 @@
 use std::sync::LazyLock;
 
 use tunnelproof::additive::Additive;
+use tunnelproof::certified::decide_rigid;
+use tunnelproof::contact::{Hit, Place};
 use tunnelproof::query::Query;
+use tunnelproof::rigid::RigidQuery;
 use tunnelproof::thesis::{Erratum, Repairs, Thesis};
 
 use crate::answer::ExactAnswer;
 use crate::difference::{self, Difference};
 use crate::field;
-use crate::oracle::{Oracle, decide_query};
+use crate::oracle::{Oracle, decide_query, decide_rigid_query};
 use crate::shadow::Shadow;
 use crate::shrink::Truth;
 use crate::subject::{Answer, Certified, Engine, Subject};
@@ -51,6 +54,42 @@ pub fn judged_by_default() -> impl Iterator<Item = &'static dyn Subject> {
 pub fn by_name(name: &str) -> Option<&'static dyn Subject> {
     let mut subjects = subjects().into_iter();
     subjects.find(|subject| subject.name() == name)
+}
+
+/// Who answers queries of bodies that turn.
+pub struct TurningSubject {
+    /// The name used on the command line.
+    pub name: &'static str,
+    /// The answer to a query.
+    pub answer: fn(&RigidQuery) -> Answer,
+}
+
+/// Everyone who answers queries of bodies that turn: the oracle, the second judge and the certified
+/// path.
+pub fn turning_subjects() -> [TurningSubject; 3] {
+    [
+        TurningSubject {
+            name: "oracle",
+            answer: |query| Answer::Exact(decide_rigid_query(query)),
+        },
+        TurningSubject {
+            name: "difference",
+            answer: |query| Answer::Exact(difference::decide_rigid::<field::Default>(query)),
+        },
+        TurningSubject {
+            name: "certified",
+            answer: |query| {
+                Answer::Certified(match query {
+                    RigidQuery::EdgeTurningEdge(query) => decide_rigid(query).map(any_place),
+                    RigidQuery::VertexTurningFace(query) => decide_rigid(query).map(any_place),
+                })
+            },
+        },
+    ]
+}
+
+fn any_place<P: Into<Place>>(hit: Hit<P>) -> Hit<Place> {
+    hit.map_place(Into::into)
 }
 
 /// Who can be taken for the truth, by the name of the subject.

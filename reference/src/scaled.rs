@@ -50,6 +50,8 @@ pub struct ScaledRigid<Z> {
     pub centres: [[Z; 3]; 2],
     /// w, x, y and z of the quaternions, the nearer one at the end, scaled by a power of their own.
     pub quaternions: [[Z; 4]; 2],
+    /// A coordinate of a point is its integer times `2^exponent` metres.
+    pub exponent: i64,
 }
 
 impl<Z: Integer> ScaledRigid<Z> {
@@ -70,6 +72,7 @@ impl<Z: Integer> ScaledRigid<Z> {
             local: query.local().iter().map(point).collect(),
             centres: centres.each_ref().map(point),
             quaternions: quaternions.map(|q| q.map(|x| integer(x, own))),
+            exponent,
         }
     }
 }

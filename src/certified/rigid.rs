@@ -5,7 +5,7 @@
 //! strays. If the two sides of the linear query of these places are farther apart than `rho` for
 //! the whole part, then the turning ones do not touch in it: a point of either side is a mean of its
 //! corners, with the same weights in both motions, so that no difference of two points is off by
-//! more than `rho`. A part of half the length has a quarter of the stray. What stays open is
+//! more than `rho`. With a radius `R` they are asked to stay farther apart than `R + rho`. A part of half the length has a quarter of the stray. What stays open is
 //! decided in integers (`exact::rigid`), so that no answer depends on `rho` being small.
 //!
 //! # The stray
@@ -85,8 +85,8 @@ impl RigidKind for EdgeTurningEdge {
     type Place = EdgePlace;
 
     fn is_apart(&self) -> bool {
-        let local = self.local();
-        let moving = Moving::new(self.start(), self.end(), local, self.motion());
+        let (local, motion, radius) = (self.local(), self.motion(), self.radius());
+        let moving = Moving::new(self.start(), self.end(), local, motion, radius);
         moving.is_some_and(|moving| moving.is_apart::<EdgeEdge>())
     }
 
@@ -101,8 +101,8 @@ impl RigidKind for VertexTurningFace {
     type Place = FacePlace;
 
     fn is_apart(&self) -> bool {
-        let local = self.local();
-        let moving = Moving::new(self.start(), self.end(), local, self.motion());
+        let (local, motion, radius) = (self.local(), self.motion(), self.radius());
+        let moving = Moving::new(self.start(), self.end(), local, motion, radius);
         moving.is_some_and(|moving| moving.is_apart::<VertexFace>())
     }
 
@@ -117,8 +117,9 @@ const ROUNDING: f64 = f64::from_bits((1023 - 45) << 52);
 /// More than the roundings of a bound.
 const UP: f64 = 1.0 + f64::from_bits((1023 - 40) << 52);
 
-/// What underflow adds to a distance, and more: 2^-800.
-const LEAST: f64 = f64::from_bits((1023 - 800) << 52);
+/// What underflow adds to a distance, and more: 2^-500. The square of a length that underflows is
+/// off by less than 2^-1072, and the length by less than 2^-536.
+const LEAST: f64 = f64::from_bits((1023 - 500) << 52);
 
 /// 2^160: below it no product over- nor underflows in a way that matters.
 const LARGEST: f64 = f64::from_bits((1023 + 160) << 52);
@@ -136,8 +137,8 @@ struct Moving<'a, const WORLD: usize, const LOCAL: usize> {
     quaternions: [[f64; 4]; 2],
     /// At most this, times the square of its length, is the stray of a part.
     bend: f64,
-    /// What rounding adds to that.
-    rounding: f64,
+    /// The radius and what rounding adds to the stray.
+    rest: f64,
 }
 
 impl<'a, const WORLD: usize, const LOCAL: usize> Moving<'a, WORLD, LOCAL> {
@@ -147,17 +148,20 @@ impl<'a, const WORLD: usize, const LOCAL: usize> Moving<'a, WORLD, LOCAL> {
         end: &'a [Point; WORLD],
         local: &'a [Point; LOCAL],
         motion: &RigidMotion,
+        radius: Radius,
     ) -> Option<Self> {
         let quaternions = motion.quaternions();
         let centres = [motion.start(), motion.end()].map(|pose| plain(&pose.centre));
         let reach = local.iter().map(|p| p.coords.norm_squared());
-        let reach = reach.fold(0.0, f64::max).sqrt() * UP;
+        let reach = reach.fold(0.0, f64::max).sqrt() * UP + LEAST;
         let points = start.iter().chain(end).flat_map(|p| p.iter());
         let far = points
             .chain(centres.iter().flatten())
             .fold(0.0, |a: f64, b| a.max(b.abs()));
         let bend = bend(&quaternions)? * reach;
-        let is_ordinary = far < LARGEST && reach < LARGEST;
+        // Not below the sum of both numbers.
+        let radius = radius.rounded() * UP;
+        let is_ordinary = far < LARGEST && reach < LARGEST && radius < LARGEST;
         is_ordinary.then_some(Moving {
             start,
             end,
@@ -165,7 +169,7 @@ impl<'a, const WORLD: usize, const LOCAL: usize> Moving<'a, WORLD, LOCAL> {
             centres,
             quaternions,
             bend,
-            rounding: ROUNDING * (far + reach) + LEAST,
+            rest: radius + ROUNDING * (far + reach) + LEAST,
         })
     }
 
@@ -176,7 +180,7 @@ impl<'a, const WORLD: usize, const LOCAL: usize> Moving<'a, WORLD, LOCAL> {
         // Ends: after so many parts.
         for _ in 0..MOST_PARTS {
             let to = f64::min(from + length, 1.0);
-            let stray = (self.bend * (to - from) * (to - from) + self.rounding) * UP;
+            let stray = (self.bend * (to - from) * (to - from) + self.rest) * UP;
             let part = self.part(from, to);
             let until = thick::apart_until::<K>(&part, Radius::from(stray));
             if until >= 1.0 {

@@ -5,6 +5,7 @@ use std::io;
 
 use crate::figures::FIGURES;
 use tunnelproof::query::{QueryError, QueryKind};
+use tunnelproof::rigid::RigidError;
 
 use super::csv::LONGEST_INTEGER;
 use super::dyadic::NotF64;
@@ -48,6 +49,22 @@ pub enum Problem {
     /// The kind has another name than the two there are.
     #[error("kind is {}, neither edge-edge nor vertex-face", quoted(.0))]
     KindUnknown(String),
+    /// The kind is none of bodies that turn.
+    #[error("kind is {}, neither edge-turning-edge nor vertex-turning-face", quoted(.0))]
+    TurningKindUnknown(String),
+    /// The poses, the points and the radius are no query of a body that turns.
+    #[error(transparent)]
+    Rigid(#[from] RigidError),
+    /// A list has another number of items than it has to have.
+    #[error("{place} has {count} items, not {expected}")]
+    Length {
+        /// Which list.
+        place: String,
+        /// How many items it has.
+        count: usize,
+        /// How many it has to have.
+        expected: usize,
+    },
     /// The kind is not the one that was asked for.
     #[error("is of kind {stated}, but --kind says {asked}")]
     KindContradiction {

@@ -65,7 +65,7 @@ pub fn radius(radius: Radius, numbers: Numbers) -> Value {
     }
 }
 
-fn number(value: f64, numbers: Numbers) -> Value {
+pub(super) fn number(value: f64, numbers: Numbers) -> Value {
     match numbers {
         Numbers::Decimal => json!(value),
         Numbers::Hexadecimal => json!(hexfloat::format(value)),
@@ -150,7 +150,7 @@ struct Record {
 }
 
 /// A value that is not `null`.
-fn given<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+pub(super) fn given<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
     deserializer: D,
 ) -> Result<Option<T>, D::Error> {
     T::deserialize(deserializer).map(Some)
@@ -211,13 +211,13 @@ fn coordinate_name(index: usize, axis: usize) -> String {
 }
 
 /// A JSON number or a text that stands for one.
-enum Number {
+pub(super) enum Number {
     Decimal(f64),
     Text(String),
 }
 
 impl Number {
-    fn value(self, place: impl Fn() -> String) -> Result<f64, Problem> {
+    pub(super) fn value(self, place: impl Fn() -> String) -> Result<f64, Problem> {
         match self {
             Number::Decimal(value) => Ok(value),
             Number::Text(text) => hexfloat::parse(&text).map_err(|reason| Problem::HexFloat {
@@ -267,13 +267,13 @@ impl<'de> Deserialize<'de> for Number {
     untagged,
     expecting = "neither a number nor two numbers in brackets (hexadecimal floats in quotes)"
 )]
-enum Radii {
+pub(super) enum Radii {
     One(Number),
     Two([Number; 2]),
 }
 
 impl Radii {
-    fn sum(self) -> Result<Radius, Problem> {
+    pub(super) fn sum(self) -> Result<Radius, Problem> {
         let place = || "radius".to_owned();
         Ok(match self {
             Radii::One(radius) => radius.value(place)?.into(),
@@ -283,7 +283,7 @@ impl Radii {
 }
 
 /// Whether a query is known to be a hit.
-struct Label(bool);
+pub(super) struct Label(pub(super) bool);
 
 impl<'de> Deserialize<'de> for Label {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {

@@ -2,6 +2,7 @@
 //!
 //! Read are [`jsonl`], this project's own format, [`csv`], the public CCD query format, and files
 //! of test vectors, each, with the feature `packed`, also packed by gzip (`.gz`) or zstd (`.zst`).
+//! Queries of bodies that turn are lines of their own, [`turning`].
 //! The first two stream, so memory does not grow with the file. Input is exact: a coordinate is the
 //! `f64` that the file states, or the file is refused. [`folder`] finds the files of a folder, such
 //! as the public benchmarks.
@@ -36,6 +37,7 @@ pub mod jsonl;
 mod lines;
 pub mod locate;
 mod packed;
+pub mod turning;
 mod vector_file;
 
 use lines::Lines;

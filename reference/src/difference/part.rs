@@ -13,7 +13,7 @@ use super::polygon::Polygon;
 /// A corner, an edge or the inside of the polygon, and the point of what it spans that is nearest
 /// to the origin.
 struct Part<Z> {
-    /// The squared distance of that point is `square / size`.
+    /// The squared distance of that point is `square / size`, times [`Polygon::scale`].
     square: Poly<Z>,
     /// At least 0.
     size: Poly<Z>,
@@ -147,8 +147,10 @@ impl<Z: Integer> Distance<Z> {
     pub(super) fn new(polygon: &Polygon<Z>, radius: Radius, unit: i64) -> Self {
         let parts = parts(polygon);
         let (square, shift) = squared::<Z>(radius, unit);
+        // The square of every part has one factor more of what products are multiplied by.
+        let square = polygon.scale.scale(&square);
         let excess = |part: &Part<Z>| {
-            let square = part.size.scale(&square);
+            let square = part.size.mul(&square);
             part.square.scale(&Z::one().shl(shift)).sub(&square)
         };
         let [p2, q2] = polygon.lengths();

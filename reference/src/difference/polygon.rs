@@ -23,8 +23,10 @@ pub(super) struct Polygon<Z> {
     /// Of edges `C - A`, `D - A`, `C - B` and `D - B`; of a vertex and a face `B - A`, `C - A` and
     /// `D - A`. Of a body that turns, times something positive.
     corners: Vec<[Poly<Z>; 3]>,
-    /// The scalar products of the corners; of a body that turns, times something positive.
+    /// The scalar products of the corners, times [`scale`](Self::scale).
     products: Vec<Vec<Poly<Z>>>,
+    /// What the products are multiplied by: 1, or something positive for a body that turns.
+    pub(super) scale: Poly<Z>,
 }
 
 impl<Z: Integer> Polygon<Z> {
@@ -46,19 +48,21 @@ impl<Z: Integer> Polygon<Z> {
         };
         let row = |x| corners.iter().map(|y| product(x, y)).collect();
         let products = corners.iter().map(row).collect();
-        Polygon::of(kind, corners, products)
+        Polygon::of(kind, corners, products, Poly::constant(Z::one()))
     }
 
-    /// The polygon with these corners, which have these products.
+    /// The polygon with these corners, which have these products times `scale`.
     pub(super) fn of(
         kind: QueryKind,
         corners: Vec<[Poly<Z>; 3]>,
         products: Vec<Vec<Poly<Z>>>,
+        scale: Poly<Z>,
     ) -> Self {
         Polygon {
             kind,
             corners,
             products,
+            scale,
         }
     }
 

@@ -11,7 +11,7 @@
 //! needed. `M x = (w^2 - v . v) x + 2 (v . x) v + 2 w v x x`, with `v` for the vector part of `q`.
 //! Contact, parts and places are made of the products, times `D` all of them.
 
-use tunnelproof::query::{QueryKind, Radius};
+use tunnelproof::query::QueryKind;
 use tunnelproof::rigid::RigidQuery;
 
 use crate::answer::ExactAnswer;
@@ -30,8 +30,8 @@ pub fn decide_rigid<Z: Integer>(query: &RigidQuery) -> ExactAnswer {
         RigidQuery::EdgeTurningEdge(_) => QueryKind::EdgeEdge,
         RigidQuery::VertexTurningFace(_) => QueryKind::VertexFace,
     };
-    let polygon = polygon::<Z>(kind, &ScaledRigid::new(query));
-    decide_polygon(&polygon, Radius::ZERO, 0)
+    let points = ScaledRigid::<Z>::new(query);
+    decide_polygon(&polygon(kind, &points), query.radius(), points.exponent)
 }
 
 fn polygon<Z: Integer>(kind: QueryKind, points: &ScaledRigid<Z>) -> Polygon<Z> {
@@ -84,6 +84,7 @@ fn polygon<Z: Integer>(kind: QueryKind, points: &ScaledRigid<Z>) -> Polygon<Z> {
         kind,
         ways.iter().map(corner).collect(),
         ways.iter().map(row).collect(),
+        size.clone(),
     )
 }
 

@@ -16,7 +16,7 @@ use rand_chacha::rand_core::SeedableRng;
 use tunnelproof::query::{EdgeEdge, Point, Query};
 
 use motion::Motion;
-pub use rigid::{RIGID_FAMILIES, RigidFamily, rigid_by_name};
+pub use rigid::{RIGID_FAMILIES, RigidFamily, RigidId, rigid_by_name};
 
 mod cancellation;
 mod confine;

@@ -4,10 +4,13 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use rand::{Rng, RngExt};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use tunnelproof::query::Point;
+use tunnelproof::query::{Point, Radius};
 use tunnelproof::rigid::{EdgeTurningEdge, Pose, RigidMotion, RigidQuery, VertexTurningFace};
 
+use super::IdError;
 use super::motion::{not_zero, real_vector, vector};
+
+mod thick;
 
 /// Every family of bodies that turn.
 pub const RIGID_FAMILIES: &[RigidFamily] = &[
@@ -51,6 +54,14 @@ pub const RIGID_FAMILIES: &[RigidFamily] = &[
         description: "lengths from 1e-6 to 1e6, and quaternions of any length",
         draw: scales,
     },
+    thick::UNIFORM,
+    thick::LATTICE,
+    thick::CONFINED,
+    thick::GRAZING,
+    thick::TANGENT,
+    thick::STILL,
+    thick::PLATES,
+    thick::SCALES,
 ];
 
 /// An endless, seeded sequence of queries of bodies that turn.
@@ -95,6 +106,39 @@ pub fn rigid_by_name(name: &str) -> Option<&'static RigidFamily> {
     RIGID_FAMILIES.iter().find(|family| family.name == name)
 }
 
+/// The name of a generated query of a body that turns, written `FAMILY:SEED:INDEX`.
+#[derive(Clone, Copy, Debug)]
+pub struct RigidId {
+    /// The family.
+    pub family: &'static RigidFamily,
+    /// The seed of the family.
+    pub seed: u64,
+    /// Which query of that seed, from 0.
+    pub index: u64,
+}
+
+impl RigidId {
+    /// The query of this name.
+    pub fn query(&self) -> RigidQuery {
+        self.family.query(self.seed, self.index)
+    }
+
+    /// The identifier that a text is, if it starts with the name of a family of bodies that turn.
+    pub fn parse(text: &str) -> Option<Result<Self, IdError>> {
+        let (name, rest) = text.split_once(':')?;
+        let family = rigid_by_name(name)?;
+        let of_rest = || {
+            let (seed, index) = rest.split_once(':').ok_or(IdError::Form)?;
+            Ok(RigidId {
+                family,
+                seed: seed.parse().map_err(|_| IdError::Seed)?,
+                index: index.parse().map_err(|_| IdError::Index)?,
+            })
+        };
+        Some(of_rest())
+    }
+}
+
 /// The numbers of a query, before they are checked.
 #[derive(Clone, Debug)]
 struct Draft {
@@ -104,6 +148,7 @@ struct Draft {
     /// Of edges A and B, else A, at the start and at the end of the step.
     world: [Vec<Vector3<f64>>; 2],
     local: Vec<Vector3<f64>>,
+    radius: f64,
 }
 
 impl Draft {
@@ -120,12 +165,11 @@ impl Draft {
         };
         let (start, end, local) = (points(start), points(end), points(&self.local));
         match (&start[..], &end[..], &local[..]) {
-            (&[a, b], &[a1, b1], &[c, d]) => EdgeTurningEdge::new([a, b], [a1, b1], [c, d], motion)
-                .ok()
-                .map(RigidQuery::EdgeTurningEdge),
-            (&[a], &[a1], &[b, c, d]) => VertexTurningFace::new([a], [a1], [b, c, d], motion)
-                .ok()
-                .map(RigidQuery::VertexTurningFace),
+            (&[a, b], &[a1, b1], &[c, d]) => {
+                let sides = ([a, b], [a1, b1], [c, d]);
+                edges(sides, motion, self.radius.into())
+            }
+            (&[a], &[a1], &[b, c, d]) => face(([a], [a1], [b, c, d]), motion, self.radius.into()),
             _ => None,
         }
     }
@@ -181,6 +225,21 @@ impl Draft {
     }
 }
 
+type Sides<const WORLD: usize, const LOCAL: usize> =
+    ([Point; WORLD], [Point; WORLD], [Point; LOCAL]);
+
+fn edges(sides: Sides<2, 2>, motion: RigidMotion, radius: Radius) -> Option<RigidQuery> {
+    let (start, end, local) = sides;
+    let query = EdgeTurningEdge::with_radius(start, end, local, motion, radius);
+    query.ok().map(RigidQuery::EdgeTurningEdge)
+}
+
+fn face(sides: Sides<1, 3>, motion: RigidMotion, radius: Radius) -> Option<RigidQuery> {
+    let (start, end, local) = sides;
+    let query = VertexTurningFace::with_radius(start, end, local, motion, radius);
+    query.ok().map(RigidQuery::VertexTurningFace)
+}
+
 /// Draws until the body turns by no more than it may.
 fn first(rng: &mut dyn Rng, draft: impl Fn(&mut dyn Rng) -> Draft) -> RigidQuery {
     loop {
@@ -221,6 +280,7 @@ fn anywhere(rng: &mut dyn Rng, degrees: f64, speed: f64) -> Draft {
         centres: [centre, centre + real_vector(rng, speed)],
         local: (0..local).map(|_| real_vector(rng, 1.0)).collect(),
         world: [start, moved],
+        radius: 0.0,
     }
 }
 
@@ -250,6 +310,7 @@ fn lattice(rng: &mut dyn Rng) -> RigidQuery {
             quaternions: [(); 2].map(|()| [(); 4].map(|()| f64::from(rng.random_range(-2..=2)))),
             world,
             local: (0..local).map(|_| integers(rng, reach)).collect(),
+            radius: 0.0,
         };
         match rng.random_range(0..12) {
             0 => draft.local[1] = draft.local[0],
@@ -303,6 +364,7 @@ fn confined(rng: &mut dyn Rng) -> RigidQuery {
                 end.iter().map(|p| p + lift[1]).collect(),
             ],
             local: body,
+            radius: 0.0,
         };
         let draft = renamed(rng, draft);
         match rng.random_range(0..3) {
@@ -336,31 +398,36 @@ fn turned([w, x, y, z]: [i32; 4], p: Vector3<i32>) -> Vector3<i32> {
 /// points of the body are multiples of the square of its length.
 fn grazing(rng: &mut dyn Rng) -> RigidQuery {
     first(rng, |rng| {
-        let n = rng.random_range(1..=4);
-        let i = rng.random_range(0..=n);
         let is_double = rng.random_range(0..3) == 0;
-        let ends = [(); 2].map(|()| {
-            let mut q = [(); 4].map(|()| rng.random_range(-2..=2));
-            if is_double {
-                (q[1], q[2]) = (0, 0);
-            }
-            q
-        });
-        let [q0, q1] = nearer(ends);
-        let q = [0, 1, 2, 3].map(|h| (n - i) * q0[h] + i * q1[h]);
-        let draft = match is_double {
-            true => tangent(rng, q),
-            false => touching(rng, q, [i, n - i]),
-        };
-        let draft = Draft {
-            quaternions: ends.map(|q| q.map(f64::from)),
-            ..draft
-        };
-        match rng.random_range(0..3) {
-            0 => draft.nudged(rng),
-            _ => draft,
-        }
+        at_a_fraction(rng, is_double, false)
     })
+}
+
+/// Half of them moved by some ulps; beyond it means at a distance, which is the radius.
+fn at_a_fraction(rng: &mut dyn Rng, is_double: bool, is_beyond: bool) -> Draft {
+    let n = rng.random_range(1..=4);
+    let i = rng.random_range(0..=n);
+    let ends = [(); 2].map(|()| {
+        let mut q = [(); 4].map(|()| rng.random_range(-2..=2));
+        if is_double {
+            (q[1], q[2]) = (0, 0);
+        }
+        q
+    });
+    let [q0, q1] = nearer(ends);
+    let q = [0, 1, 2, 3].map(|h| (n - i) * q0[h] + i * q1[h]);
+    let draft = match is_double {
+        true => tangent(rng, q, is_beyond),
+        false => touching(rng, q, [i, n - i]),
+    };
+    let draft = Draft {
+        quaternions: ends.map(|q| q.map(f64::from)),
+        ..draft
+    };
+    match rng.random_range(0..3) {
+        0 => draft.nudged(rng),
+        _ => draft,
+    }
 }
 
 fn nearer([q0, q1]: [[i32; 4]; 2]) -> [[i32; 4]; 2] {
@@ -395,23 +462,29 @@ fn touching(rng: &mut dyn Rng, q: [i32; 4], [before, after]: [i32; 2]) -> Draft 
             .iter()
             .map(|p| (p * (8 * size)).map(f64::from))
             .collect(),
+        radius: 0.0,
     }
 }
 
 /// A vertex at rest that a face of a body which spins about z just touches, or an edge along z and
 /// an edge.
-fn tangent(rng: &mut dyn Rng, q: [i32; 4]) -> Draft {
+fn tangent(rng: &mut dyn Rng, q: [i32; 4], is_beyond: bool) -> Draft {
     let (world, local) = sides(rng);
     let size: i32 = q.iter().map(|x| x * x).sum();
-    let arm = Vector3::new(not_zero(rng, 3), rng.random_range(-3..=3), 0);
+    // Beyond, of length 5.
+    let (arm, out) = match is_beyond {
+        true => (ARMS[rng.random_range(0..4)], rng.random_range(1..=3)),
+        false => ([not_zero(rng, 3), rng.random_range(-3..=3)], 0),
+    };
+    let arm = Vector3::new(arm[0], arm[1], 0);
     let centre = vector(rng, 4);
     let [w, x, y, z] = q;
     let place = turned([w, -x, -y, -z], arm);
     let along = Vector3::z().cross(&place);
     let [one, two] = [(); 2].map(|()| rng.random_range(1..=3));
     let points = vec![
-        centre + arm * size,
-        centre + arm * size + Vector3::z() * not_zero(rng, 9),
+        centre + arm * (size + out),
+        centre + arm * (size + out) + Vector3::z() * not_zero(rng, 9),
     ];
     let below = rng.random_range(0..=4);
     let mut side = points;
@@ -433,8 +506,11 @@ fn tangent(rng: &mut dyn Rng, q: [i32; 4]) -> Draft {
         quaternions: [[0.0; 4]; 2],
         world: [side.clone(), side],
         local: body.iter().map(|p| p.map(f64::from)).collect(),
+        radius: f64::from(5 * out),
     }
 }
+
+const ARMS: [[i32; 2]; 4] = [[3, 4], [-4, 3], [5, 0], [0, -5]];
 
 fn spin(rng: &mut dyn Rng) -> RigidQuery {
     first(rng, |rng| {
@@ -472,6 +548,7 @@ fn translation(rng: &mut dyn Rng) -> RigidQuery {
             quaternions: [q.map(|x| x * first), q.map(|x| x * second)],
             world: [start, end],
             local: body,
+            radius: 0.0,
         }
     })
 }

@@ -84,14 +84,14 @@ fn thick(rng: &mut dyn Rng, family: &Family) -> Query {
     .expect("a radius is finite and not negative")
 }
 
-fn nudged(rng: &mut dyn Rng, length: f64) -> f64 {
+pub(super) fn nudged(rng: &mut dyn Rng, length: f64) -> f64 {
     let steps = ulps(rng);
     let bits = (length.to_bits() as i64).saturating_add(steps.into());
     f64::from_bits(bits.max(0) as u64)
 }
 
 /// A radius as one number or two.
-fn parts(rng: &mut dyn Rng, radius: f64) -> Radius {
+pub(super) fn parts(rng: &mut dyn Rng, radius: f64) -> Radius {
     let ulp = radius.next_up() - radius;
     match rng.random_range(0..4) {
         0 => [radius * 0.5, radius * 0.5].into(),
@@ -107,7 +107,7 @@ fn size(query: &Query) -> f64 {
 }
 
 /// The distance of a vertex of one side from one of the other, at an end of the step.
-fn of_vertices(rng: &mut dyn Rng, query: &Query) -> f64 {
+pub(super) fn of_vertices(rng: &mut dyn Rng, query: &Query) -> f64 {
     let points = if rng.random() {
         query.start()
     } else {
@@ -121,7 +121,7 @@ fn of_vertices(rng: &mut dyn Rng, query: &Query) -> f64 {
 }
 
 /// The distance of the two lines, or of the vertex from the plane; 0 where they have none.
-fn of_lines(rng: &mut dyn Rng, query: &Query) -> f64 {
+pub(super) fn of_lines(rng: &mut dyn Rng, query: &Query) -> f64 {
     let time = 0.5 * f64::from(rng.random_range(0..=2));
     let at = |i: usize| query.start()[i].coords * (1.0 - time) + query.end()[i].coords * time;
     let [a, b, c, d] = [0, 1, 2, 3].map(at);

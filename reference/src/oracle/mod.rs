@@ -101,11 +101,7 @@ pub fn decide<Z: Integer>(query: &Query) -> Decision<Z> {
             radius: radius.parts(),
         }
     });
-    let hit = match &near {
-        None => decide_contact(&*motion),
-        Some(near) => near.decide(&*motion),
-    };
-    Decision { motion, near, hit }
+    Decision::of(motion, near)
 }
 
 fn motion_of<Z: Integer>(query: &Query, points: &Scaled<Z>) -> Box<dyn Motion<Z>> {
@@ -169,6 +165,15 @@ struct Hit<Z> {
 }
 
 impl<Z: Integer> Decision<Z> {
+    /// The answer to what is asked of a motion.
+    fn of(motion: Box<dyn Motion<Z>>, near: Option<Near<Z>>) -> Self {
+        let hit = match &near {
+            None => decide_contact(&*motion),
+            Some(near) => near.decide(&*motion),
+        };
+        Decision { motion, near, hit }
+    }
+
     /// The case of the motion.
     pub fn case(&self) -> Case {
         self.motion.case()

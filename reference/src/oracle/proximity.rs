@@ -72,6 +72,16 @@ impl<Z: Integer> Proximity<Z> {
         }
     }
 
+    /// Of a motion of which all lengths are multiplied by something above 0, of which this is the
+    /// square.
+    pub(super) fn enlarged(motion: &dyn Motion<Z>, exponent: i64, square: &Poly<Z>) -> Self {
+        let mut proximity = Proximity::new(motion, exponent);
+        for pair in &mut proximity.pairs {
+            pair.denominator = pair.denominator.mul(square);
+        }
+        proximity
+    }
+
     /// The pairs with their `P`. A radius here is a sum of numbers in metres.
     fn excesses(&self, radius: &[f64]) -> impl Iterator<Item = (&Pair<Z>, Poly<Z>)> {
         let square = Square::new(radius, self.exponent);

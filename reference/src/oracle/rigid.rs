@@ -5,7 +5,7 @@
 //! point `x` of the body as `D x`. All differences of the four are then `D` times those in space,
 //! turned. Every predicate of the oracle is homogeneous in the differences and the same in a turned
 //! frame, and none of its reasons needs more than that the motion is continuous and polynomial. So
-//! it is the oracle for linear motion, on other polynomials.
+//! it is the oracle for linear motion, on other polynomials. A radius `R` is `D R` there.
 
 use tunnelproof::rigid::RigidQuery;
 
@@ -17,8 +17,9 @@ use crate::scaled::ScaledRigid;
 use super::edges::Edges;
 use super::face::Face;
 use super::motion::Motion;
+use super::proximity::Proximity;
 use super::vector::Vector;
-use super::{Decision, decide_contact};
+use super::{Decision, Near};
 
 /// The exact answer to a query of a body that turns, by the default backend.
 pub fn decide_rigid_query(query: &RigidQuery) -> ExactAnswer {
@@ -27,40 +28,51 @@ pub fn decide_rigid_query(query: &RigidQuery) -> ExactAnswer {
 
 /// The exact answer to a query of a body that turns, its numbers still algebraic.
 pub fn decide_rigid<Z: Integer>(query: &RigidQuery) -> Decision<Z> {
-    let points = in_body::<Z>(&ScaledRigid::new(query));
+    let scaled = ScaledRigid::new(query);
+    let InBody { points, size } = InBody::<Z>::new(&scaled);
     let way = |from: usize, to: usize| points[to].sub(&points[from]);
     let motion: Box<dyn Motion<Z>> = match query {
         RigidQuery::EdgeTurningEdge(_) => Box::new(Edges::of(way(0, 1), way(2, 3), way(0, 2))),
         RigidQuery::VertexTurningFace(_) => Box::new(Face::of(way(1, 0), way(1, 2), way(1, 3))),
     };
-    let hit = decide_contact(&*motion);
-    Decision {
-        motion,
-        near: None,
-        hit,
-    }
+    let radius = query.radius();
+    let near = (!radius.is_zero()).then(|| Near {
+        proximity: Proximity::enlarged(&*motion, scaled.exponent, &size.mul(&size)),
+        radius: radius.parts(),
+    });
+    Decision::of(motion, near)
 }
 
-/// The four points in the body's frame, times `D`.
-fn in_body<Z: Integer>(points: &ScaledRigid<Z>) -> Vec<Vector<Z>> {
-    let [q0, q1] = &points.quaternions;
-    let q = Quaternion([0, 1, 2, 3].map(|i| Poly::line(&q0[i], &q1[i])));
-    let conjugate = q.conjugate();
-    let [real, ..] = conjugate.product(&q).0;
-    let [c0, c1] = &points.centres;
-    let world = points.world.iter().map(|[start, end]| {
-        let from_centre =
-            |point: &[Z; 3], centre: &[Z; 3]| [0, 1, 2].map(|h| point[h].sub(&centre[h]));
-        let Vector([x, y, z]) = Vector::linear(&from_centre(start, c0), &from_centre(end, c1));
-        let way = Quaternion([Poly::zero(), x, y, z]);
-        let Quaternion([_, x, y, z]) = conjugate.product(&way).product(&q);
-        Vector([x, y, z])
-    });
-    let local = points.local.iter().map(|point| {
-        let coordinate = |h: usize| real.scale(&point[h]);
-        Vector([0, 1, 2].map(coordinate))
-    });
-    world.chain(local).collect()
+/// The motion in the body's frame.
+struct InBody<Z> {
+    /// The four points, times `D`.
+    points: Vec<Vector<Z>>,
+    /// `D`.
+    size: Poly<Z>,
+}
+
+impl<Z: Integer> InBody<Z> {
+    fn new(points: &ScaledRigid<Z>) -> Self {
+        let [q0, q1] = &points.quaternions;
+        let q = Quaternion([0, 1, 2, 3].map(|i| Poly::line(&q0[i], &q1[i])));
+        let conjugate = q.conjugate();
+        let [size, ..] = conjugate.product(&q).0;
+        let [c0, c1] = &points.centres;
+        let world = points.world.iter().map(|[start, end]| {
+            let from_centre =
+                |point: &[Z; 3], centre: &[Z; 3]| [0, 1, 2].map(|h| point[h].sub(&centre[h]));
+            let Vector([x, y, z]) = Vector::linear(&from_centre(start, c0), &from_centre(end, c1));
+            let way = Quaternion([Poly::zero(), x, y, z]);
+            let Quaternion([_, x, y, z]) = conjugate.product(&way).product(&q);
+            Vector([x, y, z])
+        });
+        let local = points.local.iter().map(|point| {
+            let coordinate = |h: usize| size.scale(&point[h]);
+            Vector([0, 1, 2].map(coordinate))
+        });
+        let points = world.chain(local).collect();
+        InBody { points, size }
+    }
 }
 
 /// w, x, y and z.

@@ -43,6 +43,11 @@ pub fn line(id: &str, kind: QueryKind, answer: &Answer) -> String {
     serde_json::to_string(&line).expect("fields of text and numbers are JSON")
 }
 
+/// The answer to a query of a body that turns, of which no engine is asked.
+pub fn turning_line(id: &str, answer: &Answer) -> String {
+    line(id, QueryKind::EdgeEdge, answer)
+}
+
 #[derive(Serialize)]
 struct Line<'a> {
     id: &'a str,

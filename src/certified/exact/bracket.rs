@@ -121,9 +121,9 @@ impl<'a, const N: usize> Bracket<'a, N> {
     /// With `m` the degree of the bracket's polynomial `p` and `h` the bits of its coefficients: the
     /// polynomial of least degree with the root `r` divides `p`, so that its coefficients have at
     /// most `h + 2 m` bits (Mignotte), their norm no more than two more. Its resultant with `q` is an
-    /// integer and not 0: `|q(r)|` is at least 2 to the minus `(m - 1) (bits + 3) + n (h + 2 m + 2)`,
-    /// as a polynomial of degree up to 7 is at most eight times its largest coefficient. Up to the
-    /// root `q` changes by no more than `2^(bits + 6)` times the width. So many bits, and those that
+    /// integer and not 0: `|q(r)|` is at least 2 to the minus `(m - 1) (bits + 4) + n (h + 2 m + 2)`,
+    /// as a polynomial of degree up to 15 is at most sixteen times its largest coefficient. Up to the
+    /// root `q` changes by no more than `2^(bits + 7)` times the width. So many bits, and those that
     /// the quotients of numbers of 64 bits need beyond the sign, are below `w`.
     ///
     /// For `q = 2^e t - k`, the distance of the root from a number with the exponent `e`, the bits

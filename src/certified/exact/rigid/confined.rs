@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use super::{Locus, Places, Sides, hit, kind};
+use super::{Locus, Places, Sides, hit, kind, signs_around};
 use crate::certified::exact::thick::vector::{Vector, cross, dot, is_zero};
 use crate::certified::exact::thick::{Poly, Roots, Time};
 use crate::contact::Hit;
@@ -99,5 +99,26 @@ fn crosses<const W: usize>(ends: &[End], time: &Time, locus: &Locus<W>) -> bool 
         end.turn.iter().all(|c| time.sign_of(c).is_eq())
             && (time.sign_of(&end.between).is_lt() || locus.second.is_some())
             && end.passes(time)
+    })
+}
+
+/// Whether there is a crossing at any time of the step.
+pub(super) fn crosses_ever<const W: usize>(sides: &impl Sides<W>) -> bool {
+    let ends = sides.ends();
+    let is_line = ends.iter().all(|end| is_zero(&end.turn));
+    let had_gap = |time: &Time| {
+        let is_outside = |end: &End| signs_around(&end.between, time).0.is_gt();
+        !is_line || ends.iter().all(is_outside)
+    };
+    ends.iter().any(|end| {
+        let roots = Roots::new(end.candidates());
+        let mut times = roots.times();
+        times.any(|(time, toi)| {
+            toi[0] < 1.0
+                && had_gap(&time)
+                && sides
+                    .locus(&time)
+                    .is_some_and(|locus| crosses(&ends, &time, &locus))
+        })
     })
 }

@@ -7,10 +7,12 @@ use super::confined::End;
 use super::motion::InBody;
 use super::{Locus, Sides, is_between};
 use crate::certified::exact::thick::vector::{Vector, add, cross, dot, is_zero, sub};
-use crate::certified::exact::thick::{Place, Poly, Share, Time};
+use crate::certified::exact::thick::{self, Place, Poly, Reach, Share, Time};
 use crate::contact::{Case, Flags};
+use crate::query::Radius;
 use crate::rigid::EdgeTurningEdge;
 
+#[derive(Clone)]
 pub(super) struct Edges {
     k: Vector,
     l: Vector,
@@ -20,6 +22,7 @@ pub(super) struct Edges {
     n: Vector,
     d: Poly,
     f: Poly,
+    unit: i32,
 }
 
 impl Edges {
@@ -28,6 +31,7 @@ impl Edges {
             world: [a, b],
             local: [c, end],
             d,
+            unit,
         } = InBody::new(query.start(), query.end(), query.local(), query.motion());
         let times_d = |v: &Vector| -> Vector { v.each_ref().map(|x| Poly::product(x, &d)) };
         let (k, l, m) = (sub(&b, &a), sub(&end, &c), sub(&times_d(&c), &a));
@@ -40,7 +44,15 @@ impl Edges {
             m,
             n,
             d,
+            unit,
         }
+    }
+
+    /// The same with a radius.
+    pub(super) fn thick(&self, radius: Radius) -> (thick::Edges, Reach) {
+        let Edges { k, l, m, d, .. } = self.clone();
+        let reach = Reach::new(radius.parts(), self.unit, &d);
+        (thick::Edges::of(k, l, m, d), reach)
     }
 
     fn vanishes(v: &Vector, time: &Time) -> bool {

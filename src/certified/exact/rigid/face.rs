@@ -7,10 +7,12 @@ use super::confined::End;
 use super::motion::InBody;
 use super::{Locus, Sides, is_between};
 use crate::certified::exact::thick::vector::{Vector, cross, dot, is_zero, sub};
-use crate::certified::exact::thick::{Place, Poly, Share, Time};
+use crate::certified::exact::thick::{self, Place, Poly, Reach, Share, Time};
 use crate::contact::{Case, Flags};
+use crate::query::Radius;
 use crate::rigid::VertexTurningFace;
 
+#[derive(Clone)]
 pub(super) struct Face {
     /// From A to B, C and D.
     ways: [Vector; 3],
@@ -19,6 +21,7 @@ pub(super) struct Face {
     n: Vector,
     d: Poly,
     f: Poly,
+    unit: i32,
 }
 
 impl Face {
@@ -27,6 +30,7 @@ impl Face {
             world: [a],
             local: [b, c, last],
             d,
+            unit,
         } = InBody::new(query.start(), query.end(), query.local(), query.motion());
         let (e1, e2) = (sub(&c, &b), sub(&last, &b));
         let n = cross(&e1, &e2);
@@ -42,7 +46,18 @@ impl Face {
             e2,
             n,
             d,
+            unit,
         }
+    }
+
+    /// The same with a radius.
+    pub(super) fn thick(&self, radius: Radius) -> (thick::Face, Reach) {
+        let Face {
+            ways, e1, e2, d, ..
+        } = self.clone();
+        let reach = Reach::new(radius.parts(), self.unit, &d);
+        let x = sub(&Default::default(), &ways[0]);
+        (thick::Face::of(e1, e2, x, d), reach)
     }
 
     /// The vertex is in the plane: `w x E2 = u D N` and `E1 x w = v D N`.

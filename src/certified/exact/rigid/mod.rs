@@ -21,6 +21,12 @@
 //!    least order of the components of `G = (Y - X) x (Z - X)` is odd: with `m` that order,
 //!    `G / (t - s)^m` is continuous and not 0 at `s`.
 
+//!
+//! A radius `R` is `D R` there. The squared distances of two features are those of linear motion
+//! with other vectors ([`thick`](super::thick)), so that the excess of a pair is
+//! `numerator - D^2 R^2 denominator`: of degree 6 for a vertex of either side and a vertex, an edge or
+//! a face of the body, 12 for an edge and a vertex or an edge of the body.
+
 mod confined;
 mod edges;
 mod face;
@@ -30,7 +36,8 @@ use std::cmp::Ordering;
 
 use super::PLACE_ERROR;
 use super::dyadic::Dyadic;
-use super::thick::{Place, Poly, Roots, Time};
+use super::passage::Passage;
+use super::thick::{Place, Poly, Roots, Time, decide_near_edges, decide_near_face};
 use crate::contact::{Case, ContactKind, EdgePlace, EdgePoint, FacePlace, Flags, Hit};
 use crate::rigid::{EdgeTurningEdge, VertexTurningFace};
 use confined::End;
@@ -41,7 +48,13 @@ use face::Face;
 pub(in crate::certified) fn decide_turning_edges(
     query: &EdgeTurningEdge,
 ) -> Option<Hit<EdgePlace>> {
-    let hit = decide(&Edges::new(query))?;
+    let edges = Edges::new(query);
+    let radius = query.radius();
+    if !radius.is_zero() {
+        let (thick, reach) = edges.thick(radius);
+        return decide_near_edges(&thick, &reach, || passage(&edges));
+    }
+    let hit = decide(&edges)?;
     let point = |[u, v]: [f64; 2]| EdgePoint { u, v };
     Some(hit.map_place(|(first, second)| EdgePlace {
         first: point(first),
@@ -54,11 +67,29 @@ pub(in crate::certified) fn decide_turning_edges(
 pub(in crate::certified) fn decide_turning_face(
     query: &VertexTurningFace,
 ) -> Option<Hit<FacePlace>> {
-    let hit = decide(&Face::new(query))?;
+    let face = Face::new(query);
+    let radius = query.radius();
+    if !radius.is_zero() {
+        let (thick, reach) = face.thick(radius);
+        return decide_near_face(&thick, &reach, || passage(&face));
+    }
+    let hit = decide(&face)?;
     Some(hit.map_place(|(weights, _)| FacePlace {
         weights,
         error: PLACE_ERROR,
     }))
+}
+
+/// What the two do to each other without their radius.
+fn passage<const W: usize>(sides: &impl Sides<W>) -> Passage {
+    let crosses = match sides.f().is_zero() {
+        true => confined::crosses_ever(sides),
+        false => crosses_ever(sides),
+    };
+    Passage {
+        case: sides.case(),
+        kind: kind(crosses),
+    }
 }
 
 /// Numbers that say where they touch, and the other end of an overlap.
@@ -130,6 +161,18 @@ fn decide_general<const W: usize>(sides: &impl Sides<W>) -> Option<Hit<Places<W>
         let (before, after) = signs_around(sides.f(), &time);
         let swaps = before != after && toi[0] < 1.0 && locus.is_inside;
         Some(hit(sides, &time, toi, &locus, kind(swaps), before))
+    })
+}
+
+/// Whether `f`, which is not identically 0, changes its sign inside the step where they meet
+/// inside.
+fn crosses_ever<const W: usize>(sides: &impl Sides<W>) -> bool {
+    let roots = Roots::new(sides.f().clone());
+    let mut times = roots.times();
+    times.any(|(time, toi)| {
+        let (before, after) = signs_around(sides.f(), &time);
+        let meet = || sides.locus(&time).is_some_and(|locus| locus.is_inside);
+        before != after && toi[0] < 1.0 && meet()
     })
 }
 

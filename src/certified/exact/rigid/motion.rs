@@ -15,6 +15,8 @@ pub(super) struct InBody<const WORLD: usize, const LOCAL: usize> {
     pub(super) local: [Vector; LOCAL],
     /// `D = |q|^2`, which is above 0.
     pub(super) d: Poly,
+    /// Lengths are in multiples of `2^unit` metres, by `D` where they have this factor.
+    pub(super) unit: i32,
 }
 
 impl<const WORLD: usize, const LOCAL: usize> InBody<WORLD, LOCAL> {
@@ -50,6 +52,7 @@ impl<const WORLD: usize, const LOCAL: usize> InBody<WORLD, LOCAL> {
             world,
             local: local.each_ref().map(constant),
             d,
+            unit: own,
         }
     }
 }

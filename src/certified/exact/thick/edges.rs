@@ -1,13 +1,19 @@
-//! Two edges: `K = B - A`, `L = D - C`, `M = C - A`, `N = K x L`, `f = M . N`.
+//! Two edges: `K = B - A`, `s L = D - C`, `M = C - A`, `N = K x L`, `f = M . N`.
+//!
+//! `s` is above 0: 1, but for an edge of a body that turns, whose `L` is at rest.
 
 use super::pair::{Pair, Place, Share};
-use super::vector::{Vector, add, cross, dot, is_zero, sub};
+use super::vector::{Vector, add, cross, dot, is_zero, one, sub, times};
 use super::{Poly, Sides, Time};
 use crate::contact::Flags;
 
-pub(super) struct Edges {
+pub(in crate::certified::exact) struct Edges {
     k: Vector,
     l: Vector,
+    /// `s`.
+    scale: Poly,
+    /// `s L`.
+    sl: Vector,
     m: Vector,
     n: Vector,
     n2: Poly,
@@ -16,11 +22,17 @@ pub(super) struct Edges {
 
 impl Edges {
     pub(super) fn new([a, b, c, d]: &[Vector; 4]) -> Self {
-        let (k, l, m) = (sub(b, a), sub(d, c), sub(c, a));
+        Edges::of(sub(b, a), sub(d, c), sub(c, a), one())
+    }
+
+    /// From `K`, `L`, `M` and `s`.
+    pub(in crate::certified::exact) fn of(k: Vector, l: Vector, m: Vector, scale: Poly) -> Self {
         let n = cross(&k, &l);
         Edges {
             n2: dot(&n, &n),
             f: dot(&m, &n),
+            sl: times(&l, &scale),
+            scale,
             k,
             l,
             m,
@@ -28,14 +40,16 @@ impl Edges {
         }
     }
 
-    /// The lines are nearest at `u = (M x L) . N / N . N` and `v = (M x K) . N / N . N`.
+    /// The lines are nearest at `u = (M x L) . N / N . N` and `v = (M x K) . N / s N . N`.
     fn insides(&self) -> Pair<2> {
-        let Edges { k, l, m, n, n2, f } = self;
+        let Edges {
+            k, l, m, n, n2, f, ..
+        } = self;
         let (u, v) = (dot(&cross(m, l), n), dot(&cross(m, k), n));
-        let quotient = |n: &Poly| Share::Quotient(n.clone(), n2.clone());
-        let place = [quotient(&u), quotient(&v)];
-        let rest = |n: &Poly| Poly::difference(n2, n);
-        let inside = vec![rest(&u), rest(&v), u, v];
+        let sn2 = Poly::product(&self.scale, n2);
+        let quotient = |n: &Poly, d: &Poly| Share::Quotient(n.clone(), d.clone());
+        let place = [quotient(&u, n2), quotient(&v, &sn2)];
+        let inside = vec![Poly::difference(n2, &u), Poly::difference(&sn2, &v), u, v];
         Pair::insides(f, n2, inside, place)
     }
 
@@ -48,8 +62,9 @@ impl Edges {
 impl Sides<2> for Edges {
     fn pairs(&self) -> Vec<Pair<2>> {
         use Share::{All, None};
-        let (a_c, a_d) = (&self.m, &add(&self.m, &self.l));
-        let (b_c, b_d) = (&sub(a_c, &self.k), &sub(a_d, &self.k));
+        let Edges { k, l, sl, m, .. } = self;
+        let (a_c, a_d) = (m, &add(m, sl));
+        let (b_c, b_d) = (&sub(a_c, k), &sub(a_d, k));
         let neg = |x: &Vector| sub(&Default::default(), x);
         let (c_a, c_b, d_a, d_b) = (&neg(a_c), &neg(b_c), &neg(a_d), &neg(b_d));
         vec![
@@ -57,10 +72,10 @@ impl Sides<2> for Edges {
             Pair::vertices(a_d, [None, All]),
             Pair::vertices(b_c, [All, None]),
             Pair::vertices(b_d, [All, All]),
-            Pair::vertex_edge(a_c, a_d, |[v, _]| [None, v]),
-            Pair::vertex_edge(b_c, b_d, |[v, _]| [All, v]),
-            Pair::vertex_edge(c_a, c_b, |[u, _]| [u, None]),
-            Pair::vertex_edge(d_a, d_b, |[u, _]| [u, All]),
+            Pair::vertex_edge(a_c, a_d, l, |[v, _]| [None, v]),
+            Pair::vertex_edge(b_c, b_d, l, |[v, _]| [All, v]),
+            Pair::vertex_edge(c_a, c_b, k, |[u, _]| [u, None]),
+            Pair::vertex_edge(d_a, d_b, k, |[u, _]| [u, All]),
             self.insides(),
         ]
     }
@@ -69,16 +84,16 @@ impl Sides<2> for Edges {
         &self.f
     }
 
-    /// Along K, A is at 0, B at `K . K`, C at `M . K` and D at `(M + L) . K`: what both edges have
+    /// Along K, A is at 0, B at `K . K`, C at `M . K` and D at `(M + s L) . K`: what both edges have
     /// of that where they are parallel.
     fn overlap(&self, time: &Time) -> Option<(Place<2>, Option<Place<2>>)> {
-        let Edges { k, l, m, .. } = self;
+        let Edges { k, l, sl, m, .. } = self;
         let is_parallel = time.sign_of(&self.n2).is_eq();
         if !is_parallel || Self::is_point(k, time) || Self::is_point(l, time) {
             return None;
         }
-        let (kk, ll, ml) = (dot(k, k), dot(l, l), dot(m, l));
-        let (to_c, to_d) = (dot(m, k), dot(&add(m, l), k));
+        let (kk, ll, ml) = (dot(k, k), dot(sl, l), dot(m, l));
+        let (to_c, to_d) = (dot(m, k), dot(&add(m, sl), k));
         let is_same_way = time.sign_of(&dot(k, l)).is_gt();
         let [low, high] = if is_same_way {
             [&to_c, &to_d]

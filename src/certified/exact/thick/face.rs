@@ -1,13 +1,17 @@
-//! A vertex A and a face BCD: `P = C - B`, `Q = D - B`, `X = A - B`, `N = P x Q`, `f = X . N`.
+//! A vertex A and a face BCD: `s P = C - B`, `s Q = D - B`, `X = A - B`, `N = P x Q`, `f = X . N`.
+//!
+//! `s` is above 0: 1, but for a face of a body that turns, whose `P` and `Q` are at rest.
 
 use super::pair::{Pair, Place, Share};
-use super::vector::{Vector, cross, dot, is_zero, sub};
+use super::vector::{Vector, cross, dot, is_zero, one, sub, times};
 use super::{Poly, Sides, Time};
 use crate::contact::Flags;
 
-pub(super) struct Face {
+pub(in crate::certified::exact) struct Face {
     p: Vector,
     q: Vector,
+    /// `s`.
+    scale: Poly,
     x: Vector,
     n: Vector,
     n2: Poly,
@@ -16,11 +20,16 @@ pub(super) struct Face {
 
 impl Face {
     pub(super) fn new([a, b, c, d]: &[Vector; 4]) -> Self {
-        let (p, q, x) = (sub(c, b), sub(d, b), sub(a, b));
+        Face::of(sub(c, b), sub(d, b), sub(a, b), one())
+    }
+
+    /// From `P`, `Q`, `X` and `s`.
+    pub(in crate::certified::exact) fn of(p: Vector, q: Vector, x: Vector, scale: Poly) -> Self {
         let n = cross(&p, &q);
         Face {
             n2: dot(&n, &n),
             f: dot(&x, &n),
+            scale,
             p,
             q,
             x,
@@ -29,14 +38,17 @@ impl Face {
     }
 
     /// The foot of the vertex in the plane has the weights `c = (X x Q) . N` and `d = (P x X) . N`
-    /// over `N . N`: with `h` the height, `X - h N = c P + d Q`, crossed with `Q` or `P` and
+    /// over `s N . N`: with `h` the height, `X - h N = c P + d Q`, crossed with `Q` or `P` and
     /// multiplied by `N`.
     fn inside(&self) -> Pair<3> {
-        let Face { p, q, x, n, n2, f } = self;
+        let Face {
+            p, q, x, n, n2, f, ..
+        } = self;
         let (c, d) = (dot(&cross(x, q), n), dot(&cross(p, x), n));
-        let b = Poly::difference(&Poly::difference(n2, &c), &d);
+        let sn2 = Poly::product(&self.scale, n2);
+        let b = Poly::difference(&Poly::difference(&sn2, &c), &d);
         let inside = vec![b, c, d];
-        let quotient = |n: &Poly| Share::Quotient(n.clone(), n2.clone());
+        let quotient = |n: &Poly| Share::Quotient(n.clone(), sn2.clone());
         let place = [0, 1, 2].map(|i: usize| quotient(&inside[i]));
         Pair::insides(f, n2, inside, place)
     }
@@ -45,15 +57,17 @@ impl Face {
 impl Sides<3> for Face {
     fn pairs(&self) -> Vec<Pair<3>> {
         use Share::{All, None};
-        let to_b = &sub(&Default::default(), &self.x);
-        let (to_c, to_d) = (&sub(&self.p, &self.x), &sub(&self.q, &self.x));
+        let Face { p, q, x, scale, .. } = self;
+        let to_b = &sub(&Default::default(), x);
+        let to = |way: &Vector| sub(&times(way, scale), x);
+        let (to_c, to_d, last) = (&to(p), &to(q), &sub(q, p));
         vec![
             Pair::vertices(to_b, [All, None, None]),
             Pair::vertices(to_c, [None, All, None]),
             Pair::vertices(to_d, [None, None, All]),
-            Pair::vertex_edge(to_b, to_c, |[c, b]| [b, c, None]),
-            Pair::vertex_edge(to_c, to_d, |[d, c]| [None, c, d]),
-            Pair::vertex_edge(to_b, to_d, |[d, b]| [b, None, d]),
+            Pair::vertex_edge(to_b, to_c, p, |[c, b]| [b, c, None]),
+            Pair::vertex_edge(to_c, to_d, last, |[d, c]| [None, c, d]),
+            Pair::vertex_edge(to_b, to_d, q, |[d, b]| [b, None, d]),
             self.inside(),
         ]
     }

@@ -30,14 +30,14 @@ use std::cmp::Ordering;
 
 use super::PLACE_ERROR;
 use super::algebraic_time::AlgebraicTime;
-use super::near::{Point, in_unit, radius_in_unit, sub, unit};
+use super::near::{self, Point, in_unit, radius_in_unit, sub, unit};
 use super::passage::{Passage, passage_of_edges};
 use super::poly;
 use crate::certified::motion::Positions;
 use crate::contact::{EdgePlace, EdgePoint, FacePlace, Flags, Hit};
 use crate::query::Radius;
-use edges::Edges;
-use face::Face;
+pub(super) use edges::Edges;
+pub(super) use face::Face;
 pub(in crate::certified) use normal::{
     normal_of_edges_exactly, normal_of_face_exactly, perpendicular_of_edges,
 };
@@ -47,9 +47,8 @@ pub(super) use roots::Roots;
 use vector::Vector;
 
 use super::dyadic::Dyadic;
-use super::integer::Integer;
 
-/// Polynomials of degree at most 6, on the heap: these move a lot.
+/// Polynomials of degree at most 12, on the heap: these move a lot.
 pub(super) type Poly = poly::Poly<0>;
 
 /// Times at which such a polynomial is 0.
@@ -91,14 +90,8 @@ pub(in crate::certified) fn decide_thick_edges(
     radius: Radius,
 ) -> Option<Hit<EdgePlace>> {
     let (points, reach) = integers(positions, radius.parts());
-    let approach = first_approach(&Edges::new(&points), &reach)?;
-    let point = |[u, v]: [f64; 2]| EdgePoint { u, v };
-    let place = EdgePlace {
-        first: point(approach.first),
-        second: approach.second.map(point),
-        error: PLACE_ERROR,
-    };
-    Some(approach.hit(passage_of_edges(positions), place))
+    let passage = || passage_of_edges(positions);
+    decide_near_edges(&Edges::new(&points), &reach, passage)
 }
 
 /// The same of a vertex A and a face BCD, of which it is known how they pass each other.
@@ -108,7 +101,32 @@ pub(in crate::certified) fn decide_thick_face(
     passage: impl FnOnce() -> Passage,
 ) -> Option<Hit<FacePlace>> {
     let (points, reach) = integers(positions, radius.parts());
-    let approach = first_approach(&Face::new(&points), &reach)?;
+    decide_near_face(&Face::new(&points), &reach, passage)
+}
+
+/// The first contact of two edges, of which it is known how they pass each other.
+pub(super) fn decide_near_edges(
+    edges: &Edges,
+    reach: &Reach,
+    passage: impl FnOnce() -> Passage,
+) -> Option<Hit<EdgePlace>> {
+    let approach = first_approach(edges, reach)?;
+    let point = |[u, v]: [f64; 2]| EdgePoint { u, v };
+    let place = EdgePlace {
+        first: point(approach.first),
+        second: approach.second.map(point),
+        error: PLACE_ERROR,
+    };
+    Some(approach.hit(passage(), place))
+}
+
+/// The same of a vertex and a face.
+pub(super) fn decide_near_face(
+    face: &Face,
+    reach: &Reach,
+    passage: impl FnOnce() -> Passage,
+) -> Option<Hit<FacePlace>> {
+    let approach = first_approach(face, reach)?;
     let place = FacePlace {
         weights: approach.first,
         error: PLACE_ERROR,
@@ -135,28 +153,38 @@ trait Sides<const W: usize> {
 /// The square of the radius: `square 2^shift` in the unit of the coordinates, squared.
 ///
 /// The radius has a unit of its own: it may be so small that the coordinates in its unit would be
-/// hundreds of times as long.
-struct Reach {
-    square: Integer,
+/// hundreds of times as long. The square is a constant, but where the unit of the coordinates
+/// changes, as in the frame of a body that turns.
+pub(super) struct Reach {
+    square: Poly,
     shift: i64,
+}
+
+impl Reach {
+    /// The radius where the coordinates are in multiples of `2^unit / scale`.
+    pub(super) fn new(radii: [f64; 2], unit: i32, scale: &Poly) -> Self {
+        let own = near::unit(radii.iter());
+        let sum = Poly::new(&[radius_in_unit(radii, own)]);
+        let radius = Poly::product(&sum, scale);
+        Reach {
+            square: Poly::product(&radius, &radius),
+            shift: 2 * i64::from(own - unit),
+        }
+    }
 }
 
 /// The positions at the start and their changes, and the radius.
 fn integers(Positions { start, end }: &Positions, radii: [f64; 2]) -> ([Vector; 4], Reach) {
     let [[a, b, c, d], [e, f, g, h]] = [*start, *end];
     let points = [a, b, c, d, e, f, g, h];
-    let (own, radius) = (unit(points.iter().flatten()), unit(radii.iter()));
+    let own = unit(points.iter().flatten());
     let points = in_unit(&points, own);
     let (start, end) = points.split_at(4);
     let moving = |i: usize| -> Vector {
         let change: Point = sub(&end[i], &start[i]);
         [0, 1, 2].map(|axis: usize| Poly::new(&[start[i][axis].clone(), change[axis].clone()]))
     };
-    let sum = radius_in_unit(radii, radius);
-    let reach = Reach {
-        square: Integer::product(&sum, &sum),
-        shift: 2 * i64::from(radius - own),
-    };
+    let reach = Reach::new(radii, own, &vector::one());
     ([0, 1, 2, 3].map(moving), reach)
 }
 

@@ -2,14 +2,15 @@
 
 use std::cmp::Ordering;
 
-use super::vector::{Vector, cross, dot, sub};
+use super::vector::{Vector, cross, dot, one};
 use super::{Poly, Reach, Time};
 use crate::certified::exact::dyadic::Dyadic;
 use crate::certified::exact::integer::Integer;
 
 /// Two features.
 pub(super) struct Pair<const W: usize> {
-    /// The squared distance of what they span is `numerator / denominator`.
+    /// The squared distance of what they span is `numerator / denominator`, in the unit of the
+    /// vectors.
     numerator: Poly,
     /// At least 0; where it is 0, features with fewer points are as near.
     denominator: Poly,
@@ -53,29 +54,32 @@ impl<const W: usize> Pair<W> {
     pub(super) fn vertices(way: &Vector, place: [Share; W]) -> Self {
         Pair {
             numerator: dot(way, way),
-            denominator: Poly::new(&[Integer::from(1)]),
+            denominator: one(),
             inside: Vec::new(),
             place: Place(place),
         }
     }
 
-    /// A vertex `X` and an edge `YZ`, from the ways from `X` to both. With `E = Z - Y`, the line is
-    /// `|(Y - X) x (Z - X)| / |E|` away, and the nearest point is `(X - Y) . E / E . E` of the way
-    /// from `Y`; that share and the rest are given to `place`.
+    /// A vertex `X` and an edge `YZ`, from the ways from `X` to both and a vector `E` of which
+    /// `Z - Y` is a multiple by a factor above 0. The line is `|(Y - X) x E| / |E|` away; the nearest
+    /// point is `(X - Y) . E` and `(Z - X) . E` from the ends, times the same. Both shares of their
+    /// sum are given to `place`.
     pub(super) fn vertex_edge(
         to_y: &Vector,
         to_z: &Vector,
+        edge: &Vector,
         place: impl FnOnce([Share; 2]) -> [Share; W],
     ) -> Self {
-        let (turn, edge) = (cross(to_y, to_z), sub(to_z, to_y));
-        let (rest, length) = (dot(to_z, &edge), dot(&edge, &edge));
-        let share = Poly::difference(&length, &rest);
-        let quotient = |n: &Poly| Share::Quotient(n.clone(), length.clone());
+        let turn = cross(to_y, edge);
+        let share = Poly::difference(&Poly::default(), &dot(to_y, edge));
+        let rest = dot(to_z, edge);
+        let all = Poly::sum(&share, &rest);
+        let quotient = |n: &Poly| Share::Quotient(n.clone(), all.clone());
         Pair {
             numerator: dot(&turn, &turn),
             place: Place(place([quotient(&share), quotient(&rest)])),
             inside: vec![share, rest],
-            denominator: length,
+            denominator: dot(edge, edge),
         }
     }
 
@@ -90,12 +94,12 @@ impl<const W: usize> Pair<W> {
         }
     }
 
-    /// A positive multiple of `numerator - square denominator`: 0 where what they span is at the
+    /// A positive multiple of `numerator - R^2 denominator`: 0 where what they span is at the
     /// distance.
     pub(super) fn excess(&self, Reach { square, shift }: &Reach) -> Poly {
         let up = |by: i64| by.max(0).unsigned_abs();
         let own = self.numerator.shifted(up(-shift));
-        let square = Poly::new(&[square.shifted(up(*shift))]);
+        let square = square.shifted(up(*shift));
         Poly::difference(&own, &Poly::product(&square, &self.denominator))
     }
 

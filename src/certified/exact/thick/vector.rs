@@ -1,6 +1,7 @@
 //! Vectors that move: polynomials for components.
 
 use super::Poly;
+use crate::certified::exact::integer::Integer;
 
 pub(in crate::certified::exact) type Vector = [Poly; 3];
 
@@ -20,6 +21,15 @@ pub(in crate::certified::exact) fn cross(x: &Vector, y: &Vector) -> Vector {
 pub(in crate::certified::exact) fn dot(x: &Vector, y: &Vector) -> Poly {
     let [a, b, c] = [0, 1, 2].map(|i| Poly::product(&x[i], &y[i]));
     Poly::sum(&Poly::sum(&a, &b), &c)
+}
+
+pub(in crate::certified::exact) fn times(x: &Vector, factor: &Poly) -> Vector {
+    x.each_ref().map(|x| Poly::product(x, factor))
+}
+
+/// The polynomial that is 1.
+pub(in crate::certified::exact) fn one() -> Poly {
+    Poly::new(&[Integer::from(1)])
 }
 
 /// Whether it is 0 for the whole step.

@@ -1,0 +1,322 @@
+//! Queries of bodies that turn, as lines of JSON, one query a line.
+//!
+//! ```json
+//! {"id": "a", "kind": "edge-turning-edge", "points": [[0, 0, 0], ...], "local": [[0, 0, 0], ...],
+//!  "poses": [[0, 0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0, 0.5]], "radius": 0}
+//! ```
+//!
+//! - `kind`: `edge-turning-edge` or `vertex-turning-face`.
+//! - `points`: the points in space, at `t = 0` and then at `t = 1`: A, B, A, B, or A, A.
+//! - `local`: the points in the body's frame: C, D, or B, C, D.
+//! - `poses`: of the body at `t = 0` and at `t = 1`, seven numbers each: x, y, z of the centre and
+//!   w, x, y, z of the quaternion.
+//! - `id`, `radius`, `label` and `note`, and numbers: as in [`jsonl`].
+
+use std::fs::File;
+use std::io::{self, BufRead, BufReader};
+
+use nalgebra::Quaternion;
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use serde_json::json;
+use tunnelproof::query::{Point, Radius};
+use tunnelproof::rigid::{EdgeTurningEdge, Pose, RigidMotion, RigidQuery, VertexTurningFace};
+
+use super::error::{CorpusError, Problem, shortened};
+use super::jsonl::{self, Label, Number, Numbers, Radii, given, number};
+use super::lines::{Line, Lines};
+use super::packed::Packing;
+use super::until_error;
+use crate::generate::RigidId;
+
+/// A query of a body that turns, of a corpus.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TurningEntry {
+    /// What the query is known by.
+    pub id: String,
+    /// The query.
+    pub query: RigidQuery,
+    /// Whether it is known to be a hit; `None` if the corpus does not say.
+    pub label: Option<bool>,
+}
+
+/// The numbers of a query, in the order of the fields.
+pub struct Fields {
+    /// The points in space at both ends of the step.
+    pub points: Vec<[f64; 3]>,
+    /// The points in the body's frame.
+    pub local: Vec<[f64; 3]>,
+    /// The poses of the body.
+    pub poses: [[f64; 7]; 2],
+}
+
+impl Fields {
+    /// The numbers of a query.
+    pub fn of(query: &RigidQuery) -> Self {
+        let plain = |point: &Point| [point.x, point.y, point.z];
+        let poses = [query.motion().start(), query.motion().end()];
+        Fields {
+            points: query.start().iter().chain(query.end()).map(plain).collect(),
+            local: query.local().iter().map(plain).collect(),
+            poses: poses.map(|Pose { centre, quaternion }| {
+                let ([x, y, z], q) = (plain(centre), quaternion);
+                [x, y, z, q.w, q.i, q.j, q.k]
+            }),
+        }
+    }
+}
+
+/// A query as a line of JSON, without the line end.
+pub fn write(entry: &TurningEntry, numbers: Numbers) -> String {
+    let Fields {
+        points,
+        local,
+        poses,
+    } = Fields::of(&entry.query);
+    let of_points = |points: Vec<[f64; 3]>| -> Vec<_> {
+        let point = |p: [f64; 3]| p.map(|x| number(x, numbers));
+        points.into_iter().map(point).collect()
+    };
+    let label = match entry.label {
+        Some(label) => format!(r#","label":{label}"#),
+        None => String::new(),
+    };
+    format!(
+        r#"{{"id":{},"kind":"{}","points":{},"local":{},"poses":{},"radius":{}{label}}}"#,
+        json!(entry.id),
+        entry.query.kind(),
+        json!(of_points(points)),
+        json!(of_points(local)),
+        json!(poses.map(|pose| pose.map(|x| number(x, numbers)))),
+        jsonl::radius(entry.query.radius(), numbers),
+    )
+}
+
+/// Opens a corpus: the file at `path`, packed or not, or the standard input for `-`.
+///
+/// # Errors
+///
+/// [`CorpusError`] if there is no such file.
+pub fn open(
+    path: &str,
+) -> Result<Box<dyn Iterator<Item = Result<TurningEntry, CorpusError>> + Send>, CorpusError> {
+    if path == "-" {
+        return Ok(Box::new(read(BufReader::new(io::stdin()), path)));
+    }
+    let refuse = |error| CorpusError::new(path, Problem::Io(error));
+    let file = File::open(path).map_err(refuse)?;
+    let file = Packing::of_path(path).0.unpack(file).map_err(refuse)?;
+    Ok(Box::new(read(file, path)))
+}
+
+/// The query that an identifier names: `FAMILY:SEED:INDEX`, `PATH#ID` or, for the first on the
+/// standard input, `-`.
+///
+/// # Errors
+///
+/// [`CorpusError`] if there is no such query.
+pub fn locate(text: &str) -> Result<TurningEntry, CorpusError> {
+    let refuse = |problem| CorpusError::new(text, problem);
+    if let Some(id) = RigidId::parse(text) {
+        return Ok(TurningEntry {
+            id: text.to_owned(),
+            query: id
+                .map_err(|error| refuse(Problem::Generated(error)))?
+                .query(),
+            label: None,
+        });
+    }
+    let (path, id) = match text.rsplit_once('#') {
+        Some((path, id)) => (path, Some(id)),
+        None => (text, None),
+    };
+    let mut count = 0;
+    for entry in open(path)? {
+        let entry = entry?;
+        if id.is_none_or(|id| entry.id == id) {
+            return Ok(entry);
+        }
+        count += 1;
+    }
+    let id = id.unwrap_or_default().to_owned();
+    Err(refuse(Problem::NotFound { id, count }))
+}
+
+/// Reads a corpus that is called `path`.
+pub fn read<R: BufRead + Send + 'static>(
+    reader: R,
+    path: &str,
+) -> impl Iterator<Item = Result<TurningEntry, CorpusError>> + use<R> {
+    let name = path.to_owned();
+    let entries = Lines::new(reader, path).map(move |line| {
+        let line = line?;
+        entry(&line).map_err(|problem| CorpusError::at(&name, line.number, problem))
+    });
+    until_error(entries)
+}
+
+/// The query of one text.
+///
+/// # Errors
+///
+/// [`Problem`] says what is wrong with it.
+pub fn parse(text: &str) -> Result<TurningEntry, Problem> {
+    entry(&Line {
+        number: 1,
+        text: text.to_owned(),
+    })
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Record {
+    id: Option<String>,
+    kind: String,
+    points: Vec<Vec<Number>>,
+    local: Vec<Vec<Number>>,
+    poses: Vec<Vec<Number>>,
+    #[serde(default, deserialize_with = "given")]
+    radius: Option<Radii>,
+    label: Option<Label>,
+    #[serde(default, rename = "note")]
+    _note: IgnoredAny,
+}
+
+fn entry(line: &Line) -> Result<TurningEntry, Problem> {
+    if !line.text.trim_start().starts_with('{') {
+        return Err(Problem::NotObject);
+    }
+    let mut json = serde_json::Deserializer::from_str(&line.text);
+    let record: Record = serde_path_to_error::deserialize(&mut json).map_err(|error| {
+        let place = match error.path().iter().next() {
+            Some(_) => shortened(&error.path().to_string(), 60),
+            None => String::new(),
+        };
+        jsonl::problem(place, error.inner())
+    })?;
+    let end = json.end();
+    end.map_err(|error| jsonl::problem(String::new(), &error))?;
+    let points = rows("points", record.points)?;
+    let local = rows("local", record.local)?;
+    let [start, end] = sized("poses", rows("poses", record.poses)?)?.map(pose);
+    let motion = RigidMotion::new(start, end)?;
+    let radius = match record.radius {
+        Some(radii) => radii.sum()?,
+        None => Radius::ZERO,
+    };
+    let query = query(&record.kind, points, local, motion, radius)?;
+    Ok(TurningEntry {
+        id: record.id.unwrap_or_else(|| line.number.to_string()),
+        query,
+        label: record.label.map(|Label(hit)| hit),
+    })
+}
+
+fn query(
+    kind: &str,
+    points: Vec<[f64; 3]>,
+    local: Vec<[f64; 3]>,
+    motion: RigidMotion,
+    radius: Radius,
+) -> Result<RigidQuery, Problem> {
+    match kind {
+        "edge-turning-edge" => {
+            let [a, b, a1, b1] = sized("points", points)?.map(Point::from);
+            let local = sized("local", local)?.map(Point::from);
+            let query = EdgeTurningEdge::with_radius([a, b], [a1, b1], local, motion, radius)?;
+            Ok(RigidQuery::EdgeTurningEdge(query))
+        }
+        "vertex-turning-face" => {
+            let [start, end] = sized("points", points)?.map(Point::from);
+            let local = sized("local", local)?.map(Point::from);
+            let query = VertexTurningFace::with_radius([start], [end], local, motion, radius)?;
+            Ok(RigidQuery::VertexTurningFace(query))
+        }
+        _ => Err(Problem::TurningKindUnknown(kind.to_owned())),
+    }
+}
+
+/// Rows of this many numbers.
+fn rows<const N: usize>(
+    field: &'static str,
+    rows: Vec<Vec<Number>>,
+) -> Result<Vec<[f64; N]>, Problem> {
+    let row = |(index, row): (usize, Vec<Number>)| {
+        let place = |column: usize| format!("{field}[{index}][{column}]");
+        let numbers = row.into_iter().enumerate();
+        let numbers: Result<Vec<f64>, _> = numbers
+            .map(|(column, number)| number.value(|| place(column)))
+            .collect();
+        array(|| format!("{field}[{index}]"), numbers?)
+    };
+    rows.into_iter().enumerate().map(row).collect()
+}
+
+fn sized<T, const N: usize>(field: &'static str, items: Vec<T>) -> Result<[T; N], Problem> {
+    array(|| field.to_owned(), items)
+}
+
+fn array<T, const N: usize>(place: impl Fn() -> String, items: Vec<T>) -> Result<[T; N], Problem> {
+    let count = items.len();
+    items.try_into().map_err(|_| Problem::Length {
+        place: place(),
+        count,
+        expected: N,
+    })
+}
+
+fn pose([x, y, z, w, i, j, k]: [f64; 7]) -> Pose {
+    Pose::new(Point::new(x, y, z), Quaternion::new(w, i, j, k))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generate::RIGID_FAMILIES;
+
+    #[test]
+    fn turning_lines_are_read_back_bit_for_bit() {
+        for family in RIGID_FAMILIES {
+            for index in 0..50 {
+                let entry = TurningEntry {
+                    id: format!("{}:1:{index}", family.name()),
+                    query: family.query(1, index),
+                    label: Some(index % 2 == 0),
+                };
+                for numbers in [Numbers::Decimal, Numbers::Hexadecimal] {
+                    assert_eq!(parse(&write(&entry, numbers)).unwrap(), entry);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn turning_lines_that_are_wrong_say_where() {
+        let good = r#"{"kind":"vertex-turning-face","points":[[0,0,0],[0,0,1]],"local":[[0,0,0],[1,0,0],[0,1,0]],"poses":[[0,0,0,1,0,0,0],[0,0,0,1,0,0,0.5]]}"#;
+        assert!(parse(good).is_ok());
+        for (from, to, message) in [
+            (
+                "vertex-turning-face",
+                "edge-edge",
+                "kind is \"edge-edge\", neither edge-turning-edge nor vertex-turning-face",
+            ),
+            ("[0,0,1]]", "[0,0]]", "points[1] has 2 items, not 3"),
+            (",[0,1,0]]", "]", "local has 2 items, not 3"),
+            (
+                "1,0,0,0.5",
+                "0,0,0,0",
+                "the quaternion at t = 1 is 0; it needs a length",
+            ),
+            ("[1,0,0]", "[1,0,\"z\"]", "local[1][2]"),
+            (
+                "\"points\"",
+                "\"radius\":-1,\"points\"",
+                "the radius is -1; it has to be finite, and 0 or more",
+            ),
+            ("\"points\"", "\"radios\":1,\"points\"", "unknown field"),
+        ] {
+            let error = parse(&good.replacen(from, to, 1)).unwrap_err().to_string();
+            assert!(error.contains(message), "{error}");
+        }
+    }
+}
