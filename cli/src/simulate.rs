@@ -11,7 +11,7 @@ use tunnelproof::contact::{Case, Flags, Verdict};
 use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
 use tunnelproof::query::EdgeEdge;
 use tunnelproof::thesis::Thesis;
-use tunnelproof::wire::{CrossingOutcome, Mode, StepError, StepRecord, World};
+use tunnelproof::wire::{BodyCrossingOutcome, CrossingOutcome, Mode, StepError, StepRecord, World};
 
 use crate::sweep::Setting;
 use tunnelproof_reference::certify::table::grouped;
@@ -126,6 +126,10 @@ pub struct Summary {
     pub temporarily_parallel: usize,
     /// Guard mode: crossings prevented.
     pub prevented: usize,
+    /// Guard mode: touches of bodies prevented.
+    pub prevented_bodies: usize,
+    /// Thesis mode: midlines that touched the core of a body.
+    pub passed_bodies: usize,
     /// Thesis mode: wires that passed through.
     pub tunnelled: usize,
     /// Thesis mode: wires that came back.
@@ -217,6 +221,12 @@ impl Summary {
                 CrossingOutcome::Grazed => &mut self.grazed,
             } += 1;
         }
+        for crossing in &found.body_crossings {
+            *match crossing.outcome {
+                BodyCrossingOutcome::Prevented => &mut self.prevented_bodies,
+                BodyCrossingOutcome::Passed => &mut self.passed_bodies,
+            } += 1;
+        }
         self.held += found.scaled_islands.len();
         self.remeshes += record.remeshes.len();
         self.refused += found.refused_remeshes;
@@ -255,6 +265,14 @@ impl fmt::Display for Summary {
             ),
             ("temporarily parallel", count(self.temporarily_parallel)),
             ("crossings prevented", count(self.prevented)),
+            (
+                "into bodies",
+                format!(
+                    "prevented {}, passed {}",
+                    count(self.prevented_bodies),
+                    count(self.passed_bodies)
+                ),
+            ),
             (
                 "tunnelled, returned",
                 format!("{}, {}", count(self.tunnelled), count(self.returned)),

@@ -48,7 +48,7 @@ impl Audited {
 ///
 /// The scene cannot be built.
 pub fn audited(scene: &Scene, narrow: Narrow, mode: Mode) -> Result<Audited, SceneError> {
-    let mut audit = Audit::default();
+    let mut audit = Audit::of_world(&scene.world()?);
     let narrow = &*narrow.phase();
     let run = Run {
         scene,

@@ -61,6 +61,30 @@ pub enum What {
         /// The wire.
         wire: usize,
     },
+    /// A midline comes to touch the core of a body, and it was not reported.
+    BodyMissed {
+        /// The body.
+        body: usize,
+        /// When, as a part of the step.
+        toi: f64,
+        /// Whether it passes through a face or an edge inside of both.
+        crossing: bool,
+    },
+    /// A change of resolution passes through the core of a body.
+    BodyRemesh {
+        /// The body.
+        body: usize,
+    },
+    /// A body does not start where the step before left it.
+    BodyJump {
+        /// The body.
+        body: usize,
+    },
+    /// Poses that are no motion of a body, or a body whose shape is not known.
+    BodyUnsound {
+        /// The body.
+        body: usize,
+    },
 }
 
 /// Who missed a contact.
@@ -133,6 +157,29 @@ impl fmt::Display for What {
                 write!(
                     f,
                     "wire {wire} does not start where the step before left it"
+                )
+            }
+            What::BodyMissed {
+                body,
+                toi,
+                crossing,
+            } => {
+                let what = if *crossing { "crossing" } else { "contact" };
+                write!(f, "{what} with body {body} missed, at {toi} of the step")
+            }
+            What::BodyRemesh { body } => {
+                write!(f, "a change of resolution passes through body {body}")
+            }
+            What::BodyJump { body } => {
+                write!(
+                    f,
+                    "body {body} does not start where the step before left it"
+                )
+            }
+            What::BodyUnsound { body } => {
+                write!(
+                    f,
+                    "body {body} has poses that are no motion, or no known shape"
                 )
             }
             What::Unsound { wire } => write!(f, "wire {wire} has numbers that are no motion"),

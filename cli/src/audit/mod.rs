@@ -8,14 +8,19 @@
 //!   the pair, by the exclusion of slow pairs, or by the narrow phase;
 //! - a time of impact that was reported, also in a motion that was tried and not made, is right, early or late;
 //! - a wire that does not start where the step before left it *jumped*: nobody has looked at how it got there;
+//! - a midline that comes to touch the core of a body, in the motion or in a change of resolution, and that was not
+//!   reported; a midline that is inside a core at the end, but for the end of a wire that is fixed to the body;
 //! - the ledger sums up signed passages of each pair of wires. What is not 0 at the end is a *standing tunnel*.
 //!
 //! Pairs that share a node or are fixed to one point are left out. Boxes are compared and not computed, and the ledger moves
 //! wires aside by an infinitesimal, so nothing is rounded anywhere.
 
 mod aside;
+mod bodies;
+mod core;
 mod finding;
 mod ledger;
+mod passing;
 mod remesh;
 mod segments;
 #[cfg(test)]
@@ -27,8 +32,10 @@ use rayon::prelude::*;
 use serde::Serialize;
 use tunnelproof::contact::ContactKind;
 use tunnelproof::query::{EdgeEdge, Point, Query};
-use tunnelproof::wire::{CrossingOutcome, PairAnswer, SegmentId, StepRecord};
+use tunnelproof::wire::recording::Header;
+use tunnelproof::wire::{CrossingOutcome, PairAnswer, Pose, SegmentId, Shape, StepRecord, World};
 
+use self::core::Core;
 use aside::passages;
 use ledger::Ledger;
 use remesh::{Meeting, Wires};
@@ -43,12 +50,14 @@ pub use ledger::Ambiguous;
 pub const MOST_FINDINGS: usize = 1000;
 
 /// An audit under way.
-#[derive(Default)]
 pub struct Audit {
+    cores: Vec<Core>,
     ledger: Ledger,
     left: Option<Wires>,
     /// The wires of contacts in the last step, and where the two segments end.
     last: Vec<([usize; 2], [Point; 4])>,
+    /// Where bodies were left.
+    poses: Option<Vec<Pose>>,
     report: Report,
 }
 
@@ -73,7 +82,17 @@ pub struct Report {
     pub missed_crossings: u64,
     /// Changes of resolution that passed through a segment.
     pub remeshes_through: u64,
-    /// Wires that jumped, or had numbers that are no motion.
+    /// Segments that came near a core: the questions to the oracle about bodies.
+    pub body_pairs: u64,
+    /// Midlines that came to touch a core, in the motions that were made.
+    pub body_contacts: u64,
+    /// Touches of cores that were reported in motions that were tried and not made.
+    pub body_prevented: u64,
+    /// Touches of cores that were not reported.
+    pub body_missed: u64,
+    /// Changes of resolution that passed through a core.
+    pub body_remeshes_through: u64,
+    /// Wires and bodies that jumped, or had numbers that are no motion.
     pub jumps: u64,
     /// Times of impact that were late, and the worst.
     pub late: (u64, f64),
@@ -83,6 +102,8 @@ pub struct Report {
     pub false_hits: u64,
     /// Pairs of wires that have passed through each other at the end: wires and signed number.
     pub standing: Vec<([usize; 2], i64)>,
+    /// Wires and bodies: the midline is inside the core at the end.
+    pub body_standing: Vec<[usize; 2]>,
     /// Pairs of wires of which that cannot be said.
     pub ambiguous: Vec<Ambiguous>,
     /// The first of all that is wrong, at most [`MOST_FINDINGS`].
@@ -92,7 +113,8 @@ pub struct Report {
 impl Report {
     /// Whether nothing passed unnoticed and nothing stands, or may stand, on the wrong side.
     pub fn is_clean(&self) -> bool {
-        self.unnoticed() == 0 && self.standing.is_empty() && self.ambiguous.is_empty()
+        let none_stands = self.standing.is_empty() && self.body_standing.is_empty();
+        self.unnoticed() == 0 && none_stands && self.ambiguous.is_empty()
     }
 
     /// Whether every time of impact was right as well, to the last bit, and no contact made up.
@@ -100,9 +122,10 @@ impl Report {
         self.is_clean() && self.inexact() == 0
     }
 
-    /// How much passed unnoticed, and how often a wire jumped.
+    /// How much passed unnoticed, and how often a wire or a body jumped.
     pub fn unnoticed(&self) -> u64 {
-        self.missed.iter().sum::<u64>() + self.remeshes_through + self.jumps
+        let bodies = self.body_missed + self.body_remeshes_through;
+        self.missed.iter().sum::<u64>() + self.remeshes_through + bodies + self.jumps
     }
 
     /// How often what was reported is not exact: late, early or no contact.
@@ -121,7 +144,12 @@ impl Report {
             What::Early { by } => worst(&mut self.early, by),
             What::False => self.false_hits += 1,
             What::Remesh => self.remeshes_through += 1,
-            What::Jump { .. } | What::Unsound { .. } => self.jumps += 1,
+            What::BodyMissed { .. } => self.body_missed += 1,
+            What::BodyRemesh { .. } => self.body_remeshes_through += 1,
+            What::Jump { .. }
+            | What::Unsound { .. }
+            | What::BodyJump { .. }
+            | What::BodyUnsound { .. } => self.jumps += 1,
         }
         if self.findings.len() < MOST_FINDINGS {
             self.findings.push(finding);
@@ -130,6 +158,28 @@ impl Report {
 }
 
 impl Audit {
+    /// An audit of a world with bodies of these shapes, in the order in which they were added.
+    pub fn new<'a>(bodies: impl IntoIterator<Item = &'a Shape>) -> Self {
+        Audit {
+            cores: bodies.into_iter().map(Core::of).collect(),
+            ledger: Ledger::default(),
+            left: None,
+            last: Vec::new(),
+            poses: None,
+            report: Report::default(),
+        }
+    }
+
+    /// An audit of a recording.
+    pub fn of_recording(header: &Header) -> Self {
+        Audit::new(header.bodies.iter().map(|body| &body.shape))
+    }
+
+    /// An audit of the steps of a world.
+    pub fn of_world(world: &World) -> Self {
+        Audit::new(world.bodies().iter().map(|body| body.shape()))
+    }
+
     /// Looks at the next step.
     pub fn step(&mut self, record: &StepRecord) {
         self.report.steps += 1;
@@ -145,6 +195,7 @@ impl Audit {
         if unsound.is_empty() {
             self.motion(record);
             self.prevented(record);
+            self.beside_bodies(record);
             self.left = Some(self.remeshes(record));
         }
     }
@@ -157,6 +208,7 @@ impl Audit {
                 self.ledger.cut(wires);
             }
         }
+        self.report.body_standing = self.standing_in_bodies();
         self.report.standing = self.ledger.standing();
         self.report.ambiguous = self.ledger.ambiguous();
         self.report
@@ -258,6 +310,9 @@ impl Audit {
                     None,
                 ),
                 Some(met) => {
+                    for body in self.swept_bodies(record, change) {
+                        self.find(record, What::BodyRemesh { body }, &[], None);
+                    }
                     for Meeting {
                         id,
                         query,

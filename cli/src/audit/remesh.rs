@@ -116,6 +116,17 @@ impl Wires {
         Some(met)
     }
 
+    /// The segments of a wire, each with both nodes.
+    pub(super) fn segments(&self, wire: usize) -> impl Iterator<Item = [Node; 2]> + '_ {
+        let windows = self.0[wire].windows(2);
+        windows.map(|two| [two[0], two[1]])
+    }
+
+    /// How many wires there are.
+    pub(super) fn count(&self) -> usize {
+        self.0.len()
+    }
+
     /// How often a change passes through a segment: taking `b` out moves the start of `bc` to `a`.
     fn passages(&self, change: &Remesh, id: SegmentId, two: [Node; 2]) -> Option<Passages> {
         let first = self.place(change)?;

@@ -12,7 +12,7 @@ pub(super) struct Segment {
     pub(super) end: [Point; 2],
     arcs: [f64; 2],
     is_last: [bool; 2],
-    kinds: [NodeKind; 2],
+    pub(super) kinds: [NodeKind; 2],
 }
 
 impl Segment {

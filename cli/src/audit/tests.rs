@@ -9,7 +9,8 @@ use tunnelproof::certified::Certified;
 use tunnelproof::contact::{Contact, Verdict};
 use tunnelproof::narrow::{self, NarrowPhase, Unsupported};
 use tunnelproof::wire::{
-    Collisions, Mode, NodeKind, Remesh, RemeshKind, WireId, WireRecord, World,
+    BodyRecord, Collisions, Mode, NodeKind, Pose, Remesh, RemeshKind, Shape, WireId, WireRecord,
+    World,
 };
 
 use super::*;
@@ -68,7 +69,11 @@ fn records(mut world: World, mut collisions: Collisions<'_>, steps: usize) -> Ve
 }
 
 fn audited(records: &[StepRecord]) -> Report {
-    let mut audit = Audit::default();
+    audited_with(&[], records)
+}
+
+fn audited_with(shapes: &[Shape], records: &[StepRecord]) -> Report {
+    let mut audit = Audit::new(shapes);
     records.iter().for_each(|record| audit.step(record));
     audit.finish()
 }
@@ -93,7 +98,8 @@ fn audit_of_contact_nodes_that_come_and_go_finds_nothing() {
     let records: Vec<StepRecord> = (0..scene.steps())
         .map(|_| world.step_colliding(&mut collisions, &[]).unwrap())
         .collect();
-    let report = audited(&records);
+    let shapes: Vec<Shape> = world.bodies().iter().map(|b| b.shape().clone()).collect();
+    let report = audited_with(&shapes, &records);
     assert!(report.is_exact() && report.prevented > 0, "{report:?}");
     let over = |kind: &&NodeKind| matches!(kind, NodeKind::Contact { .. });
     let rode = |record: &StepRecord| {
@@ -300,4 +306,79 @@ fn audit_finds_a_change_of_resolution_that_jumps_through() {
     }
     let sum = |kind| remeshed(1.0, kind).standing[0].1;
     assert_eq!(sum(RemeshKind::Merge), -sum(RemeshKind::Split));
+}
+
+/// A corner of a wire that is taken out or put in, and a thin body that lies in the triangle.
+fn remeshed_beside_a_body(x: f64, kind: RemeshKind) -> Report {
+    let triangle = [[0.0, 0.0, 0.0], [1.0, 0.3, 0.0], [2.0, 0.0, 0.0]].map(Point::from);
+    let arcs = [0.0, 1.0, 2.0];
+    let (places, arcs_before): (Vec<Point>, Vec<f64>) = match kind {
+        RemeshKind::Merge => (triangle.to_vec(), arcs.to_vec()),
+        RemeshKind::Split => (vec![triangle[0], triangle[2]], vec![0.0, 2.0]),
+    };
+    let pose = Pose {
+        position: Point::new(x, 0.1, 0.0),
+        orientation: Default::default(),
+    };
+    let mut record = StepRecord::default();
+    record.bodies = vec![BodyRecord {
+        before: pose,
+        between: Vec::new(),
+        after: pose,
+    }];
+    record.wires = vec![WireRecord {
+        kinds: vec![NodeKind::Free; places.len()],
+        tensions: vec![0.0; places.len() - 1],
+        arcs: arcs_before,
+        before: places.clone(),
+        after: places,
+    }];
+    record.remeshes = vec![Remesh {
+        wire: WireId(0),
+        kind,
+        triangle,
+        arcs,
+    }];
+    let rod = Shape::Cylinder {
+        radius: 0.002,
+        half_height: 0.5,
+    };
+    audited_with(&[rod], &[record])
+}
+
+#[test]
+fn audit_finds_a_change_of_resolution_that_jumps_through_a_body() {
+    for kind in [RemeshKind::Merge, RemeshKind::Split] {
+        let through = remeshed_beside_a_body(1.0, kind);
+        assert_eq!(through.body_remeshes_through, 1, "{through:?}");
+        assert!(!through.is_clean() && through.body_missed == 0);
+        let beside = remeshed_beside_a_body(-0.1, kind);
+        assert!(beside.is_exact(), "{beside:?}");
+    }
+}
+
+/// A ball at the end of a wire whose eye is in its centre; and a ball that was put on a wire.
+#[test]
+fn audit_tells_the_end_of_a_wire_in_its_body_from_a_wire_in_a_body() {
+    let text = |ball: &str, route: &str| {
+        format!(
+            "title = \"ball\"\nduration = 0.5\n[[bodies]]\nname = \"ball\"\n\
+             shape = {{ sphere = {{ radius = 0.1 }} }}\nposition = {ball}\n\
+             drive = {{ dynamic = {{ density = 1000 }} }}\n[[wires]]\nname = \"wire\"\n\
+             material = {{ radius = 0.01, bend_modulus = 0 }}\nresolution = 0.05\nroute = {route}\n"
+        )
+    };
+    let report = |ball: &str, route: &str| {
+        let scene = Scene::from_toml(&text(ball, route)).unwrap();
+        let world = scene.world().unwrap();
+        let shapes: Vec<Shape> = world.bodies().iter().map(|b| b.shape().clone()).collect();
+        audited_with(&shapes, &records(world, Collisions::default(), 12))
+    };
+    let tied = "[{ pinned = [0, 0, 0] }, { eye = { body = \"ball\", local = [0, 0, 0] } }]";
+    let tied = report("[0, 0, -1]", tied);
+    assert!(tied.is_exact() && tied.steps == 12, "{tied:?}");
+    let through = "[{ pinned = [-1, 0, 0] }, { pinned = [1, 0, 0] }]";
+    let through = report("[0, 0, 0]", through);
+    assert_eq!(through.body_standing, [[0, 0]], "{through:?}");
+    assert_eq!((through.body_missed, through.is_clean()), (0, false));
 }

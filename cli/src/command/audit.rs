@@ -46,7 +46,7 @@ impl Audit {
         let page = self.replay.as_deref().map(OutputFile::create).transpose()?;
         let mut replay = page.is_some().then(|| self.empty_page()).transpose()?;
         let recording = self.open()?;
-        let mut auditor = Auditor::default();
+        let mut auditor = Auditor::of_recording(recording.header());
         progress::counting("steps", |done| {
             for record in recording {
                 let record = record.map_err(|error| self.wrong(error))?;

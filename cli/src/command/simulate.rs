@@ -222,7 +222,7 @@ impl<'a> Watch<'a> {
         Ok(Watch {
             vtk: options.vtk.as_deref().map(polygons).transpose()?,
             recorder: options.record.as_deref().map(record).transpose()?,
-            audit: options.audit.then(Audit::default),
+            audit: options.audit.then(|| Audit::of_world(world)),
             replay: options.replay.as_ref().map(|_| {
                 let replay = Replay::new(&scene.title, Header::from(world), scene.steps());
                 replay.named_as_in(scene)

@@ -10,8 +10,8 @@ use serde::Serialize;
 use tunnelproof::query::Point;
 use tunnelproof::wire::recording::Header;
 use tunnelproof::wire::{
-    BodyRecord, ContactRecord, ContactSite, CrossingOutcome, NodeKind, Pose, StepRecord, Vector,
-    WireRecord,
+    BodyCrossingOutcome, BodyRecord, ContactRecord, ContactSite, CrossingOutcome, NodeKind, Pose,
+    StepRecord, Vector, WireRecord,
 };
 
 use crate::audit::{Finding, Report};
@@ -113,6 +113,13 @@ impl Replay {
             };
             *self.events.entry(name).or_default() += 1;
         }
+        for crossing in &record.collisions.body_crossings {
+            let name = match crossing.outcome {
+                BodyCrossingOutcome::Prevented => "prevented",
+                BodyCrossingOutcome::Passed => "tunnelled",
+            };
+            *self.events.entry(name).or_default() += 1;
+        }
         if (record.step + 1).is_multiple_of(self.stride) {
             let events = std::mem::take(&mut self.events);
             let frame = Frame::after(record, self.header.settings.step, events);
@@ -173,8 +180,8 @@ impl Replay {
             }
             Some(report) => format!(
                 "step {step:.4} s, audited: {} contacts missed, {} standing tunnels, {} ambiguous",
-                report.missed.iter().sum::<u64>(),
-                report.standing.len(),
+                report.missed.iter().sum::<u64>() + report.body_missed,
+                report.standing.len() + report.body_standing.len(),
                 report.ambiguous.len()
             ),
         }
@@ -194,6 +201,7 @@ impl Frame {
     fn before(record: &StepRecord, step: f64) -> Self {
         let rest = |body: &BodyRecord| BodyRecord {
             before: body.before,
+            between: Vec::new(),
             after: body.before,
         };
         let mut start = record.clone();
@@ -264,8 +272,12 @@ fn pose(pose: &Pose) -> [f64; 7] {
 
 /// The angle of a step's turn over its time, which is how the stepper turns a body.
 fn spin(body: &BodyRecord, step: f64) -> f64 {
-    let turn = body.after.orientation * body.before.orientation.inverse();
-    let spin = turn.angle() / step;
+    let (mut last, mut angle) = (body.before.orientation, 0.0);
+    for pose in body.between.iter().chain([&body.after]) {
+        angle += (pose.orientation * last.inverse()).angle();
+        last = pose.orientation;
+    }
+    let spin = angle / step;
     (spin * 1e4).round() / 1e4
 }
 

@@ -31,11 +31,20 @@ pub fn text(report: &Report) -> String {
         ("missed by narrow phase", narrow),
         ("missed crossings", grouped(report.missed_crossings)),
         ("changes that pass", grouped(report.remeshes_through)),
+        ("segments beside bodies", grouped(report.body_pairs)),
+        ("touches of bodies made", grouped(report.body_contacts)),
+        ("  prevented", grouped(report.body_prevented)),
+        ("  missed", grouped(report.body_missed)),
+        ("changes into bodies", grouped(report.body_remeshes_through)),
         ("jumps", grouped(report.jumps)),
         ("times late", worst(report.late)),
         ("times early", worst(report.early)),
         ("contacts made up", grouped(report.false_hits)),
         ("standing tunnels", grouped(report.standing.len() as u64)),
+        (
+            "standing in bodies",
+            grouped(report.body_standing.len() as u64),
+        ),
         ("ambiguous", grouped(report.ambiguous.len() as u64)),
     ];
     let mut text = String::from("Audit by the exact oracle\n");
@@ -44,6 +53,9 @@ pub fn text(report: &Report) -> String {
     }
     for ([a, b], passages) in &report.standing {
         text += &format!("  wires {a} and {b} have passed through each other: {passages:+}\n");
+    }
+    for [wire, body] in &report.body_standing {
+        text += &format!("  wire {wire} is inside body {body}\n");
     }
     for ambiguous in &report.ambiguous {
         text += &format!("  {ambiguous}\n");

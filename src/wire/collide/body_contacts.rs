@@ -116,6 +116,12 @@ impl BodyContacts {
         self.last = contacts.to_vec();
     }
 
+    /// A key that no other contact has.
+    pub(super) fn next_key(&mut self) -> u64 {
+        self.given += 1;
+        KEYS + self.given
+    }
+
     /// Notes where bodies push on wires.
     pub(super) fn note(&mut self, records: &[ContactRecord]) {
         self.pushed.clear();

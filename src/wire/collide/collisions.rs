@@ -1,6 +1,7 @@
 //! How collisions in a world are found, and what is known of them from step to step.
 
 use super::body_contacts::BodyContacts;
+use super::body_detect::CoreDetection;
 use super::detect::Pipeline;
 use super::segment::PairFilter;
 use super::wire_contacts::WireContacts;
@@ -33,6 +34,7 @@ pub struct Collisions<'n> {
     pub(super) touches: WireContacts,
     /// None if bodies are the caller's.
     pub(super) obstacles: Option<BodyContacts>,
+    pub(super) cores: CoreDetection,
     /// Whether wires get contact nodes where bodies bend them.
     pub(super) contact_nodes: bool,
 }
@@ -56,6 +58,7 @@ impl<'n> Collisions<'n> {
             pipeline: Pipeline::new(method),
             touches: WireContacts::default(),
             obstacles: Some(BodyContacts::new(method)),
+            cores: CoreDetection::new(method),
             contact_nodes: false,
         }
     }
@@ -78,7 +81,8 @@ impl<'n> Collisions<'n> {
         self
     }
 
-    /// The same without contacts with bodies: all of them are given to the step.
+    /// The same without contacts with bodies: all of them are given to the step, and wires may go
+    /// through bodies.
     #[must_use]
     pub fn without_bodies(mut self) -> Self {
         self.obstacles = None;
@@ -106,6 +110,6 @@ impl<'n> Collisions<'n> {
             .obstacles
             .as_ref()
             .map_or(0.0, BodyContacts::broad_seconds);
-        self.pipeline.broad_seconds() + obstacles
+        self.pipeline.broad_seconds() + self.cores.broad_seconds() + obstacles
     }
 }

@@ -3,19 +3,20 @@
 use std::collections::BTreeSet;
 
 use super::body_contacts::BodyContacts;
+use super::body_detect::BodyHit;
 use super::collisions::{Collisions, Mode};
 use super::detect::{Detections, MidlineHit};
 use super::islands::Islands;
 use super::segment::{pair_at, reach};
 use super::wire_contacts::{WireContact, WireContacts};
-use super::{contact_node_insertion, remesh};
+use super::{body_remesh, contact_node_insertion, remesh};
 use crate::wire::Vector;
 use crate::wire::contact::ContactConstraint;
 use crate::wire::error::CollisionError;
 use crate::wire::error::Reason;
 use crate::wire::model::WireId;
 use crate::wire::record::ContactRecord;
-use crate::wire::record::{CollisionRecord, CrossingOutcome};
+use crate::wire::record::{BodyCrossingOutcome, CollisionRecord, CrossingOutcome};
 use crate::wire::resolution::{Remesh, RemeshGuard, RemeshKind};
 use crate::wire::step::callbacks::{MotionReview, StepCallbacks};
 use crate::wire::step::contact_nodes::ContactNodeInsertion;
@@ -48,6 +49,7 @@ impl<'a, 'n> Guard<'a, 'n> {
         let mut contacts = given.to_vec();
         contacts.extend(collisions.touches.contacts(collisions.friction));
         if let Some(obstacles) = &mut collisions.obstacles {
+            collisions.cores.learn(world);
             let (found, tested) = obstacles.contacts(world, collisions.friction)?;
             contacts.extend(found);
             record.tested_bodies = tested;
@@ -60,6 +62,19 @@ impl<'a, 'n> Guard<'a, 'n> {
             islands: None,
             record,
         })
+    }
+
+    /// The midlines that touch cores, unless bodies are the caller's.
+    fn touched_bodies(
+        &mut self,
+        world: &World,
+        motion: &ProposedMotion,
+    ) -> Result<Vec<BodyHit>, CollisionError> {
+        if self.collisions.obstacles.is_none() {
+            return Ok(Vec::new());
+        }
+        let cores = &mut self.collisions.cores;
+        cores.detect(world, motion, &mut self.record)
     }
 
     /// A contact for each hit that has a normal; whether there is any.
@@ -76,6 +91,30 @@ impl<'a, 'n> Guard<'a, 'n> {
             }
         }
         self.added.len() > before
+    }
+
+    /// A contact for each touch of a core that has a normal; whether there is any.
+    fn add_body_contacts(
+        &mut self,
+        world: &World,
+        motion: &ProposedMotion,
+        hits: &[BodyHit],
+    ) -> bool {
+        let before = self.contacts.len();
+        let Some(obstacles) = &mut self.collisions.obstacles else {
+            return false;
+        };
+        let mut placed = BTreeSet::new();
+        for hit in hits {
+            let inset = self.collisions.cores.cores[hit.body.0].inset();
+            let key = obstacles.next_key();
+            let row = hit.row(world, motion, inset, self.collisions.friction, key);
+            // A node is found by the segments on both sides.
+            if placed.insert((hit.body, hit.site.wire, hit.site.arc.to_bits())) {
+                self.contacts.extend(row);
+            }
+        }
+        self.contacts.len() > before
     }
 
     /// Ends the step: what was found becomes contacts of the next.
@@ -141,6 +180,19 @@ fn passage(touches: &mut WireContacts, world: &World, hit: &MidlineHit) -> Cross
     }
 }
 
+/// What still meets though nothing moves.
+fn touching(wires: &[MidlineHit], bodies: &[BodyHit]) -> CollisionError {
+    match (wires, bodies) {
+        ([], [first, ..]) => CollisionError::TouchingBody {
+            site: first.site,
+            body: first.body,
+        },
+        _ => CollisionError::Touching {
+            sites: wires[0].sites,
+        },
+    }
+}
+
 impl StepCallbacks for Guard<'_, '_> {
     fn contacts(&self) -> &[ContactConstraint] {
         &self.contacts
@@ -159,7 +211,15 @@ impl StepCallbacks for Guard<'_, '_> {
             ..
         } = &mut *self.collisions;
         let found = pipeline.detect(world, motion, *narrow, *filter, &mut self.record)?;
-        if found.hits.is_empty() || self.collisions.mode == Mode::Thesis {
+        let touched = self.touched_bodies(world, motion)?;
+        let outcome = match self.collisions.mode {
+            Mode::Guard => BodyCrossingOutcome::Prevented,
+            Mode::Thesis => BodyCrossingOutcome::Passed,
+        };
+        let crossings = touched.iter().map(|hit| hit.crossing(outcome));
+        self.record.body_crossings.extend(crossings);
+        let is_free = found.hits.is_empty() && touched.is_empty();
+        if is_free || self.collisions.mode == Mode::Thesis {
             self.found = found;
             return Ok(MotionReview::Accept);
         }
@@ -170,17 +230,17 @@ impl StepCallbacks for Guard<'_, '_> {
         self.record.crossings.extend(prevented);
         if self.islands.is_none() && self.record.rounds < ROUNDS {
             self.record.rounds += 1;
-            if self.add_contacts(world, &found.hits) {
+            let between_wires = self.add_contacts(world, &found.hits);
+            if self.add_body_contacts(world, motion, &touched) || between_wires {
                 return Ok(MotionReview::SolveAgain);
             }
         }
         let start = || Islands::new(world, &self.contacts, impulses);
         let islands = self.islands.get_or_insert_with(start);
         if islands.is_still() {
-            let sites = found.hits[0].sites;
-            return Err(CollisionError::Touching { sites }.into());
+            return Err(touching(&found.hits, &touched).into());
         }
-        islands.shorten(&found.hits);
+        islands.shorten(world, &found.hits, &touched);
         Ok(MotionReview::Scale(islands.motion_scales()))
     }
 
@@ -206,6 +266,7 @@ impl RemeshGuard for Guard<'_, '_> {
             mode,
             touches,
             obstacles,
+            cores,
             ..
         } = &*self.collisions;
         let [from, _, to] = change.arcs;
@@ -224,7 +285,9 @@ impl RemeshGuard for Guard<'_, '_> {
         let refused = *mode == Mode::Guard
             && (change.kind == RemeshKind::Merge && (loaded() || through())
                 // A triangle that cannot be tested is not swept.
-                || remesh::meets(world, change, *filter).unwrap_or(true));
+                || remesh::meets(world, change, *filter).unwrap_or(true)
+                || obstacles.is_some()
+                    && body_remesh::meets(world, change, &cores.cores).unwrap_or(true));
         self.record.refused_remeshes += usize::from(refused);
         !refused
     }

@@ -1,5 +1,6 @@
 //! ProposedMotion that is shortened because a crossing is left.
 
+use super::body_detect::BodyHit;
 use super::detect::MidlineHit;
 use crate::wire::Vector;
 use crate::wire::contact::{ContactConstraint, ContactSite};
@@ -85,7 +86,7 @@ impl Islands {
     }
 
     /// Joins the islands of each hit and scales their motion down.
-    pub(super) fn shorten(&mut self, hits: &[MidlineHit]) {
+    pub(super) fn shorten(&mut self, world: &World, hits: &[MidlineHit], bodies: &[BodyHit]) {
         self.attempts += 1;
         if self.attempts > ATTEMPTS {
             self.scale.fill(0.0);
@@ -94,10 +95,15 @@ impl Islands {
         for hit in hits {
             self.join(hit.sites[0].wire.0, hit.sites[1].wire.0);
         }
+        for hit in bodies.iter().filter(|hit| moves(world, hit.body)) {
+            self.join(hit.site.wire.0, self.wires + hit.body.0);
+        }
         let mut part = vec![1.0f64; self.scale.len()];
-        for hit in hits {
-            let root = self.root(hit.sites[0].wire.0);
-            part[root] = part[root].min(SAFETY * hit.contact.toi);
+        let of_wires = hits.iter().map(|hit| (hit.sites[0].wire, hit.contact.toi));
+        let of_bodies = bodies.iter().map(|hit| (hit.site.wire, hit.toi));
+        for (wire, toi) in of_wires.chain(of_bodies) {
+            let root = self.root(wire.0);
+            part[root] = part[root].min(SAFETY * toi);
         }
         for (scale, part) in self.scale.iter_mut().zip(part) {
             *scale *= part;

@@ -8,8 +8,9 @@
 //! swept boxes, broad phase, exclusion of slow pairs, narrow phase. Pairs that do not meet on the
 //! way but end up closer than their radii get a contact for the next step (thesis 3.2.4). Contacts
 //! stay on their place of the material and slide with the closest points (`touch`). What a crossing
-//! leads to is the [`Mode`]. Contacts with bodies are found where a step starts (`obstacle`), by a
-//! collision library (`form`).
+//! leads to is the [`Mode`]. Contacts with bodies are found where a step starts (`body_contacts`), by
+//! a collision library (`collision_shape`). Besides, midlines are tested continuously against the
+//! cores of bodies (`body_detect`), which no motion that is made lets them touch.
 //!
 //! ```
 //! use tunnelproof::query::Point;
@@ -34,10 +35,14 @@
 //! ```
 
 mod body_contacts;
+mod body_detect;
+mod body_motion;
+mod body_remesh;
 mod boxes;
 mod collision_shape;
 mod collisions;
 mod contact_node_insertion;
+mod core_boxes;
 mod detect;
 mod guard;
 mod islands;
@@ -63,9 +68,10 @@ impl World {
     /// Does one step in which wires collide with wires and bodies, and bodies with bodies. `given`
     /// are more contacts; keys from 2^63 on are not theirs to use.
     ///
-    /// In guard mode no wire passes through another or through itself, changes of resolution
-    /// included. Segments that share a node, or are fixed to the same point, are not tested against
-    /// each other.
+    /// In guard mode no wire passes through another or through itself, and none through a body,
+    /// changes of resolution included. Segments that share a node, or are fixed to the same point,
+    /// are not tested against each other. A segment that touches the core of a body, or is inside
+    /// it, is not tested against this body until it is outside.
     ///
     /// # Errors
     ///

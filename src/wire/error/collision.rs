@@ -5,6 +5,7 @@ use std::fmt;
 use crate::broad::BroadError;
 use crate::narrow::Unsupported;
 use crate::query::QueryError;
+use crate::rigid::RigidError;
 use crate::wire::model::BodyId;
 use crate::wire::site::WireSite;
 
@@ -16,6 +17,15 @@ pub enum CollisionError {
         /// The two places.
         sites: [WireSite; 2],
     },
+    /// A midline touches a body where the step starts, and nothing that moves keeps it away.
+    TouchingBody {
+        /// The place on the wire.
+        site: WireSite,
+        /// The body.
+        body: BodyId,
+    },
+    /// A body's motion or a segment beside it is no query.
+    Rigid(RigidError),
     /// The collision library does not take the mesh of a body.
     Mesh {
         /// The body.
@@ -35,6 +45,14 @@ impl fmt::Display for CollisionError {
             CollisionError::Touching { sites: [a, b] } => {
                 write!(f, "the midlines of {a} and {b} touch before the step")
             }
+            CollisionError::TouchingBody { site, body } => {
+                write!(
+                    f,
+                    "the midline of {site} touches body {} before the step",
+                    body.0
+                )
+            }
+            CollisionError::Rigid(error) => write!(f, "body: {error}"),
             CollisionError::Mesh { body } => {
                 write!(
                     f,
@@ -54,6 +72,12 @@ impl std::error::Error for CollisionError {}
 impl From<BroadError> for CollisionError {
     fn from(error: BroadError) -> Self {
         CollisionError::Broad(error)
+    }
+}
+
+impl From<RigidError> for CollisionError {
+    fn from(error: RigidError) -> Self {
+        CollisionError::Rigid(error)
     }
 }
 

@@ -83,6 +83,15 @@ impl BodyPlan {
         for &component in self.orientation.coords.iter() {
             finite("orientation", component)?;
         }
+        let length = self.orientation.norm();
+        if (length - 1.0).abs() > 1e-9 {
+            let accepted = "1 within 1e-9";
+            return Err(ModelError::value(
+                "length of the orientation",
+                length,
+                accepted,
+            ));
+        }
         self.shape.check()?;
         let mut body = Body {
             shape: self.shape,

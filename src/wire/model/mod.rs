@@ -2,6 +2,7 @@
 
 mod body;
 pub(super) mod check;
+pub(super) mod core;
 mod error;
 mod material;
 mod mesh;

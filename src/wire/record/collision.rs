@@ -18,6 +18,8 @@ pub struct CollisionRecord {
     pub tested: usize,
     /// Pairs of a segment or a body with a body that were tested.
     pub tested_bodies: usize,
+    /// Segments whose boxes met that of a core, and that were tested against it continuously.
+    pub tested_cores: usize,
     /// Tests by [`Case`], in the order of [`Case::ALL`], as far as the narrow phase knows it.
     pub cases: [usize; Case::ALL.len()],
     /// Contacts at which the segments are parallel for an instant.
@@ -29,6 +31,9 @@ pub struct CollisionRecord {
     /// Midlines that met during the motion: in guard mode every pair of segments in every motion
     /// that was tried.
     pub crossings: Vec<Crossing>,
+    /// Midlines that touched the core of a body: in guard mode each segment in every motion that was
+    /// tried. A segment that touches the core or is inside it as the step starts is left out.
+    pub body_crossings: Vec<BodyCrossing>,
     /// Every pair that the broad phase named in the motion that was made, with segments numbered as
     /// before it.
     pub pairs: Vec<PairRecord>,
@@ -56,6 +61,32 @@ pub struct Crossing {
     pub start: [Point; 4],
     /// Where it ends.
     pub end: [Point; 4],
+}
+
+/// A midline that touches the core of a body during the motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct BodyCrossing {
+    /// The body.
+    pub body: BodyId,
+    /// The segment, numbered as before the motion.
+    pub segment: SegmentId,
+    /// Where on the wire: arc length in m.
+    pub arc: f64,
+    /// When, from 0 to 1 in the step.
+    pub toi: f64,
+    /// What became of it.
+    pub outcome: BodyCrossingOutcome,
+}
+
+/// What became of a midline that touched a core.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum BodyCrossingOutcome {
+    /// Guard mode: that motion was not made.
+    Prevented,
+    /// Thesis mode: it was made.
+    Passed,
 }
 
 /// A pair of segments that the broad phase named.

@@ -3,15 +3,17 @@
 mod collision;
 
 pub use collision::{
-    CollisionRecord, Crossing, CrossingOutcome, PairAnswer, PairRecord, ScaledIsland,
+    BodyCrossing, BodyCrossingOutcome, CollisionRecord, Crossing, CrossingOutcome, PairAnswer,
+    PairRecord, ScaledIsland,
 };
 
 use nalgebra::UnitQuaternion;
 
 use super::contact::ContactConstraint;
 use super::energy::Energy;
-use super::model::{NodeKind, WireId};
+use super::model::{Body, BodyId, NodeKind, WireId};
 use super::resolution::Remesh;
+use super::step::motion::ProposedMotion;
 use super::vector::Vector;
 use super::world::World;
 use crate::query::Point;
@@ -62,12 +64,15 @@ pub struct WireRecord {
     pub tensions: Vec<f64>,
 }
 
-/// A body in a step.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A body in a step. From pose to pose it turns as [`RigidMotion`](crate::rigid::RigidMotion) says.
+#[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BodyRecord {
     /// Before the motion.
     pub before: Pose,
+    /// On the way, at equal times, where it turns by more than 45 degrees: from one pose to the
+    /// next it turns by at most that.
+    pub between: Vec<Pose>,
     /// After it.
     pub after: Pose,
 }
@@ -166,6 +171,7 @@ impl StepRecord {
         });
         let poses = poses(world).map(|before| BodyRecord {
             before,
+            between: Vec::new(),
             after: before,
         });
         StepRecord {
@@ -173,6 +179,15 @@ impl StepRecord {
             wires: wires.collect(),
             bodies: poses.collect(),
             ..StepRecord::default()
+        }
+    }
+
+    /// Adds the poses on the way of a motion.
+    pub(in crate::wire) fn turns(&mut self, motion: &ProposedMotion) {
+        for (body, record) in self.bodies.iter_mut().enumerate() {
+            record
+                .between
+                .clone_from(&motion.body(BodyId(body)).between);
         }
     }
 
@@ -191,10 +206,17 @@ impl StepRecord {
 }
 
 fn poses(world: &World) -> impl Iterator<Item = Pose> {
-    world.bodies.iter().map(|body| Pose {
-        position: body.position,
-        orientation: body.orientation,
-    })
+    world.bodies.iter().map(Pose::of)
+}
+
+impl Pose {
+    /// Where a body is.
+    pub(in crate::wire) fn of(body: &Body) -> Self {
+        Pose {
+            position: body.position,
+            orientation: body.orientation,
+        }
+    }
 }
 
 impl World {

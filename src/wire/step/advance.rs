@@ -55,6 +55,7 @@ impl World {
         let mut record = StepRecord::before(self);
         record.contacts = self.contact_records(watch.contacts(), &candidate.swept.impulses);
         record.solver = candidate.solver.clone();
+        record.turns(&motion);
         let keys = watch.contacts().iter().map(|contact| contact.key);
         let impulses = candidate.swept.impulses.iter().copied();
         self.cache.warm_start = WarmStart::new(keys.zip(impulses));

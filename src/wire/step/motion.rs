@@ -6,7 +6,15 @@ use super::carrier::{Carrier, Layout};
 use super::spin::turn;
 use crate::query::Point;
 use crate::wire::Vector;
+use crate::wire::model::BodyId;
+use crate::wire::record::Pose;
 use crate::wire::world::World;
+
+/// The largest turn from pose to pose of a motion, in radians: 45 degrees.
+const TURN: f64 = std::f64::consts::FRAC_PI_4;
+
+/// The most of these turns in a motion; what turns farther has no way that could be tested.
+const MOST_TURNS: f64 = 4096.0;
 
 /// Positions and velocities at the end of a step.
 pub(in crate::wire) struct ProposedMotion {
@@ -25,11 +33,16 @@ pub(super) struct SlideRate {
     pub(super) speed: f64,
 }
 
-struct BodyMotion {
-    position: Point,
-    orientation: UnitQuaternion<f64>,
-    velocity: Vector,
-    angular_velocity: Vector,
+/// Where a body ends, and how fast it is there.
+pub(in crate::wire) struct BodyMotion {
+    pub(in crate::wire) position: Point,
+    pub(in crate::wire) orientation: UnitQuaternion<f64>,
+    pub(in crate::wire) velocity: Vector,
+    pub(in crate::wire) angular_velocity: Vector,
+    /// Poses on the way, so that it turns by at most [`TURN`] from one to the next.
+    pub(in crate::wire) between: Vec<Pose>,
+    /// Whether it turns so little that there are poses on its way.
+    pub(in crate::wire) is_followed: bool,
 }
 
 /// The factor on the motion of each wire and body, from 0 to 1.
@@ -79,7 +92,19 @@ impl World {
             };
             let (velocity, angular_velocity) = (velocity * scale, spin * scale);
             let turned = turn(&body.orientation, &angular_velocity, step);
+            let turns = (angular_velocity.norm() * step / TURN).ceil();
+            let is_followed = turns <= MOST_TURNS;
+            let turns = if is_followed { turns } else { 1.0 };
+            let on_way = (1..turns as u32).map(|turn_number| {
+                let time = step * (f64::from(turn_number) / turns);
+                Pose {
+                    position: body.position + velocity * time,
+                    orientation: turn(&body.orientation, &angular_velocity, time),
+                }
+            });
             moved.bodies.push(BodyMotion {
+                between: on_way.collect(),
+                is_followed,
                 position: body.position + velocity * step,
                 // Turning by nothing normalises, which may change bits.
                 orientation: if scale > 0.0 {
@@ -149,6 +174,25 @@ impl ProposedMotion {
                 ];
                 turned && vectors.into_iter().all(is_finite)
             })
+    }
+
+    /// How a body ends.
+    pub(in crate::wire) fn body(&self, body: BodyId) -> &BodyMotion {
+        &self.bodies[body.0]
+    }
+
+    /// The poses of a body of `world` from the start to the end. From one to the next it turns by
+    /// 45 degrees at most.
+    pub(in crate::wire) fn poses(&self, world: &World, body: BodyId) -> Vec<Pose> {
+        let to = self.body(body);
+        let mut poses = Vec::with_capacity(to.between.len() + 2);
+        poses.push(Pose::of(&world.bodies[body.0]));
+        poses.extend(&to.between);
+        poses.push(Pose {
+            position: to.position,
+            orientation: to.orientation,
+        });
+        poses
     }
 
     /// How fast the arc length of a node grows, in m/s.

@@ -1,0 +1,398 @@
+//! Midlines against the cores of bodies, from the records alone.
+//!
+//! A body goes from pose to pose as `RigidMotion` says, and nodes go straight, but for those fixed
+//! to the body: on the way of such a segment there are more places at which the node is where the
+//! body has it (docs/wires.md). Each part of a way is asked of the oracle: each node against each
+//! face, the segment against each edge. Left out before that is what is apart in the body's frame:
+//! there a node strays from the straight line between its places by at most
+//! `((1.5 a^2 r + 2.5 a d) / 8`, with the angle `a` of the turn, at most 45 degrees, the largest
+//! distance `r` from the centre and the displacement `d` seen from it, because its acceleration is
+//! at most `(w^2 + |w'|) r + 2 w d`, `w <= 1.02 a` and `|w'| <= 0.2 a^2`.
+
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use tunnelproof::contact::ContactKind;
+use tunnelproof::query::Point;
+use tunnelproof::rigid::{
+    EdgeTurningEdge, Pose, RigidError, RigidMotion, RigidQuery, VertexTurningFace,
+};
+use tunnelproof::wire::{self, BodyRecord, NodeKind};
+use tunnelproof_reference::answer::ExactHit;
+use tunnelproof_reference::oracle::decide_rigid_query;
+
+use super::core::{Core, ROUNDING, Surface};
+
+type Vector = Vector3<f64>;
+
+/// The largest turn of a part, in radians, for a segment that is fixed to the body.
+const FINE: f64 = std::f64::consts::PI / 180.0;
+
+/// The way of a body in a step.
+pub(super) struct BodyWay {
+    pieces: Vec<RigidMotion>,
+}
+
+/// A segment's nodes at the start and the end of a step, and where they are fixed to the body.
+#[derive(Clone, Copy)]
+pub(super) struct SegmentWay {
+    pub(super) start: [Point; 2],
+    pub(super) end: [Point; 2],
+    pub(super) fixed: [Option<Point>; 2],
+}
+
+/// The first contact of a segment and a core.
+pub(super) struct Touch {
+    /// As a part of the step, rounded down.
+    pub(super) toi: f64,
+    pub(super) crossing: bool,
+}
+
+/// A part of a way in which nodes go straight.
+struct Part {
+    motion: RigidMotion,
+    start: [Point; 2],
+    end: [Point; 2],
+}
+
+impl BodyWay {
+    pub(super) fn new(body: &BodyRecord) -> Result<Self, RigidError> {
+        let mut poses = vec![pose(&body.before)];
+        poses.extend(body.between.iter().map(pose));
+        poses.push(pose(&body.after));
+        let pieces = poses.windows(2).map(|two| RigidMotion::new(two[0], two[1]));
+        Ok(BodyWay {
+            pieces: pieces.collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// At rest.
+    pub(super) fn resting(at: &wire::Pose) -> Result<Self, RigidError> {
+        let pieces = vec![RigidMotion::new(pose(at), pose(at))?];
+        Ok(BodyWay { pieces })
+    }
+
+    /// The motion of its first piece.
+    pub(super) fn first(&self) -> &RigidMotion {
+        &self.pieces[0]
+    }
+
+    /// Where it starts.
+    pub(super) fn pose(&self) -> &Pose {
+        self.pieces[0].start()
+    }
+
+    fn is_still(&self) -> bool {
+        self.pieces.iter().all(|piece| piece.start() == piece.end())
+    }
+
+    /// The first contact of a segment, if it neither touches the core nor is inside it at the
+    /// start; and how many parts were asked about.
+    pub(super) fn touch(
+        &self,
+        segment: &SegmentWay,
+        core: &Core,
+    ) -> Result<(Option<Touch>, u64), RigidError> {
+        let rides = segment.fixed.iter().all(Option::is_some);
+        if rides || self.is_still() && segment.start == segment.end {
+            return Ok((None, 0));
+        }
+        let (pieces, mut asked) = (self.pieces.len() as f64, 0);
+        for piece in 0..self.pieces.len() {
+            let parts = self.parts(segment, piece);
+            for k in 0..parts {
+                let part = self.part(segment, piece, k, parts)?;
+                let Some(hit) = part.touch(core, &mut asked)? else {
+                    continue;
+                };
+                let initial = (piece, k) == (0, 0) && hit.is_initial();
+                if initial || is_in(core, self.pieces[0].start(), &segment.start)? {
+                    return Ok((None, asked));
+                }
+                let at = |k: usize| (piece as f64 + k as f64 / parts as f64) / pieces;
+                let [from, to] = [at(k), at(k + 1)];
+                let touch = Touch {
+                    toi: from + (to - from) * hit.toi.below,
+                    crossing: hit.kind == ContactKind::Crossing || hit.crosses,
+                };
+                return Ok((Some(touch), asked));
+            }
+        }
+        Ok((None, asked))
+    }
+
+    /// Into how many parts a piece is divided: one, or so that four times the tangent of a quarter
+    /// of the turn is at most a degree in each.
+    fn parts(&self, segment: &SegmentWay, piece: usize) -> usize {
+        if segment.fixed == [None, None] {
+            return 1;
+        }
+        ((4.0 * quarter_tangent(&self.pieces[piece]) / FINE).ceil() as usize).max(1)
+    }
+
+    fn part(
+        &self,
+        segment: &SegmentWay,
+        piece: usize,
+        k: usize,
+        parts: usize,
+    ) -> Result<Part, RigidError> {
+        let ends = |k: usize| [0, 1].map(|node| self.place(segment, node, piece, k, parts));
+        let motion = self.pieces[piece];
+        let pose = |k: usize| pose_on_way(&motion, k, parts);
+        Ok(Part {
+            motion: RigidMotion::new(pose(k), pose(k + 1))?,
+            start: ends(k),
+            end: ends(k + 1),
+        })
+    }
+
+    /// Where a node is after `k` of the parts of a piece.
+    fn place(&self, way: &SegmentWay, node: usize, piece: usize, k: usize, parts: usize) -> Point {
+        let (piece, k) = if k == parts {
+            (piece + 1, 0)
+        } else {
+            (piece, k)
+        };
+        let t = k as f64 / parts as f64;
+        match (self.pieces.get(piece), way.fixed[node]) {
+            (None, _) => way.end[node],
+            _ if piece == 0 && k == 0 => way.start[node],
+            (Some(motion), Some(local)) => motion.position(&local, t),
+            (Some(_), None) => {
+                let t = (piece as f64 + t) / self.pieces.len() as f64;
+                mean(&way.start[node], &way.end[node], t)
+            }
+        }
+    }
+}
+
+fn pose(pose: &wire::Pose) -> Pose {
+    Pose::new(pose.position, *pose.orientation.quaternion())
+}
+
+fn mean(from: &Point, to: &Point, t: f64) -> Point {
+    Point::from(from.coords * (1.0 - t) + to.coords * t)
+}
+
+/// The pose after `k` of `parts` of a motion: centre and quaternion, each on its line, rounded.
+fn pose_on_way(motion: &RigidMotion, k: usize, parts: usize) -> Pose {
+    match k {
+        0 => *motion.start(),
+        _ if k == parts => *motion.end(),
+        _ => {
+            let t = k as f64 / parts as f64;
+            let [from, to] = motion.quaternions();
+            let q = [0, 1, 2, 3].map(|i| (1.0 - t) * from[i] + t * to[i]);
+            let centre = mean(&motion.start().centre, &motion.end().centre, t);
+            Pose::new(centre, Quaternion::new(q[0], q[1], q[2], q[3]))
+        }
+    }
+}
+
+/// The tangent of a quarter of the angle of a motion.
+fn quarter_tangent(motion: &RigidMotion) -> f64 {
+    let [from, to] = motion.quaternions().map(|[w, x, y, z]| {
+        let q = Quaternion::new(w, x, y, z).coords;
+        (q / q.amax()).normalize()
+    });
+    (to - from).norm() / (to + from).norm()
+}
+
+/// A vector of space in the body's frame at one end of a motion, rounded.
+fn seen(motion: &RigidMotion, t: f64, vector: &Vector) -> Vector {
+    let [from, to] = motion.quaternions();
+    let [w, x, y, z] = if t == 0.0 { from } else { to };
+    let q = Quaternion::new(w, x, y, z);
+    let unit = UnitQuaternion::new_normalize(q);
+    unit.inverse_transform_vector(vector)
+}
+
+impl Part {
+    /// Both nodes at both ends in the body's frame, and how far they may be from the lines between.
+    fn local(&self) -> ([[Vector; 2]; 2], f64) {
+        let centres = [self.motion.start(), self.motion.end()].map(|pose| pose.centre);
+        let angle = 4.0 * quarter_tangent(&self.motion);
+        let mut most: f64 = 0.0;
+        let nodes = [0, 1].map(|node| {
+            let [from, to] = [self.start[node] - centres[0], self.end[node] - centres[1]];
+            let (r, d) = (from.norm().max(to.norm()), (to - from).norm());
+            let stray = (1.5 * angle * angle * r + 2.5 * angle * d) / 8.0;
+            let size = self.start[node]
+                .coords
+                .amax()
+                .max(self.end[node].coords.amax());
+            let size = size + centres[0].coords.amax().max(centres[1].coords.amax());
+            most = most.max(stray + ROUNDING * size);
+            [seen(&self.motion, 0.0, &from), seen(&self.motion, 1.0, &to)]
+        });
+        (nodes, most)
+    }
+
+    /// The first contact, by the oracle.
+    fn touch(&self, core: &Core, asked: &mut u64) -> Result<Option<ExactHit>, RigidError> {
+        let (nodes, stray) = self.local();
+        let points = [nodes[0][0], nodes[0][1], nodes[1][0], nodes[1][1]];
+        match core {
+            Core::Plane => {
+                if points.iter().all(|point| point.z > stray) {
+                    return Ok(None);
+                }
+                *asked += 1;
+                let covering = covering(&points);
+                let on_node = |node: usize| self.against_face(node, &covering);
+                Ok(first([on_node(0)?, on_node(1)?]))
+            }
+            Core::Surface(surface) => {
+                let size = surface.low.amax().max(surface.high.amax());
+                let stray = stray + ROUNDING * size;
+                let apart = |low: &Vector, high: &Vector| is_apart(&points, stray, low, high);
+                if apart(&surface.low, &surface.high) || surface.is_beyond(&points, stray) {
+                    return Ok(None);
+                }
+                *asked += 1;
+                self.touch_surface(surface, &apart)
+            }
+        }
+    }
+
+    fn touch_surface(
+        &self,
+        surface: &Surface,
+        apart: &dyn Fn(&Vector, &Vector) -> bool,
+    ) -> Result<Option<ExactHit>, RigidError> {
+        let mut hits = Vec::new();
+        for face in &surface.faces {
+            let [a, b, c] = face.map(|corner| corner.coords);
+            if !apart(&a.inf(&b).inf(&c), &a.sup(&b).sup(&c)) {
+                hits.extend([self.against_face(0, face)?, self.against_face(1, face)?]);
+            }
+        }
+        for edge in &surface.edges {
+            let [a, b] = edge.map(|corner| corner.coords);
+            if !apart(&a.inf(&b), &a.sup(&b)) {
+                let query = EdgeTurningEdge::new(self.start, self.end, *edge, self.motion)?;
+                hits.push(decide_rigid_query(&RigidQuery::EdgeTurningEdge(query)).hit);
+            }
+        }
+        Ok(first(hits))
+    }
+
+    fn against_face(&self, node: usize, face: &[Point; 3]) -> Result<Option<ExactHit>, RigidError> {
+        let (start, end) = ([self.start[node]], [self.end[node]]);
+        let query = VertexTurningFace::new(start, end, *face, self.motion)?;
+        Ok(decide_rigid_query(&RigidQuery::VertexTurningFace(query)).hit)
+    }
+}
+
+fn first(hits: impl IntoIterator<Item = Option<ExactHit>>) -> Option<ExactHit> {
+    let earlier = |a: &ExactHit, b: &ExactHit| {
+        let below = a.toi.below.total_cmp(&b.toi.below);
+        below.then(a.toi.above.total_cmp(&b.toi.above))
+    };
+    hits.into_iter().flatten().min_by(earlier)
+}
+
+/// Whether the box of some points, grown by `stray`, does not meet another box.
+fn is_apart(points: &[Vector], stray: f64, low: &Vector, high: &Vector) -> bool {
+    (0..3).any(|axis| {
+        let below = points.iter().all(|point| point[axis] + stray < low[axis]);
+        below || points.iter().all(|point| point[axis] - stray > high[axis])
+    })
+}
+
+/// A triangle of the plane `z = 0` that covers wherever points come that go between these.
+fn covering(points: &[Vector]) -> [Point; 3] {
+    let far = points
+        .iter()
+        .fold(1e-300, |a: f64, point| a.max(point.norm()));
+    let size = 16.0 * far;
+    [
+        Point::new(-size, -size, 0.0),
+        Point::new(2.0 * size, -size, 0.0),
+        Point::new(-size, 2.0 * size, 0.0),
+    ]
+}
+
+/// Whether a segment touches a core, or is certainly inside.
+pub(super) fn is_in(core: &Core, pose: &Pose, ends: &[Point; 2]) -> Result<bool, RigidError> {
+    let motion = RigidMotion::new(*pose, *pose)?;
+    let local = ends.map(|end| seen(&motion, 0.0, &(end - pose.centre)));
+    match core {
+        Core::Plane => {
+            let size = ends[0].coords.amax() + ends[1].coords.amax() + pose.centre.coords.amax();
+            let below = local.iter().any(|end| end.z < -1e-9 * size);
+            Ok(below || is_swept(core, &motion, &[ends[0], ends[1], ends[1]])?)
+        }
+        Core::Surface(surface) => {
+            let inside = local.iter().any(|end| surface.holds(end));
+            Ok(inside || is_swept(core, &motion, &[ends[0], ends[1], ends[1]])?)
+        }
+    }
+}
+
+/// Whether a triangle touches the surface of a core of a body at rest: one of its sides a face, or
+/// an edge the triangle.
+pub(super) fn is_swept(
+    core: &Core,
+    motion: &RigidMotion,
+    triangle: &[Point; 3],
+) -> Result<bool, RigidError> {
+    let centre = motion.start().centre;
+    let local = triangle.map(|point| seen(motion, 0.0, &(point - centre)));
+    let size = triangle
+        .iter()
+        .fold(centre.coords.amax(), |a, point| a.max(point.coords.amax()));
+    let [a, b, c] = *triangle;
+    let sides = [[a, b], [b, c], [c, a]];
+    let touches = |from: Point, to: Point, face: &[Point; 3]| {
+        let query = VertexTurningFace::new([from], [to], *face, *motion)?;
+        Ok(decide_rigid_query(&RigidQuery::VertexTurningFace(query))
+            .hit
+            .is_some())
+    };
+    let surface = match core {
+        Core::Plane => {
+            let covering = covering(&local);
+            return any(sides, |[from, to]| touches(from, to, &covering));
+        }
+        Core::Surface(surface) => surface,
+    };
+    let size = size + surface.low.amax().max(surface.high.amax());
+    let apart = |low: &Vector, high: &Vector| is_apart(&local, ROUNDING * size, low, high);
+    if apart(&surface.low, &surface.high) || surface.is_beyond(&local, ROUNDING * size) {
+        return Ok(false);
+    }
+    let near = surface.faces.iter().filter(|face| {
+        let [a, b, c] = face.map(|corner| corner.coords);
+        !apart(&a.inf(&b).inf(&c), &a.sup(&b).sup(&c))
+    });
+    let pierces = any(near, |face| {
+        any(sides, |[from, to]| touches(from, to, face))
+    })?;
+    // The segment from `b` to `a`, whose end `a` goes to `c`.
+    let crossed = |edge: &[Point; 2]| {
+        let query = EdgeTurningEdge::new([a, b], [c, b], *edge, *motion)?;
+        Ok(decide_rigid_query(&RigidQuery::EdgeTurningEdge(query))
+            .hit
+            .is_some())
+    };
+    Ok(pierces || any(&surface.edges, crossed)?)
+}
+
+/// Whether one of some things is so.
+fn any<T>(
+    of: impl IntoIterator<Item = T>,
+    mut is: impl FnMut(T) -> Result<bool, RigidError>,
+) -> Result<bool, RigidError> {
+    for one in of {
+        if is(one)? {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// Where a node is fixed to a body, if it is.
+pub(super) fn fixed_to(kind: &NodeKind, body: usize) -> Option<Point> {
+    let (carrier, local) = kind.carrier()?;
+    (carrier.0 == body).then(|| Point::from(local))
+}

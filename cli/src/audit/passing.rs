@@ -1,0 +1,157 @@
+//! Wires that pass into bodies, step by step.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+use tunnelproof::wire::{BodyCrossingOutcome, NodeKind, Remesh, RemeshKind, SegmentId, StepRecord};
+
+use super::Audit;
+use super::aside::Node;
+use super::bodies::{BodyWay, SegmentWay, Touch, fixed_to, is_in, is_swept};
+use super::finding::What;
+use super::segments::{Segment, moving};
+
+/// What was found of one body in a motion.
+struct Found {
+    asked: u64,
+    touches: Vec<(SegmentId, Touch)>,
+}
+
+impl Audit {
+    /// The motion that was made, body by body.
+    pub(super) fn beside_bodies(&mut self, record: &StepRecord) {
+        self.body_jumps(record);
+        let segments = moving(record);
+        let mut said: BTreeMap<(usize, SegmentId), f64> = BTreeMap::new();
+        for crossing in &record.collisions.body_crossings {
+            match crossing.outcome {
+                BodyCrossingOutcome::Prevented => self.report.body_prevented += 1,
+                BodyCrossingOutcome::Passed => {
+                    said.insert((crossing.body.0, crossing.segment), crossing.toi);
+                }
+            }
+        }
+        for body in 0..record.bodies.len().max(self.cores.len()) {
+            let Some(found) = self.beside_body(record, &segments, body) else {
+                self.find(record, What::BodyUnsound { body }, &[], None);
+                continue;
+            };
+            self.report.body_pairs += found.asked;
+            for (id, touch) in found.touches {
+                self.report.body_contacts += 1;
+                let Touch { toi, crossing } = touch;
+                let missed = What::BodyMissed {
+                    body,
+                    toi,
+                    crossing,
+                };
+                let what = match said.remove(&(body, id)) {
+                    Some(reported) if reported == toi => None,
+                    Some(reported) if reported < toi => Some(What::Early { by: toi - reported }),
+                    Some(reported) => Some(What::Late { by: reported - toi }),
+                    None => Some(missed),
+                };
+                if let Some(what) = what {
+                    self.find(record, what, &[id], None);
+                }
+            }
+        }
+        for (_, id) in said.into_keys() {
+            self.find(record, What::False, &[id], None);
+        }
+    }
+
+    /// `None` if the numbers are no motion, or the shape is not known.
+    fn beside_body(&self, record: &StepRecord, segments: &[Segment], body: usize) -> Option<Found> {
+        let core = self.cores.get(body)?;
+        let way = BodyWay::new(record.bodies.get(body)?).ok()?;
+        let asked = |segment: &Segment| {
+            let of = SegmentWay {
+                start: segment.start,
+                end: segment.end,
+                fixed: segment.kinds.each_ref().map(|kind| fixed_to(kind, body)),
+            };
+            way.touch(&of, core)
+                .map(|(touch, asked)| (segment.id, touch, asked))
+        };
+        let all: Result<Vec<_>, _> = segments.par_iter().map(asked).collect();
+        let all = all.ok()?;
+        let asked = all.iter().map(|(_, _, asked)| asked).sum();
+        let touches = all
+            .into_iter()
+            .filter_map(|(id, touch, _)| Some((id, touch?)));
+        let touches = touches.collect();
+        Some(Found { asked, touches })
+    }
+
+    fn body_jumps(&mut self, record: &StepRecord) {
+        let before = record.bodies.iter().map(|body| body.before);
+        if let Some(left) = self.poses.take() {
+            let jumped = left.iter().zip(before).enumerate();
+            let jumped = jumped.filter(|(_, (left, before))| left != &before);
+            for body in jumped.map(|(body, _)| body).collect::<Vec<_>>() {
+                self.find(record, What::BodyJump { body }, &[], None);
+            }
+        }
+        self.poses = Some(record.bodies.iter().map(|body| body.after).collect());
+    }
+
+    /// The bodies into whose cores a change of resolution goes.
+    pub(super) fn swept_bodies(&self, record: &StepRecord, change: &Remesh) -> Vec<usize> {
+        let [a, b, c] = change.triangle;
+        let own = match change.kind {
+            RemeshKind::Merge => vec![[a, b], [b, c]],
+            RemeshKind::Split => vec![[a, c]],
+        };
+        let is_through = |body: &usize| {
+            let core = &self.cores[*body];
+            let way = record
+                .bodies
+                .get(*body)
+                .map(|body| BodyWay::resting(&body.after));
+            let Some(Ok(way)) = way else { return true };
+            let was_in = |ends| is_in(core, way.pose(), ends).unwrap_or(false);
+            let swept = is_swept(core, way.first(), &change.triangle).unwrap_or(true);
+            swept && !own.iter().all(was_in)
+        };
+        (0..self.cores.len()).filter(is_through).collect()
+    }
+
+    /// Wires and bodies: a segment touches the core or is inside it where the run ends, and it does
+    /// not belong to an end that is fixed to the body.
+    pub(super) fn standing_in_bodies(&self) -> Vec<[usize; 2]> {
+        let (Some(wires), Some(poses)) = (&self.left, &self.poses) else {
+            return Vec::new();
+        };
+        let mut standing = Vec::new();
+        for wire in 0..wires.count() {
+            for (body, (core, pose)) in self.cores.iter().zip(poses).enumerate() {
+                let Ok(way) = BodyWay::resting(pose) else {
+                    continue;
+                };
+                let segments: Vec<[Node; 2]> = wires.segments(wire).collect();
+                let inside = |two: &[Node; 2]| {
+                    is_in(core, way.pose(), &two.each_ref().map(|node| node.at)).unwrap_or(true)
+                };
+                let inside: Vec<bool> = segments.iter().map(inside).collect();
+                let tied = |two: &[Node; 2]| two.iter().any(|node| is_eye(node, body));
+                let tied: Vec<bool> = segments.iter().map(tied).collect();
+                let stretches = inside.chunk_by(|a, b| a == b);
+                let mut at = 0;
+                for stretch in stretches {
+                    let own = at..at + stretch.len();
+                    at += stretch.len();
+                    if stretch[0] && !tied[own].contains(&true) {
+                        standing.push([wire, body]);
+                    }
+                }
+            }
+        }
+        standing.dedup();
+        standing
+    }
+}
+
+fn is_eye(node: &Node, body: usize) -> bool {
+    matches!(node.kind, NodeKind::Eye { body: on, .. } if on.0 == body)
+}

@@ -1,0 +1,120 @@
+//! Boxes around the parts of a core on its way, seen from the body's centre.
+//!
+//! A corner goes on an arc around the chord between its places at both ends. It strays from the
+//! chord by at most the chord times half the tangent of a quarter of the angle, so the box of the
+//! chord, grown by that, holds it. Points of wires go straight, also seen from the centre. Every
+//! box is grown by more than what is rounded.
+
+use super::body_motion::{Stage, quarter_tangent};
+use crate::query::Point;
+use crate::rigid::RigidMotion;
+use crate::wire::Vector;
+
+/// More than all roundings of a place, as a part of the numbers that it is made of.
+const ROUNDING: f64 = 1e-13;
+
+/// A box along the axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bounds {
+    pub(super) low: Vector,
+    pub(super) high: Vector,
+}
+
+impl Bounds {
+    /// Holds nothing.
+    pub(super) const NOTHING: Bounds = Bounds {
+        low: Vector::new(f64::INFINITY, f64::INFINITY, f64::INFINITY),
+        high: Vector::new(f64::NEG_INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY),
+    };
+
+    /// A box around two places and everything that is as near.
+    fn around(from: &Vector, to: &Vector, margin: f64) -> Self {
+        Bounds {
+            low: from.inf(to).add_scalar(-margin),
+            high: from.sup(to).add_scalar(margin),
+        }
+    }
+
+    pub(super) fn joined(&self, other: &Bounds) -> Bounds {
+        Bounds {
+            low: self.low.inf(&other.low),
+            high: self.high.sup(&other.high),
+        }
+    }
+
+    /// Not where a bound is no number.
+    pub(super) fn is_apart(&self, other: &Bounds) -> bool {
+        let apart =
+            |axis: usize| self.low[axis] > other.high[axis] || other.low[axis] > self.high[axis];
+        apart(0) || apart(1) || apart(2)
+    }
+}
+
+/// The box of a point of a body, seen from its centre.
+pub(super) fn corner(motion: &RigidMotion, local: &Point) -> Bounds {
+    let [from, to] = [0.0, 1.0].map(|t| arm(motion, local, t));
+    let stray = 0.5 * quarter_tangent(motion) * (to - from).norm();
+    Bounds::around(
+        &from,
+        &to,
+        stray * 1.001 + ROUNDING * local.coords.amax() + TINY,
+    )
+}
+
+/// More than what underflow takes.
+const TINY: f64 = 1e-300;
+
+/// From the centre to a point of a body, at the start (0) or the end (1) of its motion.
+fn arm(motion: &RigidMotion, local: &Point, t: f64) -> Vector {
+    let [q0, q1] = motion.quaternions();
+    let [w, x, y, z] = if t == 0.0 { q0 } else { q1 };
+    let size = [w, x, y, z].iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+    let (w, v) = (w / size, Vector::new(x, y, z) / size);
+    let turn = v.cross(&local.coords) * 2.0;
+    local.coords + (turn * w + v.cross(&turn)) / (w * w + v.dot(&v))
+}
+
+/// The boxes of all corners of a core in a motion.
+pub(super) struct CornerBoxes {
+    pub(super) corners: Vec<Bounds>,
+    /// Around all of them.
+    pub(super) whole: Bounds,
+}
+
+impl CornerBoxes {
+    pub(super) fn new(motion: &RigidMotion, vertices: &[Point]) -> Self {
+        let corners: Vec<Bounds> = vertices.iter().map(|v| corner(motion, v)).collect();
+        let whole = corners.iter().fold(Bounds::NOTHING, |a, b| a.joined(b));
+        CornerBoxes { corners, whole }
+    }
+
+    pub(super) fn of<const N: usize>(&self, corners: &[usize; N]) -> Bounds {
+        let boxes = corners.map(|k| self.corners[k]);
+        boxes[1..].iter().fold(boxes[0], |a, b| a.joined(b))
+    }
+}
+
+/// The box in space of a box in the body's frame, given by two corners, in a motion.
+pub(super) fn in_space(motion: &RigidMotion, [low, high]: &[Point; 2]) -> Bounds {
+    let of = |i: usize| {
+        let pick = |axis: usize| [low, high][i >> axis & 1][axis];
+        corner(motion, &Point::new(pick(0), pick(1), pick(2)))
+    };
+    let around = (0..8).map(of).fold(Bounds::NOTHING, |a, b| a.joined(&b));
+    let [from, to] = [motion.start(), motion.end()].map(|pose| pose.centre.coords);
+    let size = from.amax().max(to.amax()) + around.low.amax().max(around.high.amax());
+    Bounds {
+        low: (from.inf(&to) + around.low).add_scalar(-ROUNDING * size),
+        high: (from.sup(&to) + around.high).add_scalar(ROUNDING * size),
+    }
+}
+
+/// The boxes of both nodes of a segment, seen from the centre of the body.
+pub(super) fn nodes(stage: &Stage) -> [Bounds; 2] {
+    let [from, to] = [stage.motion.start(), stage.motion.end()].map(|pose| pose.centre.coords);
+    [0, 1].map(|node| {
+        let (start, end) = (stage.start[node].coords, stage.end[node].coords);
+        let size = start.amax().max(end.amax()).max(from.amax()).max(to.amax());
+        Bounds::around(&(start - from), &(end - to), ROUNDING * size + TINY)
+    })
+}
