@@ -1,8 +1,13 @@
 //! Charts as SVG: curves, dots, bars and heat maps over axes that may be logarithmic.
 
+use std::ops::Range;
+
 use plotters::coord::Shift;
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
+
+use super::ticks::{self, Tick};
 
 /// In pixels, of which a telephone has about as many.
 const SIZE: (u32, u32) = (380, 290);
@@ -78,7 +83,7 @@ pub(super) struct HeatMap {
 }
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Cartesian = Cartesian2d<RangedCoordf64, RangedCoordf64>;
+type Cartesian = Cartesian2d<Numbered, Numbered>;
 type Failure = Box<dyn std::error::Error>;
 
 const NO_FAILURE: &str = "drawing on a string does not fail";
@@ -164,9 +169,19 @@ impl Chart {
         if low > high {
             return [0.0, 1.0];
         }
-        let margin = ((high - low) * 0.05)
-            .max(1e-9 * high.abs())
-            .max(f64::MIN_POSITIVE);
+        // Around a single number there is room for others to compare it with.
+        let least = match self.axes[axis].is_log {
+            true => 0.5,
+            false => (high.abs() / 10.0).max(f64::MIN_POSITIVE),
+        };
+        let margin = match high > low {
+            true => (high - low) * 0.05,
+            false => least,
+        };
+        let margin = match (from_zero, high) {
+            (true, 0.0) => 1.0,
+            _ => margin,
+        };
         [if from_zero { 0.0 } else { low - margin }, high + margin]
     }
 }
@@ -180,14 +195,42 @@ impl Axis {
         }
     }
 
-    fn tick(&self, place: f64) -> String {
-        let is_whole = (place - place.round()).abs() < 1e-6;
+    /// The numbers on a part of the axis.
+    fn ticks(&self, range: [f64; 2]) -> Vec<Tick> {
         match self.is_log {
-            true if is_whole => format!("1e{}", place.round()),
-            true => String::new(),
-            false if is_whole => format!("{}", place.round()),
-            false => format!("{place:.2}"),
+            true => ticks::logarithmic(range),
+            false => ticks::linear(range),
         }
+    }
+}
+
+/// An axis as it is drawn: from where to where, and its numbers.
+struct Numbered {
+    range: Range<f64>,
+    ticks: Vec<Tick>,
+}
+
+impl Ranged for Numbered {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, place: &f64, limit: (i32, i32)) -> i32 {
+        RangedCoordf64::from(self.range.clone()).map(place, limit)
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, _hint: Hint) -> Vec<f64> {
+        self.ticks.iter().map(|tick| tick.place).collect()
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.range.clone()
+    }
+}
+
+impl ValueFormatter<f64> for Numbered {
+    fn format_ext(&self, place: &f64) -> String {
+        let tick = self.ticks.iter().find(|tick| tick.place == *place);
+        tick.map_or_else(String::new, |tick| tick.label.clone())
     }
 }
 
@@ -261,7 +304,10 @@ fn draw_frame(
     let drawn = (|| {
         root.fill(&PAPER)?;
         draw_head(&root, title, legend)?;
-        let [[left, right], [low, high]] = ranges;
+        let [columns, rows] = [0, 1].map(|axis| Numbered {
+            range: ranges[axis][0]..ranges[axis][1],
+            ticks: axes[axis].ticks(ranges[axis]),
+        });
         let mut chart = ChartBuilder::on(&root)
             .margin_top(48)
             .margin_right(14)
@@ -269,18 +315,14 @@ fn draw_frame(
             .margin_left(6)
             .x_label_area_size(42)
             .y_label_area_size(54)
-            .build_cartesian_2d(left..right, low..high)?;
+            .build_cartesian_2d(columns, rows)?;
         chart
             .configure_mesh()
             .max_light_lines(0)
             .bold_line_style(GRID)
             .axis_style(INK)
-            .x_labels(7)
-            .y_labels(7)
             .x_desc(axes[0].label.as_str())
             .y_desc(axes[1].label.as_str())
-            .x_label_formatter(&|place| axes[0].tick(*place))
-            .y_label_formatter(&|place| axes[1].tick(*place))
             .label_style(("sans-serif", 14, &INK))
             .axis_desc_style(("sans-serif", 15, &INK))
             .draw()?;

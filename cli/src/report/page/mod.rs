@@ -18,6 +18,7 @@ mod chart;
 mod figures;
 #[cfg(test)]
 mod tests;
+mod ticks;
 
 pub use certificate::certificate;
 pub use figures::{Figure, of_search, of_sweep};
