@@ -3,11 +3,9 @@
 
 pub mod audit;
 mod caption;
-pub mod explanation;
 pub mod junit;
 mod labels;
 pub mod mesh;
-mod number;
 pub mod page;
 pub mod picture;
 pub mod prices;
