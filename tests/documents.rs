@@ -19,7 +19,7 @@ const PAGE: usize = 400;
 const CITATION: [&str; 3] = ["Michael Brandl", "Umeå", "https://docslib.org/doc/4281663/"];
 
 /// The folders of the sources, by which a path in backquotes is known.
-const SOURCES: [&str; 14] = [
+const SOURCES: [&str; 15] = [
     "benches/",
     "c/",
     "cli/",
@@ -34,6 +34,7 @@ const SOURCES: [&str; 14] = [
     "src/",
     "tests/",
     "vectors/",
+    "web/",
 ];
 
 fn root() -> PathBuf {

@@ -4,10 +4,11 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use tunnelproof_cli::report::{explanation, picture};
+use tunnelproof_cli::report::picture;
 use tunnelproof_reference::corpus::locate::locate;
 use tunnelproof_reference::oracle::decide_query;
 use tunnelproof_reference::registry;
+use tunnelproof_reference::report::explanation::Explanation;
 
 use super::output::{OutputFile, print};
 use super::subjects::{Answering, AskedList, Programs, asked_list};
@@ -49,7 +50,11 @@ impl Explain {
         let programs = more.iter().filter(|more| more.program().is_some());
         let subjects = subjects.chain(programs.map(Answering::subject));
         let subjects: Vec<_> = subjects.map(certify::judged).collect();
-        let text = explanation::explain(&entry.id, &entry.query, &subjects);
+        let text = format!(
+            "{}\n\n{}",
+            entry.id,
+            Explanation::new(&entry.query, &subjects)
+        );
         if let Some(file) = svg {
             let answer = decide_query(&entry.query);
             file.write(&picture::draw(&entry.id, &entry.query, &answer))?;

@@ -3,8 +3,8 @@
 use serde::Serialize;
 use tunnelproof::mesh::{Feature, Mesh, MeshContact, MeshStep, Pair};
 use tunnelproof::query::QueryKind;
+use tunnelproof_reference::report::number::{counted, short};
 
-use super::number::{counted, short};
 use super::step::{blocked_name, rounded_down};
 use crate::meshes::audit::{Audit, Disagreement, Place};
 

@@ -4,11 +4,9 @@
 pub mod audit;
 pub mod badge;
 mod caption;
-pub mod explanation;
 pub mod junit;
 mod labels;
 pub mod mesh;
-mod number;
 pub mod page;
 pub mod picture;
 pub mod prices;

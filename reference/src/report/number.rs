@@ -1,14 +1,14 @@
 //! Numbers as text, exact ones above all.
 
-use tunnelproof_reference::algebraic::Algebraic;
-use tunnelproof_reference::field::{Integer, Ratio};
-use tunnelproof_reference::poly::Poly;
+use crate::algebraic::{Algebraic, isolate_roots};
+use crate::field::{Integer, Ratio};
+use crate::poly::Poly;
 
 /// Digits after the decimal point.
 const DIGITS: usize = 20;
 
 /// A rational as an integer or a fraction in lowest terms.
-pub(super) fn fraction<R: Ratio>(value: &R) -> String {
+pub fn fraction<R: Ratio>(value: &R) -> String {
     let (numerator, denominator) = (value.numerator(), value.denominator());
     match denominator == R::Integer::one() {
         true => numerator.to_string(),
@@ -17,7 +17,7 @@ pub(super) fn fraction<R: Ratio>(value: &R) -> String {
 }
 
 /// The number to [`DIGITS`] digits, cut, with `...` where more follow.
-pub(super) fn decimal<Z: Integer>(number: &Algebraic<Z>) -> String {
+pub fn decimal<Z: Integer>(number: &Algebraic<Z>) -> String {
     let unit = ten_to_the_digits::<Z>();
     if let Some(value) = number.rational() {
         let (numerator, denominator) = (value.numerator().mul(&unit), value.denominator());
@@ -54,8 +54,45 @@ fn point<Z: Integer>(units: &Z, is_whole: bool) -> String {
     }
 }
 
+/// The ends of a short interval that holds this root of the polynomial of an irrational number and
+/// no other root, as fractions.
+pub fn isolating<Z: Integer>(number: &Algebraic<Z>) -> [String; 2] {
+    let roots = isolate_roots(number.poly());
+    let others: Vec<_> = roots
+        .iter()
+        .filter(|root| root.compare(number).is_ne())
+        .collect();
+    let mut bits = 4;
+    loop {
+        let low = floor(number, bits);
+        let high = low.add(&Z::one());
+        let [below, above] = [&low, &high].map(|end| Algebraic::dyadic(end.clone(), bits));
+        let is_outside =
+            |root: &&Algebraic<Z>| root.compare(&below).is_lt() || root.compare(&above).is_gt();
+        if others.iter().all(is_outside) {
+            return [low, high].map(|end| fraction(&Z::Ratio::new(end, Z::one().shl(bits))));
+        }
+        bits += 1;
+    }
+}
+
+/// An irrational number in units of `2^-bits`, rounded down.
+fn floor<Z: Integer>(number: &Algebraic<Z>, bits: u64) -> Z {
+    let mut width = bits + 2;
+    loop {
+        number.refine(width);
+        let (low, high, exponent) = number.bounds();
+        let floor = |bound: &Z| bound.shl(bits).shr_floor(exponent);
+        // No multiple of the unit is irrational, so they come to be the same.
+        if floor(&low) == floor(&high) {
+            return floor(&low);
+        }
+        width *= 2;
+    }
+}
+
 /// A polynomial in `t`, ascending.
-pub(super) fn polynomial<Z: Integer>(poly: &Poly<Z>) -> String {
+pub fn polynomial<Z: Integer>(poly: &Poly<Z>) -> String {
     let mut text = String::new();
     for (power, coefficient) in poly.coefficients().iter().enumerate() {
         if coefficient.is_zero() {
@@ -78,7 +115,7 @@ pub(super) fn polynomial<Z: Integer>(poly: &Poly<Z>) -> String {
 }
 
 /// `value 2^exponent` to about 16 digits.
-pub(super) fn scaled<Z: Integer>(value: &Z, exponent: i64) -> String {
+pub fn scaled<Z: Integer>(value: &Z, exponent: i64) -> String {
     let (mantissa, own) = value.approximate();
     match own + exponent {
         _ if value.is_zero() => "0".to_owned(),
@@ -88,7 +125,7 @@ pub(super) fn scaled<Z: Integer>(value: &Z, exponent: i64) -> String {
 }
 
 /// The shortest decimal of an `f64`, with an exponent where that is shorter.
-pub(super) fn short(value: f64) -> String {
+pub fn short(value: f64) -> String {
     let (plain, exponential) = (value.to_string(), format!("{value:e}"));
     match plain.len() > exponential.len() + 4 {
         true => exponential,
@@ -97,7 +134,7 @@ pub(super) fn short(value: f64) -> String {
 }
 
 /// How many there are of something.
-pub(super) fn counted(count: usize, one: &str, many: &str) -> String {
+pub fn counted(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
 }
 
@@ -107,7 +144,6 @@ mod tests {
     use num_rational::BigRational;
 
     use super::*;
-    use tunnelproof_reference::algebraic::isolate_roots;
 
     fn ratio(n: i64, d: i64) -> BigRational {
         BigRational::new(n.into(), d.into())
@@ -128,6 +164,14 @@ mod tests {
         let poly = Poly::new([-1, 0, 2].map(BigInt::from).to_vec());
         let roots = isolate_roots(&poly);
         assert_eq!(decimal(&roots[0]), "0.70710678118654752440...");
+    }
+
+    #[test]
+    fn isolating_interval_holds_one_root() {
+        // (2 t^2 - 1) (25 t^2 - 13): 0.7071 and 0.7211.
+        let poly = Poly::new([13, 0, -51, 0, 50].map(BigInt::from).to_vec());
+        let roots = isolate_roots(&poly);
+        assert_eq!(isolating(&roots[0]), ["11/16", "23/32"]);
     }
 
     #[test]

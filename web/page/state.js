@@ -1,0 +1,113 @@
+"use strict";
+// The state, its text in the link, and numbers as the bits that they are.
+
+const NAMES = ["A", "B", "C", "D"];
+const PUBLISHED = [1e-6, 1e-6, 1e-9, 2.220446049250313e-14, 2.220446049250313e-14];
+const THRESHOLDS = [
+  ["dist", "Points no farther apart are the same", "m"],
+  ["dist_1d", "The same in one coordinate", "m"],
+  ["t", "Times no farther apart are the same", "steps"],
+  ["coefficients_quadratic", "Coefficients of cross products no larger are 0", "m²"],
+  ["coefficients_cubic", "Coefficients of f no larger are 0", "m³"],
+];
+
+/* A number as the shortest text that is read as the same bits. */
+function written(value) {
+  if (Object.is(value, -0)) return "-0";
+  const [plain, exponential] = [String(value), value.toExponential()];
+  return exponential.length < plain.length ? exponential : plain;
+}
+
+/* The number that a text stands for: decimal, or hexadecimal as C writes it; NaN if it is none. */
+function read(text) {
+  const hex = /^\s*([-+]?)0x([0-9a-f]+)(?:\.([0-9a-f]*))?(?:p([-+]?\d+))?\s*$/i.exec(text);
+  if (!hex) return text.trim() === "" ? NaN : Number(text.replace(",", ".").replace("−", "-"));
+  const [, sign, whole, fraction = "", power = "0"] = hex;
+  const digits = Number(`0x${whole}${fraction}`), exponent = Number(power) - 4 * fraction.length;
+  // In two parts, so that neither is too large or too small to be a number.
+  const half = Math.trunc(exponent / 2);
+  const value = digits * 2 ** half * 2 ** (exponent - half);
+  return sign === "-" ? -value : value;
+}
+
+const cell = new DataView(new ArrayBuffer(8));
+function bitsOf(value) { cell.setFloat64(0, value); return cell.getBigInt64(0); }
+function ofBits(bits) { cell.setBigInt64(0, bits); return cell.getFloat64(0); }
+
+/* The number so many f64 further up; -0 and 0 are one. */
+function nudged(value, count) {
+  const bits = bitsOf(value);
+  const order = bits < 0n ? -(bits & 0x7fffffffffffffffn) : bits;
+  const next = order + BigInt(count);
+  const moved = next < 0n ? -ofBits(-next) : ofBits(next);
+  return Number.isFinite(moved) ? moved : value;
+}
+
+/* An f64 as a hexadecimal float. */
+function hexadecimal(value) {
+  const bits = bitsOf(value) & 0x7fffffffffffffffn, sign = Object.is(value, -0) || value < 0 ? "-" : "";
+  let exponent = Number(bits >> 52n), fraction = bits & 0xfffffffffffffn;
+  if (exponent === 0 && fraction === 0n) return `${sign}0x0p+0`;
+  const lead = exponent === 0 ? 0 : 1;
+  exponent = (exponent || 1) - 1023;
+  const digits = fraction.toString(16).padStart(13, "0").replace(/0+$/, "");
+  return `${sign}0x${lead}${digits ? "." + digits : ""}p${exponent < 0 ? "" : "+"}${exponent}`;
+}
+
+/* All decimal digits of an f64, which are finitely many. */
+function exactDecimal(value) {
+  const bits = bitsOf(value) & 0x7fffffffffffffffn, sign = value < 0 ? "−" : "";
+  const stored = Number(bits >> 52n), fraction = bits & 0xfffffffffffffn;
+  const mantissa = stored ? fraction | 1n << 52n : fraction, exponent = (stored || 1) - 1075;
+  if (exponent >= 0) return sign + (mantissa << BigInt(exponent)).toString();
+  // m / 2^k = m 5^k / 10^k
+  const places = -exponent;
+  const digits = (mantissa * 5n ** BigInt(places)).toString().padStart(places + 1, "0");
+  const decimals = digits.slice(-places).replace(/0+$/, "");
+  return sign + digits.slice(0, -places) + (decimals ? "." + decimals : "");
+}
+
+const copyOf = state => ({ ...state, points: state.points.map(point => [...point]), radius: [...state.radius], thresholds: [...state.thresholds] });
+
+/* A state of a query as the gallery and the search give it. */
+function stateOf(query, thresholds) {
+  const number = value => typeof value === "number" ? value : read(value);
+  const radius = Array.isArray(query.radius) ? query.radius.map(number) : [number(query.radius ?? 0), 0];
+  return { kind: query.kind ?? "edge-edge", points: query.points.map(point => point.map(number)), radius, thresholds: [...thresholds] };
+}
+
+/* The query as the commands read it. A zero below 0 and what JSON has no number for are texts. */
+function queryOf(state, id = "playground") {
+  const number = value => Object.is(value, -0) ? hexadecimal(value) : value;
+  const radius = state.radius[1] ? state.radius.map(number) : number(state.radius[0]);
+  return { id, kind: state.kind, points: state.points.map(point => point.map(number)), radius };
+}
+
+/* The whole state as the text after the # of a link. */
+function linkOf(state, more) {
+  const list = numbers => numbers.map(written).join(",");
+  const parts = [`kind=${state.kind}`, `points=${list(state.points.flat())}`];
+  if (state.radius.some(Boolean)) parts.push(`radius=${list(state.radius)}`);
+  if (state.thresholds.some((value, k) => value !== PUBLISHED[k])) parts.push(`thresholds=${list(state.thresholds)}`);
+  parts.push(`t=${written(more.time)}`, `view=${list(more.view)}`);
+  return "#" + parts.join("&");
+}
+
+/* What such a text says; null if it is none. */
+function readLink(text) {
+  const fields = new Map(text.replace(/^#/, "").split("&").map(part => {
+    const [name, value = ""] = part.split("=");
+    return [name, decodeURIComponent(value)];
+  }));
+  const list = (name, count) => {
+    const numbers = (fields.get(name) ?? "").split(",").map(read);
+    return numbers.length === count && numbers.every(Number.isFinite) ? numbers : null;
+  };
+  const points = list("points", 24), kind = fields.get("kind");
+  if (!points || !["edge-edge", "vertex-face"].includes(kind)) return null;
+  const state = {
+    kind, radius: list("radius", 2) ?? [0, 0], thresholds: list("thresholds", 5) ?? [...PUBLISHED],
+    points: Array.from({ length: 8 }, (_, k) => points.slice(3 * k, 3 * k + 3)),
+  };
+  return { state, time: list("t", 1)?.[0] ?? 0, view: list("view", 3) };
+}
