@@ -15,10 +15,12 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tunnelproof::query::{EdgeEdge, Point, Query};
 
+pub use cast::CAST_FAMILIES;
 use motion::Motion;
 pub use rigid::{RIGID_FAMILIES, RigidFamily, RigidId, rigid_by_name};
 
 mod cancellation;
+mod cast;
 mod confine;
 mod crossing;
 mod face;
@@ -84,7 +86,7 @@ pub const OTHER_KINDS: &[Family] = &[
 
 /// Every family of any kind, in the order of tables.
 pub fn all() -> impl Iterator<Item = &'static Family> + Clone {
-    FAMILIES.iter().chain(OTHER_KINDS)
+    FAMILIES.iter().chain(OTHER_KINDS).chain(CAST_FAMILIES)
 }
 
 /// An endless, seeded sequence of queries that probe one property.

@@ -47,6 +47,17 @@ pub(super) fn mapped<const N: usize>(rng: &mut dyn Rng, motion: Motion<i32, N>) 
     motion.map(|points| points.map(|point| map * point))
 }
 
+/// How much of a step is before a time and how much after it, in eighths or so: inside the step, and
+/// of 4 at its start in 1 and at its end in 1.
+pub(super) fn end_of_step_or_inside(rng: &mut dyn Rng) -> [i32; 2] {
+    let [before, after] = [(); 2].map(|()| rng.random_range(1..=8));
+    match rng.random_range(0..4) {
+        0 => [0, after],
+        1 => [before, 0],
+        _ => [before, after],
+    }
+}
+
 fn largest<const N: usize>(motion: &Motion<i32, N>) -> i32 {
     let points = motion.as_flattened().iter();
     points.map(Vector3::amax).max().unwrap_or(0)

@@ -1,0 +1,113 @@
+// The convex casts of Bullet as a library that tunnelproof judges. PEERS_METHOD chooses the cast: subsimplex, gjk or
+// continuous. The casts are for bodies that are apart: so the closest points are asked for first, and a distance of at most 0
+// is a hit at the start. Edges with a radius are capsules or spheres; edges without are not asked, since its shapes are not meant to
+// be without a margin. The triangle has a margin of 0.
+#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <BulletCollision/CollisionShapes/btTriangleShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkConvexCast.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
+#include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
+#include <BulletCollision/NarrowPhaseCollision/btSubSimplexConvexCast.h>
+#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
+
+#include <cstring>
+#include <memory>
+
+#include "../common/bodies.h"
+#include "../common/timed.h"
+#include "tunnelproof_subject.h"
+
+namespace {
+
+struct Body {
+    std::unique_ptr<btConvexShape> shape;
+    btTransform from, to;
+};
+
+btVector3 vector(const double *p) { return btVector3(p[0], p[1], p[2]); }
+
+void place(Body &body, const btQuaternion &rotation, const btVector3 &centre, const double points[24], int first) {
+    double step[3];
+    peers_step(points, first, step);
+    body.from = btTransform(rotation, centre);
+    body.to = btTransform(rotation, centre + vector(step));
+}
+
+Body capsule(const double points[24], int first, double radius) {
+    Body body;
+    struct peers_capsule c = peers_capsule(points, first, 1);
+    if (c.half == 0)
+        body.shape = std::make_unique<btSphereShape>(radius);
+    else
+        body.shape = std::make_unique<btCapsuleShape>(radius, 2 * c.half);
+    const double *r = c.rotation;
+    place(body, btQuaternion(r[0], r[1], r[2], r[3]), vector(c.centre), points, first);
+    return body;
+}
+
+Body sphere(const double points[24], double radius) {
+    Body body;
+    body.shape = std::make_unique<btSphereShape>(radius);
+    place(body, btQuaternion::getIdentity(), vector(points), points, 0);
+    return body;
+}
+
+// In its own frame, whose origin is a corner.
+Body triangle(const double points[24]) {
+    Body body;
+    btVector3 b = vector(points + 3);
+    body.shape = std::make_unique<btTriangleShape>(btVector3(0, 0, 0), vector(points + 6) - b, vector(points + 9) - b);
+    body.shape->setMargin(0);
+    place(body, btQuaternion::getIdentity(), b, points, 1);
+    return body;
+}
+
+std::unique_ptr<btConvexCast> make_cast(const Body &a, const Body &b, btVoronoiSimplexSolver &simplex,
+                                        btGjkEpaPenetrationDepthSolver &depth) {
+    static const char *method = getenv("PEERS_METHOD");
+    if (method && !strcmp(method, "gjk"))
+        return std::make_unique<btGjkConvexCast>(a.shape.get(), b.shape.get(), &simplex);
+    if (method && !strcmp(method, "continuous"))
+        return std::make_unique<btContinuousConvexCollision>(a.shape.get(), b.shape.get(), &simplex, &depth);
+    return std::make_unique<btSubsimplexConvexCast>(a.shape.get(), b.shape.get(), &simplex);
+}
+
+bool touches(const Body &a, const Body &b, btVoronoiSimplexSolver &simplex, btGjkEpaPenetrationDepthSolver &depth) {
+    btGjkPairDetector detector(a.shape.get(), b.shape.get(), &simplex, &depth);
+    btGjkPairDetector::ClosestPointInput input;
+    input.m_transformA = a.from;
+    input.m_transformB = b.from;
+    btPointCollector closest;
+    detector.getClosestPoints(input, closest, nullptr);
+    return closest.m_hasResult && closest.m_distance <= 0;
+}
+
+int cast(const Body &a, const Body &b, double *toi) {
+    btVoronoiSimplexSolver simplex;
+    btGjkEpaPenetrationDepthSolver depth;
+    std::unique_ptr<btConvexCast> caster = make_cast(a, b, simplex, depth);
+    btConvexCast::CastResult result;
+    result.m_fraction = 1;
+    uint64_t start = peers_now();
+    bool at_start = touches(a, b, simplex, depth);
+    bool hit = at_start || caster->calcTimeOfImpact(a.from, a.to, b.from, b.to, result);
+    peers_took(start);
+    *toi = at_start ? 0 : result.m_fraction;
+    return hit ? TUNNELPROOF_HIT : TUNNELPROOF_MISS;
+}
+
+}  // namespace
+
+int tunnelproof_edge_edge(const double points[24], const double radius[2], double *toi) {
+    if (radius[0] <= 0 || radius[1] <= 0) return TUNNELPROOF_UNSUPPORTED;
+    return cast(capsule(points, 0, radius[0] + peers_skin()), capsule(points, 2, radius[1]), toi);
+}
+
+int tunnelproof_vertex_face(const double points[24], const double radius[2], double *toi) {
+    double both = radius[0] + radius[1];
+    if (both <= 0) return TUNNELPROOF_UNSUPPORTED;
+    return cast(sphere(points, both + peers_skin()), triangle(points), toi);
+}

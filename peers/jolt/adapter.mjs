@@ -1,0 +1,94 @@
+// The shape cast of Jolt Physics, in WebAssembly and single precision: the first body is cast by the difference of the
+// two translations against the second one at rest.
+import initJolt from "jolt-physics";
+import { capsule, corners, serve, skin, timed } from "../common/frames.mjs";
+
+const Jolt = await initJolt();
+
+register();
+
+// Jolt knows how to cast its shapes once an interface was made, which needs layers.
+function register() {
+  const pairs = new Jolt.ObjectLayerPairFilterTable(1);
+  const layers = new Jolt.BroadPhaseLayerInterfaceTable(1, 1);
+  layers.MapObjectToBroadPhaseLayer(0, new Jolt.BroadPhaseLayer(0));
+  const settings = new Jolt.JoltSettings();
+  settings.mObjectLayerPairFilter = pairs;
+  settings.mBroadPhaseLayerInterface = layers;
+  settings.mObjectVsBroadPhaseLayerFilter = new Jolt.ObjectVsBroadPhaseLayerFilterTable(layers, 1, pairs, 1);
+  new Jolt.JoltInterface(settings);
+}
+
+const settings = new Jolt.ShapeCastSettings();
+settings.mBackFaceModeTriangles = Jolt.EBackFaceMode_CollideWithBackFaces;
+settings.mBackFaceModeConvex = Jolt.EBackFaceMode_CollideWithBackFaces;
+const filter = new Jolt.ShapeFilter();
+const collector = new Jolt.CastShapeClosestHitCollisionCollector();
+const scale = new Jolt.Vec3(1, 1, 1);
+const origin = new Jolt.RVec3(0, 0, 0);
+const target = new Jolt.TransformedShape();
+const place = new Jolt.RVec3(0, 0, 0);
+const turn = new Jolt.Quat(0, 0, 0, 1);
+const direction = new Jolt.Vec3(0, 0, 0);
+
+function edge(points, radius) {
+  const { centre, half, rotation } = capsule(points, 1);
+  const shape = half === 0 ? new Jolt.SphereShape(radius) : new Jolt.CapsuleShape(half, radius);
+  return { shape, centre, rotation };
+}
+
+function face(points) {
+  const [b, c, d] = corners(points).map(([x, y, z]) => new Jolt.Vec3(x, y, z));
+  const triangle = new Jolt.Triangle(b, c, d);
+  const list = new Jolt.TriangleList();
+  list.push_back(triangle);
+  const mesh = new Jolt.MeshShapeSettings(list);
+  const result = mesh.Create();
+  const shape = result.IsValid() ? result.Get() : null;
+  shape?.AddRef();
+  result.Clear();
+  [b, c, d, triangle, list, mesh].forEach((object) => Jolt.destroy(object));
+  return { shape, centre: points[1], rotation: [0, 0, 0, 1], isCounted: true };
+}
+
+function release(body) {
+  if (body.shape === null) return;
+  if (body.isCounted) body.shape.Release();
+  else Jolt.destroy(body.shape);
+}
+
+function bodies({ isFace, points, radii }) {
+  if (!isFace) return [edge(points.slice(0, 2), radii[0] + skin), edge(points.slice(2), radii[1])];
+  const ball = new Jolt.SphereShape(radii[0] + radii[1] + skin);
+  return [{ shape: ball, centre: points[0], rotation: [0, 0, 0, 1] }, face(points)];
+}
+
+function cast(a, b, step) {
+  place.Set(...b.centre);
+  turn.Set(...b.rotation);
+  target.mShape = b.shape;
+  target.SetWorldTransform(place, turn, scale);
+  place.Set(...a.centre);
+  turn.Set(...a.rotation);
+  direction.Set(...step);
+  const start = Jolt.RMat44.prototype.sRotationTranslation(turn, place);
+  const asked = new Jolt.RShapeCast(a.shape, scale, start, direction);
+  collector.Reset();
+  collector.ResetEarlyOutFraction();
+  timed(() => target.CastShape(asked, settings, origin, collector, filter));
+  const toi = collector.HadHit() ? collector.mHit.mFraction : null;
+  Jolt.destroy(asked);
+  return toi;
+}
+
+serve((query) => {
+  const { isFace, steps, radii } = query;
+  if (isFace ? radii[0] + radii[1] === 0 : radii[0] === 0 || radii[1] === 0) return undefined;
+  const [a, b] = bodies(query);
+  const step = steps[0].map((x, k) => x - steps[isFace ? 1 : 2][k]);
+  // A mesh of a face without area is refused: there is nothing to hit.
+  const toi = b.shape === null ? null : cast(a, b, step);
+  release(a);
+  release(b);
+  return toi;
+});
