@@ -43,6 +43,9 @@ pub(super) struct Bracket<'a, const N: usize = 4> {
     is_high_proved: bool,
     /// The logarithm of the number of cells that the next step tries.
     bits: u32,
+    /// Whether only a sign is asked, so that more cells than floating point tells apart may be
+    /// tried. Places are rounded from the ends, and depend on the way there.
+    is_for_sign: bool,
 }
 
 /// A root compared with the `f64`s.
@@ -57,8 +60,31 @@ pub(super) enum Settled {
 /// that is likely to be 0 at a root.
 const LEAST_EXPONENT: u64 = 64;
 
+/// The most of these bits: beyond them narrowing costs as much as remainders do.
+const MOST_VAIN_BITS: u64 = 512;
+
 /// The most bits that a chord is worth, computed in floating point.
 pub(super) const MOST_BITS: u32 = 48;
+
+/// About `2^bits n / d` for `0 <= n <= d`, by long division: each step takes a digit from floating
+/// point, which may be too large or too small; what that leaves is negative or a longer digit.
+fn divide_about(n: Integer, d: Integer, bits: u32) -> Integer {
+    // So many bits of both are enough.
+    let spare = d.bits().saturating_sub(u64::from(bits) + 64);
+    let (mut rest, d) = (n.shifted_down(spare), d.shifted_down(spare));
+    let (mut quotient, mut missing) = (Integer::ZERO, bits);
+    // Ends: each turn adds bits.
+    while missing > 0 {
+        let step = missing.min(MOST_BITS);
+        rest = rest.shifted(step.into());
+        // Saturates, and is 0 for what is not a number.
+        let digit = Integer::from(i128::from(ratio(&rest, &d).floor() as i64));
+        quotient = Integer::sum(&quotient.shifted(step.into()), &digit);
+        rest.sub_shifted(&Integer::product(&digit, &d), 0);
+        missing -= step;
+    }
+    quotient
+}
 
 impl<'a, const N: usize> Bracket<'a, N> {
     /// The only root of `poly` strictly between `low` and `high`; `before` is the sign between
@@ -73,6 +99,7 @@ impl<'a, const N: usize> Bracket<'a, N> {
             is_high_proved: false,
             // A line is its own chord.
             bits: if poly.degree() == 1 { MOST_BITS } else { 1 },
+            is_for_sign: false,
         }
     }
 
@@ -157,21 +184,18 @@ impl<'a, const N: usize> Bracket<'a, N> {
         let start = self.low.numerator.shifted(exponent - self.low.exponent);
         let mut width = self.high.numerator.shifted(own - self.high.exponent);
         width.sub_shifted(&self.low.numerator, own - self.low.exponent);
-        let cells = 1u64 << self.bits;
-        let Some(chord) = self.chord() else {
+        let one = Integer::from(1);
+        let cells = one.shifted(self.bits.into());
+        let Some(index) = self.chord(self.bits) else {
             return Some(self.low.clone());
         };
-        // 0 for what is not a number.
-        let index = ((chord * cells as f64) as u64).min(cells - 1);
-        let end = |index: u64| {
-            let mut at = start.clone();
-            at.add_shifted(&Integer::product(&width, &i128::from(index).into()), 0);
-            Dyadic::new(at, exponent)
-        };
+        let index = index.clamp(Integer::ZERO, Integer::difference(&cells, &one));
+        let next = Integer::sum(&index, &one);
         let mut is_right = true;
-        for (index, side) in [(index, Ordering::Greater), (index + 1, Ordering::Less)] {
-            if is_right && index > 0 && index < cells {
-                let at = end(index);
+        for (index, side) in [(&index, Ordering::Greater), (&next, Ordering::Less)] {
+            if is_right && !index.is_zero() && *index < cells {
+                let numerator = Integer::sum(&start, &Integer::product(&width, index));
+                let at = Dyadic::new(numerator, exponent);
                 let order = self.cut(&at);
                 if order.is_eq() {
                     return Some(at);
@@ -180,26 +204,46 @@ impl<'a, const N: usize> Bracket<'a, N> {
             }
         }
         self.bits = if is_right {
-            (2 * self.bits).min(MOST_BITS)
+            (2 * self.bits).min(self.most_cells(exponent))
         } else {
             (self.bits / 2).max(1)
         };
         None
     }
 
-    /// Where between the ends the chord of the polynomial is 0; not a number if it is 0 at both
-    /// ends. `None` if the sign at an end is that of the other side of the root.
-    fn chord(&self) -> Option<f64> {
+    /// The logarithm of the most cells to try for ends with this exponent: where many bits are
+    /// needed, a share of those that there are, so that few steps lead there.
+    fn most_cells(&self, exponent: u64) -> u32 {
+        let share = (exponent / 4).saturating_sub(u64::from(MOST_BITS));
+        match self.is_for_sign {
+            true => MOST_BITS.max(share as u32),
+            false => MOST_BITS,
+        }
+    }
+
+    /// In which of `2^bits` cells between the ends the chord of the polynomial is 0, about. `None`
+    /// if the sign at an end is that of the other side of the root.
+    fn chord(&self, bits: u32) -> Option<Integer> {
         let value = |at: &Dyadic, other_side: Ordering| {
             let value = self.poly.evaluate(at);
             let is_around = value.is_zero() || value.sign() != other_side;
-            let (value, exponent) = value.approximate();
-            let degree = self.poly.degree() as i64;
-            is_around.then_some((value.abs(), exponent - at.exponent as i64 * degree))
+            is_around.then_some((value, at.exponent as i64 * self.poly.degree() as i64))
         };
         let (low, low_exponent) = value(&self.low, self.before.reverse())?;
         let (high, high_exponent) = value(&self.high, self.before)?;
-        Some(1.0 / (1.0 + scale(high / low, high_exponent - low_exponent)))
+        if bits > MOST_BITS {
+            let common = low_exponent.max(high_exponent);
+            let scaled = |x: &Integer, own: i64| x.magnitude().shifted((common - own) as u64);
+            let low = scaled(&low, low_exponent);
+            let whole = Integer::sum(&low, &scaled(&high, high_exponent));
+            return Some(divide_about(low, whole, bits));
+        }
+        let ((low, own), (high, other)) = (low.approximate(), high.approximate());
+        let (own, other) = (own - low_exponent, other - high_exponent);
+        let chord = 1.0 / (1.0 + scale((high / low).abs(), other - own));
+        // 0 for what is not a number.
+        let index = (chord * (1u64 << bits) as f64) as u64;
+        Some(i128::from(index).into())
     }
 
     /// Compares the root with a number strictly between the ends, which becomes one of them unless
@@ -252,15 +296,15 @@ impl<'a, const N: usize> Bracket<'a, N> {
 
     /// The sign of a polynomial at the root.
     ///
-    /// One with a factor in common may still not be 0 there: it is narrowed for a while before
-    /// remainders, whose numbers are many times as long, tell.
+    /// It is narrowed for a while before remainders, whose numbers are many times as long, tell: for
+    /// longer if there is no factor in common, so that it is not 0 there.
     pub(super) fn sign_of(&self, q: Poly<N>) -> Ordering {
         self.plain_sign_of(&q).unwrap_or_else(|| {
             let bits = most_bits(&q);
             let limit = if are_coprime(self.poly, &q) {
-                self.most_exponent(q.degree(), bits)
+                LEAST_EXPONENT + bits + most_bits(self.poly)
             } else {
-                LEAST_EXPONENT + bits
+                LEAST_EXPONENT + bits.min(MOST_VAIN_BITS)
             };
             self.sign_by_narrowing(&q, limit)
                 .unwrap_or_else(|| self.sturm_sign_of(q))
@@ -277,6 +321,7 @@ impl<'a, const N: usize> Bracket<'a, N> {
     /// it is not 0, it is shown in the end.
     fn sign_by_narrowing(&self, q: &Poly<N>, most_bits: u64) -> Option<Ordering> {
         let mut bracket = self.clone();
+        bracket.is_for_sign = true;
         // Ends: each turn narrows it, so that its exponent comes to be as large.
         while bracket.exponent() < most_bits {
             if let Some(at) = bracket.refine() {

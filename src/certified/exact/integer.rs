@@ -424,12 +424,55 @@ pub(super) fn multiply_add(a: u64, b: u64, c: u64, d: u64) -> (u64, u64) {
     (sum as u64, (sum >> 64) as u64)
 }
 
-/// Adds the product of two magnitudes to `to`, which has a limb for each of theirs and is 0.
+/// Puts the product of two magnitudes into `to`, which has a limb for each of theirs and is 0.
+///
+/// Long ones by Karatsuba's rule: with halves `a = a1 x + a0` and `b = b1 x + b0`, the middle term
+/// `a1 b0 + a0 b1` is `(a1 + a0) (b1 + b0) - a1 b1 - a0 b0`. Ends: each part is shorter.
 fn multiply_into(to: &mut [u64], a: &[u64], b: &[u64]) {
-    for (i, &x) in a.iter().enumerate() {
+    let (long, short) = if a.len() < b.len() { (b, a) } else { (a, b) };
+    let half = long.len().div_ceil(2);
+    if short.len() < KARATSUBA {
+        multiply_plainly(to, long, short);
+    } else if short.len() <= half {
+        // In parts as long as the shorter one.
+        for (i, part) in long.chunks(short.len()).enumerate() {
+            let mut product = vec![0; part.len() + short.len()];
+            multiply_into(&mut product, part, short);
+            for_shifted(&mut to[i * short.len()..], &product, 0, 0, add_limbs);
+        }
+    } else {
+        let ((a0, a1), (b0, b1)) = (long.split_at(half), short.split_at(half));
+        let (low, high) = to.split_at_mut(2 * half);
+        multiply_into(low, a0, b0);
+        multiply_into(high, a1, b1);
+        let (a, b) = (sum_of_limbs(a0, a1), sum_of_limbs(b0, b1));
+        let mut middle = vec![0; a.len() + b.len()];
+        multiply_into(&mut middle, &a, &b);
+        for_shifted(&mut middle, low, 0, 0, subtract_limbs);
+        for_shifted(&mut middle, high, 0, 0, subtract_limbs);
+        // Without the zeros at its end, which may reach beyond the product.
+        let length = middle.iter().rposition(|&limb| limb != 0);
+        let middle = &middle[..length.map_or(0, |at| at + 1)];
+        for_shifted(&mut to[half..], middle, 0, 0, add_limbs);
+    }
+}
+
+/// From so many limbs on the halves are multiplied.
+const KARATSUBA: usize = 32;
+
+/// The sum of two magnitudes, the first not shorter, with a limb more.
+fn sum_of_limbs(a: &[u64], b: &[u64]) -> Vec<u64> {
+    let mut sum = a.to_vec();
+    sum.push(0);
+    for_shifted(&mut sum, b, 0, 0, add_limbs);
+    sum
+}
+
+fn multiply_plainly(to: &mut [u64], a: &[u64], b: &[u64]) {
+    for (i, &x) in b.iter().enumerate() {
         let mut carry = 0;
-        let (row, rest) = to[i..].split_at_mut(b.len());
-        for (limb, &y) in row.iter_mut().zip(b) {
+        let (row, rest) = to[i..].split_at_mut(a.len());
+        for (limb, &y) in row.iter_mut().zip(a) {
             (*limb, carry) = multiply_add(x, y, *limb, carry);
         }
         rest[0] = carry;

@@ -79,3 +79,52 @@ fn bracket_of_a_root_next_to_an_end_settles() {
         }
     }
 }
+
+#[test]
+fn divide_about_is_within_a_cell() {
+    let mut random = 1u64;
+    let mut limb = || {
+        random = random
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        random
+    };
+    for bits in [49, 64, 100, 128, 1000, 3000] {
+        for length in 1..80 {
+            let mut limbs: Vec<u64> = (0..length).map(|_| limb()).collect();
+            let d = Integer::from_magnitude(false, &limbs);
+            // Anywhere, and so near both ends that whole digits are 0 or full.
+            let last = limbs.len() - 1;
+            limbs[last] = limb() % limbs[last].max(1);
+            let middle = Integer::from_magnitude(false, &limbs);
+            let below = Integer::difference(&d, &Integer::from(1));
+            for n in [Integer::ZERO, Integer::from(1), middle, below, d.clone()] {
+                let index = divide_about(n.clone(), d.clone(), bits);
+                // |2^bits n - index d| <= 2 d
+                let mut rest = n.shifted(bits.into());
+                rest.sub_shifted(&Integer::product(&index, &d), 0);
+                assert!(!rest.exceeds(&d.shifted(1)), "{bits} bits, {length} limbs");
+            }
+        }
+    }
+}
+
+#[test]
+fn bracket_narrows_for_a_sign_in_few_turns() {
+    // t^3 + t = 1
+    let poly = poly(&[-1, 1, 0, 1]);
+    let turns = |is_for_sign: bool| {
+        let new = Bracket::new(&poly, Dyadic::zero(), Dyadic::one(), Ordering::Less);
+        let mut bracket = Bracket { is_for_sign, ..new };
+        let mut turns = 0;
+        while bracket.exponent() < 20_000 {
+            assert!(bracket.refine().is_none(), "it is no binary number");
+            turns += 1;
+        }
+        let signs = bracket.ends().map(|at| bracket.poly.sign_at(at));
+        assert_eq!(signs, [Ordering::Less, Ordering::Greater]);
+        turns
+    };
+    assert!(turns(true) < 50, "{} turns", turns(true));
+    assert!(turns(false) > 400);
+}

@@ -41,6 +41,25 @@ fn checked(integer: &Integer) -> BigInt {
     big(integer)
 }
 
+/// Long enough for halves of halves, and as often all ones or sparse.
+fn long() -> impl Strategy<Value = Integer> {
+    let limb = prop_oneof![Just(0), Just(u64::MAX), any::<u64>()];
+    let limbs = prop_oneof![
+        prop::collection::vec(limb, 0..300),
+        (0..300usize).prop_map(|length| vec![u64::MAX; length]),
+    ];
+    (any::<bool>(), limbs).prop_map(|(negative, limbs)| Integer::from_magnitude(negative, &limbs))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    #[test]
+    fn integer_products_of_long_numbers_agree_with_num_bigint(a in long(), b in long()) {
+        prop_assert_eq!(checked(&Integer::product(&a, &b)), big(&a) * big(&b));
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(5000))]
 
