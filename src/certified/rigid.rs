@@ -15,13 +15,14 @@
 //! `p` from the centre has an acceleration, the centre's being 0, of at most
 //!
 //! ```text
-//! p (w^2 + |w'|)  with  w = 2 W / D,  |w'| = 2 W |D'| / D^2
+//! p (w^2 + |w'|)  with  w = 2 W / D,  |w'| = 2 W |D'| / D^2 <= (W^2 + |D'|^2) / D^2
 //! ```
 //!
 //! and strays from the chord of a part of the length `h` by at most `h^2 / 8` times that. Here
 //! `W <= |q0| |q1 - q0|`, likewise with `q1`; `D'` is linear in `t`, so that it is largest at an
 //! end; and `D >= min(D0, D1) (1 + cos) / 2`, with the angle between `q0` and `q1`: both ends, and so
 //! all between them, are beyond the plane that is across the middle of that angle at this distance.
+//! The cosine, which is above 0, is at least `q0 . q1 / max(D0, D1)`.
 //!
 //! # Rounding
 //!
@@ -124,6 +125,9 @@ const LEAST: f64 = f64::from_bits((1023 - 500) << 52);
 /// 2^160: below it no product over- nor underflows in a way that matters.
 const LARGEST: f64 = f64::from_bits((1023 + 160) << 52);
 
+/// A step whose bound is above this share of the reach is halved at first.
+const FAR: f64 = 0.0625;
+
 /// The shortest part of the step that is looked at before integers decide, and the most parts.
 const SHORTEST: f64 = 1.0 / 256.0;
 const MOST_PARTS: u32 = 24;
@@ -137,6 +141,9 @@ struct Moving<'a, const WORLD: usize, const LOCAL: usize> {
     quaternions: [[f64; 4]; 2],
     /// At most this, times the square of its length, is the stray of a part.
     bend: f64,
+    /// How far from the centre the points of the body are at most: no point strays by more than
+    /// twice that, as it and its chord stay within it.
+    reach: f64,
     /// The radius and what rounding adds to the stray.
     rest: f64,
 }
@@ -169,6 +176,7 @@ impl<'a, const WORLD: usize, const LOCAL: usize> Moving<'a, WORLD, LOCAL> {
             centres,
             quaternions,
             bend,
+            reach,
             rest: radius + ROUNDING * (far + reach) + LEAST,
         })
     }
@@ -176,23 +184,32 @@ impl<'a, const WORLD: usize, const LOCAL: usize> Moving<'a, WORLD, LOCAL> {
     /// Whether the two sides are certainly apart for the whole step.
     #[inline(always)]
     fn is_apart<K: Stages>(&self) -> bool {
-        let (mut from, mut length) = (0.0, 1.0);
+        let mut from = 0.0;
+        let mut length = if self.bend > FAR * self.reach {
+            0.5
+        } else {
+            1.0
+        };
+        let mut start = self.places(from);
         // Ends: after so many parts.
         for _ in 0..MOST_PARTS {
             let to = f64::min(from + length, 1.0);
-            let stray = (self.bend * (to - from) * (to - from) + self.rest) * UP;
-            let part = self.part(from, to);
-            let until = thick::apart_until::<K>(&part, Radius::from(stray));
+            let bend = f64::min(self.bend * (to - from) * (to - from), 2.0 * self.reach);
+            let end = self.places(to);
+            let part = Positions { start, end };
+            let until = thick::apart_until::<K>(&part, Radius::from((bend + self.rest) * UP));
             if until >= 1.0 {
                 if to == 1.0 {
                     return true;
                 }
                 (from, length) = (to, 2.0 * length);
+                start = end;
                 continue;
             }
             // What is taken off outweighs the roundings, as no part is as short as that.
             if until > 0.125 {
                 from += 0.999 * until * (to - from);
+                start = self.places(from);
             }
             length *= 0.25;
             if length < SHORTEST {
@@ -202,15 +219,7 @@ impl<'a, const WORLD: usize, const LOCAL: usize> Moving<'a, WORLD, LOCAL> {
         false
     }
 
-    /// The places of all points at both ends of a part of the step.
-    #[inline(always)]
-    fn part(&self, from: f64, to: f64) -> Positions {
-        Positions {
-            start: self.places(from),
-            end: self.places(to),
-        }
-    }
-
+    /// The places of all points at a time.
     #[inline(always)]
     fn places(&self, t: f64) -> [Vector; 4] {
         let [c0, c1] = &self.centres;
@@ -266,14 +275,16 @@ fn bend([q0, q1]: &[[f64; 4]; 2]) -> Option<f64> {
     if !(is_ordinary(d0) && is_ordinary(d1)) {
         return None;
     }
-    let (smaller, square) = (d0.min(d1), product(&change, &change));
-    let cosine = along / (d0 * d1).sqrt();
+    // Not above the cosine, as along is not below 0.
+    let cosine = along / d0.max(d1);
+    let smaller = d0.min(d1);
     let least = smaller * (1.0 + cosine) * 0.5;
     // W^2, and |D'|, which is twice the product of q with q', at the ends.
-    let turn = smaller * square;
+    let turn = smaller * product(&change, &change);
     let slope = 2.0 * f64::max(product(q0, &change).abs(), product(q1, &change).abs());
     let slope = slope + ROUNDING * (d0 + d1);
-    Some((4.0 * turn + 2.0 * turn.sqrt() * slope) / (8.0 * least * least) * UP)
+    // 2 W |D'| is at most W^2 + |D'|^2.
+    Some((5.0 * turn + slope * slope) / (8.0 * least * least) * UP)
 }
 
 #[cfg(test)]

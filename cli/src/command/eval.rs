@@ -8,6 +8,8 @@ use tunnelproof_reference::certify::batch::map_chunks_in_order;
 use tunnelproof_reference::certify::run::RunError;
 use tunnelproof_reference::certify::source::Source;
 use tunnelproof_reference::corpus::Entry;
+use tunnelproof_reference::corpus::turning::{self, TurningEntry};
+use tunnelproof_reference::registry::turning_subjects;
 use tunnelproof_reference::report::answer;
 use tunnelproof_reference::subject::Subject;
 
@@ -29,6 +31,12 @@ A query is a line such as
 with the eight points A B C D at the start and A B C D at the end of the step; numbers may be hex
 floats in quotes (\"0x1.8p-3\"). A .csv is in the public CCD query format.
 
+With --turning a query is a line such as
+  {\"id\": \"a\", \"kind\": \"edge-turning-edge\", \"points\": [[0, 0, 0], ...],
+   \"local\": [[0, 0, 0], ...], \"poses\": [[0, 0, 0, 1, 0, 0, 0], ...]}
+with the points A B at the start and A B at the end (or A and A), C D (or B C D) in the body's frame,
+and the body's centre and quaternion w x y z at the start and at the end.
+
 An exact number stands between its neighbours in f64, {\"below\": B, \"above\": A}, equal if it is
 an f64 itself.")]
 pub(super) struct Eval {
@@ -39,6 +47,9 @@ pub(super) struct Eval {
     /// of a shared library
     #[arg(long, default_value = "oracle", value_parser = asked)]
     subject: Asked,
+    /// The files hold queries of bodies that turn; oracle, difference and certified answer them
+    #[arg(long, conflicts_with_all = ["kind", "radius"])]
+    turning: bool,
     #[command(flatten)]
     programs: Programs,
     #[command(flatten)]
@@ -47,6 +58,9 @@ pub(super) struct Eval {
 
 impl Eval {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
+        if self.turning {
+            return self.run_turning();
+        }
         let answering = self.programs.start(&self.subject)?;
         let mut output = BufWriter::new(io::stdout().lock());
         for source in of_files(&self.files, &self.reading)? {
@@ -55,6 +69,39 @@ impl Eval {
                 entries.map(|entry| entry.map_err(Failure::from)),
                 CHUNK,
                 |entries| answer_lines(answering.subject(), &source, &entries),
+                |lines: Vec<String>| write_lines(&mut output, &lines),
+            )?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+impl Eval {
+    /// The same of bodies that turn.
+    fn run_turning(self) -> Result<ExitCode, Failure> {
+        let name: &str = match &self.subject {
+            Asked::Known(subject) => subject.name(),
+            Asked::Program(name) => name,
+        };
+        let asked = turning_subjects()
+            .into_iter()
+            .find(|known| known.name == name);
+        let subject = asked.ok_or_else(|| Failure::Program {
+            name: name.to_owned(),
+            reason: "answers no queries of bodies that turn".to_owned(),
+        })?;
+        let mut output = BufWriter::new(io::stdout().lock());
+        for path in &self.files {
+            map_chunks_in_order(
+                turning::open(path)?.map(|entry| entry.map_err(Failure::from)),
+                CHUNK,
+                |entries: Vec<TurningEntry>| {
+                    let line = |entry: &TurningEntry| {
+                        let answer = (subject.answer)(&entry.query);
+                        Ok(answer::turning_line(&entry.id, &answer))
+                    };
+                    entries.iter().map(line).collect()
+                },
                 |lines: Vec<String>| write_lines(&mut output, &lines),
             )?;
         }

@@ -4,9 +4,11 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use tunnelproof_cli::report::picture;
+use tunnelproof_cli::report::{self, picture};
 use tunnelproof_reference::corpus::locate::locate;
-use tunnelproof_reference::oracle::decide_query;
+use tunnelproof_reference::corpus::turning;
+use tunnelproof_reference::generate::RigidId;
+use tunnelproof_reference::oracle::{decide_query, decide_rigid_query};
 use tunnelproof_reference::registry;
 use tunnelproof_reference::report::explanation::Explanation;
 
@@ -20,6 +22,7 @@ use super::{Failure, Reading, certify};
 Examples:
   tunnelproof explain figure:4.3
   tunnelproof explain lattice:1:4711 --svg picture.svg
+  tunnelproof explain turning_plates:1:6 --svg picture.svg
   tunnelproof explain 'unit-tests/edge-edge/data_0_1.csv#12'
   tunnelproof explain vectors/errata.json#erratum:strict-skip --svg picture.svg
   head -1 queries.jsonl | tunnelproof explain -")]
@@ -34,6 +37,9 @@ pub(super) struct Explain {
     /// More subjects to ask, such as cmd: and the command of a program
     #[arg(long, value_parser = asked_list)]
     subject: Vec<AskedList>,
+    /// PATH#ID and - are of queries of bodies that turn; families of them are known by name
+    #[arg(long, conflicts_with_all = ["kind", "radius", "subject"])]
+    turning: bool,
     #[command(flatten)]
     programs: Programs,
     #[command(flatten)]
@@ -42,6 +48,9 @@ pub(super) struct Explain {
 
 impl Explain {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
+        if self.turning || RigidId::parse(&self.query).is_some() {
+            return self.run_turning();
+        }
         let entry = locate(&self.query, self.reading.options())?;
         let svg = self.svg.as_deref().map(OutputFile::create).transpose()?;
         let more = self.programs.start_all(&self.subject)?;
@@ -60,6 +69,18 @@ impl Explain {
             file.write(&picture::draw(&entry.id, &entry.query, &answer))?;
         }
         print(&text)?;
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// The same of a body that turns.
+    fn run_turning(self) -> Result<ExitCode, Failure> {
+        let entry = turning::locate(&self.query)?;
+        let svg = self.svg.as_deref().map(OutputFile::create).transpose()?;
+        let answer = decide_rigid_query(&entry.query);
+        if let Some(file) = svg {
+            file.write(&picture::draw_turning(&entry.id, &entry.query, &answer))?;
+        }
+        print(&report::turning::explain(&entry, &answer))?;
         Ok(ExitCode::SUCCESS)
     }
 }

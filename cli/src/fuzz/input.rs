@@ -112,7 +112,7 @@ fn of_numbers(bytes: &mut Unstructured, mut number: impl FnMut(&mut Unstructured
 
 /// The number of these bits, its exponent brought to within `span` of that of 1; 0, subnormal and
 /// large numbers stay what they are if `span` is all there is.
-fn finite(bits: u64, span: u64) -> f64 {
+pub(super) fn finite(bits: u64, span: u64) -> f64 {
     let biased = bits >> 52 & 0x7ff;
     let biased = match span {
         1023 => biased.min(0x7fe),
@@ -121,11 +121,11 @@ fn finite(bits: u64, span: u64) -> f64 {
     f64::from_bits(bits & !(0x7ff << 52) | biased << 52)
 }
 
-fn byte(bytes: &mut Unstructured) -> u8 {
+pub(super) fn byte(bytes: &mut Unstructured) -> u8 {
     u8::arbitrary(bytes).unwrap_or(0)
 }
 
-fn word(bytes: &mut Unstructured) -> u64 {
+pub(super) fn word(bytes: &mut Unstructured) -> u64 {
     u64::arbitrary(bytes).unwrap_or(0)
 }
 
@@ -217,7 +217,7 @@ impl Change {
 
 /// The bytes as random numbers: zeros where they have ended and, after many of these, numbers that
 /// differ, so that who draws until something fits comes to an end.
-struct Numbers<'a, 'b> {
+pub(super) struct Numbers<'a, 'b> {
     bytes: &'b mut Unstructured<'a>,
     past_the_end: u64,
 }
@@ -226,7 +226,7 @@ struct Numbers<'a, 'b> {
 const ZEROS: u64 = 1 << 10;
 
 impl<'a, 'b> Numbers<'a, 'b> {
-    fn new(bytes: &'b mut Unstructured<'a>) -> Self {
+    pub(super) fn new(bytes: &'b mut Unstructured<'a>) -> Self {
         Numbers {
             bytes,
             past_the_end: 0,

@@ -28,6 +28,7 @@ mod judges;
 mod parsers;
 mod poly;
 mod step;
+mod turning;
 
 #[cfg(test)]
 mod tests;
@@ -78,6 +79,11 @@ pub const TARGETS: &[Target] = &[
         name: "oracle_vs_difference",
         description: "the two exact judges of all kinds of queries, in every field of the answer",
         check: Check::Query(judges::oracle_vs_difference),
+    },
+    Target {
+        name: "turning_vs_oracle",
+        description: "bodies that turn: the certified path and the second judge against the oracle",
+        check: Check::Bytes(turning::check),
     },
     #[cfg(feature = "gmp")]
     Target {

@@ -13,4 +13,5 @@ pub mod prices;
 pub mod step;
 mod svg;
 pub mod tuning;
+pub mod turning;
 mod view;

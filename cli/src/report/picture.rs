@@ -4,6 +4,7 @@
 
 use nalgebra::{Vector2, Vector3};
 use tunnelproof::query::{Query, QueryKind};
+use tunnelproof::rigid::RigidQuery;
 
 use tunnelproof_reference::answer::{Enclosure, ExactAnswer, ExactHit};
 
@@ -31,14 +32,41 @@ pub(super) enum When {
 
 /// The picture of a query and its exact answer, an SVG document.
 pub fn draw(title: &str, query: &Query, answer: &ExactAnswer) -> String {
-    let scene = Scene::new(query, answer);
+    let [start, end] = [query.start(), query.end()].map(|points| points.map(|point| point.coords));
+    let at = |t: f64| [0, 1, 2, 3].map(|i| start[i] * (1.0 - t) + end[i] * t);
+    draw_motion(title, query.kind(), &[0.0, 1.0], &at, answer)
+}
+
+/// The same of a body that turns: its points move on arcs.
+pub fn draw_turning(title: &str, query: &RigidQuery, answer: &ExactAnswer) -> String {
+    let kind = match query {
+        RigidQuery::EdgeTurningEdge(_) => QueryKind::EdgeEdge,
+        RigidQuery::VertexTurningFace(_) => QueryKind::VertexFace,
+    };
+    let times: Vec<_> = (0..=ARC).map(|i| f64::from(i) / f64::from(ARC)).collect();
+    let at = |t: f64| query.positions(t).map(|point| point.coords);
+    draw_motion(title, kind, &times, &at, answer)
+}
+
+/// How many chords an arc is drawn by.
+const ARC: u32 = 24;
+
+/// A motion that is drawn along its places at these times, from 0 to 1.
+fn draw_motion(
+    title: &str,
+    kind: QueryKind,
+    times: &[f64],
+    at: &dyn Fn(f64) -> [Vector3<f64>; 4],
+    answer: &ExactAnswer,
+) -> String {
+    let scene = Scene::new(kind, times, at, answer);
     let mut canvas = Canvas::new(WIDTH, HEIGHT, title);
     caption::title(&mut canvas, title);
     scene.draw_paths(&mut canvas);
     scene.draw_edges(&mut canvas);
     scene.draw_labels(&mut canvas);
     caption::caption(&mut canvas, answer, scene.is_drawn_apart);
-    caption::legend(&mut canvas, query.kind(), answer.hit.is_some());
+    caption::legend(&mut canvas, kind, answer.hit.is_some());
     canvas.finish()
 }
 
@@ -81,8 +109,8 @@ struct Stroke {
 struct Scene {
     /// The side that each point belongs to.
     sides: [usize; 4],
-    start: [Vector2<f64>; 4],
-    end: [Vector2<f64>; 4],
+    /// The four points at some times, from the start to the end.
+    path: Vec<[Vector2<f64>; 4]>,
     strokes: Vec<Stroke>,
     contacts: Vec<Vector2<f64>>,
     /// Whether all points are (nearly) on a line, so that start, impact and end are moved apart.
@@ -90,32 +118,38 @@ struct Scene {
 }
 
 impl Scene {
-    fn new(query: &Query, answer: &ExactAnswer) -> Self {
-        let start = query.start().map(|point| point.coords);
-        let end = query.end().map(|point| point.coords);
+    fn new(
+        kind: QueryKind,
+        times: &[f64],
+        at: &dyn Fn(f64) -> [Vector3<f64>; 4],
+        answer: &ExactAnswer,
+    ) -> Self {
+        let (start, end) = (at(0.0), at(1.0));
         let toi = answer.hit.map(|hit| middle(hit.toi));
-        let at = |t: f64| [0, 1, 2, 3].map(|i| start[i] * (1.0 - t) + end[i] * t);
         let impact = toi.map(at);
         let contacts = match (&answer.hit, &impact) {
-            (Some(hit), Some(points)) => contacts(query, hit, points),
+            (Some(hit), Some(points)) => contacts(kind, hit, points),
             _ => Vec::new(),
         };
-        let all: Vec<_> = start.iter().chain(&end).chain(&contacts).copied().collect();
-        let lines = lines(query.kind());
+        let between = times.iter().filter(|t| **t > 0.0 && **t < 1.0);
+        let between = between.flat_map(|t| at(*t));
+        let all = start.iter().chain(&end).chain(&contacts).copied();
+        let all: Vec<_> = all.chain(between).collect();
+        let lines = lines(kind);
         let seen = [0, 4].map(|end| lines.iter().map(move |[i, j]| [i + end, j + end]));
         let view = View::of(&all, &seen.into_iter().flatten().collect::<Vec<_>>());
         let sheet = Sheet::new(view, &all);
-        let sides = [0, 1, 2, 3].map(|i| side(query.kind(), i));
+        let sides = [0, 1, 2, 3].map(|i| side(kind, i));
         let place = |points: [Vector3<f64>; 4], time| {
             [0, 1, 2, 3].map(|i| sheet.place(&points[i], time, Some(sides[i])))
         };
         let mut strokes = Vec::new();
-        let times = [
+        let drawn = [
             (Some(start), 0.0, When::Start),
             (Some(end), 1.0, When::End),
             (impact, toi.unwrap_or(0.0), When::Impact),
         ];
-        for (points, time, when) in times {
+        for (points, time, when) in drawn {
             let Some(points) = points else { continue };
             let placed = place(points, time);
             strokes.extend(lines.iter().map(|&[i, j]| Stroke {
@@ -128,8 +162,7 @@ impl Scene {
         strokes.sort_by(|a, b| a.nearness.total_cmp(&b.nearness));
         Scene {
             sides,
-            start: place(start, 0.0),
-            end: place(end, 1.0),
+            path: times.iter().map(|&t| place(at(t), t)).collect(),
             strokes,
             contacts: contacts
                 .iter()
@@ -141,7 +174,8 @@ impl Scene {
 
     fn draw_paths(&self, canvas: &mut Canvas) {
         for i in 0..4 {
-            canvas.path([self.start[i], self.end[i]], self.sides[i]);
+            let path: Vec<_> = self.path.iter().map(|points| points[i]).collect();
+            canvas.path(&path, self.sides[i]);
         }
     }
 
@@ -163,10 +197,13 @@ impl Scene {
 
     fn draw_labels(&self, canvas: &mut Canvas) {
         let lines = self.strokes.iter().map(|stroke| stroke.ends);
-        let paths = (0..4).map(|i| [self.start[i], self.end[i]]);
+        let chords = self.path.windows(2);
+        let paths = chords.flat_map(|ends| (0..4).map(|i| [ends[0][i], ends[1][i]]));
         let lines = lines.chain(paths).collect();
         let mut labels = Labels::new(lines, self.contacts.clone(), LABEL_FRAME);
-        for (points, time) in [(&self.start, '\u{2080}'), (&self.end, '\u{2081}')] {
+        let ends = self.path.first().zip(self.path.last());
+        let ends = ends.map(|(start, end)| [(start, '\u{2080}'), (end, '\u{2081}')]);
+        for (points, time) in ends.into_iter().flatten() {
             for i in 0..4 {
                 let at = labels.place(points[i], points[i] - points[i ^ 1]);
                 let font = Font {
@@ -243,11 +280,11 @@ fn side(kind: QueryKind, point: usize) -> usize {
 }
 
 /// The points of contact in space, on `AB` or on the face: one, or the two ends of an overlap.
-fn contacts(query: &Query, hit: &ExactHit, points: &[Vector3<f64>; 4]) -> Vec<Vector3<f64>> {
+fn contacts(kind: QueryKind, hit: &ExactHit, points: &[Vector3<f64>; 4]) -> Vec<Vector3<f64>> {
     let places = std::iter::once(hit.first).chain(hit.second);
     let parameters = places.map(|place| [place.u, place.v].map(middle));
     let [a, b, c, d] = points;
-    let point = |[u, v]: [f64; 2]| match query.kind() {
+    let point = |[u, v]: [f64; 2]| match kind {
         QueryKind::EdgeEdge => a * (1.0 - u) + b * u,
         QueryKind::VertexFace => b * (1.0 - u - v) + c * u + d * v,
     };
@@ -264,8 +301,8 @@ mod tests {
     use tunnelproof_reference::figures::FIGURES;
 
     use super::*;
-    use tunnelproof_reference::generate::{FAMILIES, OTHER_KINDS};
-    use tunnelproof_reference::oracle::decide_query;
+    use tunnelproof_reference::generate::{FAMILIES, OTHER_KINDS, RIGID_FAMILIES};
+    use tunnelproof_reference::oracle::{decide_query, decide_rigid_query};
 
     /// Every number in the picture's geometry, and whether the document is well-formed.
     fn coordinates(query: &Query) -> Vec<f64> {
@@ -298,6 +335,27 @@ mod tests {
         for query in figures.chain(drawn).chain(thick_or_face) {
             for value in coordinates(&query) {
                 assert!((0.0..=WIDTH).contains(&value), "{value} in {query:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn picture_of_bodies_that_turn_has_an_arc_for_each_point() {
+        for family in RIGID_FAMILIES {
+            for index in 0..10 {
+                let query = family.query(5, index);
+                let svg = draw_turning("turning", &query, &decide_rigid_query(&query));
+                let document = roxmltree::Document::parse(&svg).unwrap();
+                let arcs = document
+                    .descendants()
+                    .filter(|node| node.has_tag_name("polyline"));
+                let arcs: Vec<_> = arcs.filter_map(|node| node.attribute("points")).collect();
+                assert!(arcs.len() >= 4);
+                let numbers = arcs.iter().flat_map(|arc| arc.split([' ', ',']));
+                for number in numbers {
+                    let number: f64 = number.parse().unwrap();
+                    assert!((0.0..=WIDTH).contains(&number), "{number} in {query:?}");
+                }
             }
         }
     }

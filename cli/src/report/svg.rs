@@ -79,15 +79,44 @@ impl Canvas {
     }
 
     /// The path of an end of this edge, with an arrow past its middle if there is room for it.
-    pub(super) fn path(&mut self, [from, to]: [Vector2<f64>; 2], edge: usize) {
-        let middle = from + (to - from) * 0.6;
-        let marker = match (to - from).norm() > 30.0 {
+    pub(super) fn path(&mut self, points: &[Vector2<f64>], edge: usize) {
+        let chords = points.windows(2).map(|ends| [ends[0], ends[1]]);
+        let length = |[from, to]: [Vector2<f64>; 2]| (to - from).norm();
+        let mut left = 0.6 * chords.clone().map(length).sum::<f64>();
+        let is_long = left > 18.0;
+        // Where the arrow is: on the chord that is past the middle of the whole.
+        let arrow = chords.clone().find(|&chord| {
+            let is_here = left <= length(chord);
+            left -= if is_here { 0.0 } else { length(chord) };
+            is_here
+        });
+        let Some([from, to]) = arrow.or_else(|| chords.clone().next()) else {
+            return;
+        };
+        if points.len() > 2 {
+            self.polyline(points, edge, false);
+        }
+        if points.len() == 2 || is_long {
+            let share = match length([from, to]) {
+                0.0 => 0.0,
+                chord => left / chord,
+            };
+            let middle = from + (to - from) * share;
+            self.polyline(&[from, middle, to], edge, is_long);
+        }
+    }
+
+    fn polyline(&mut self, points: &[Vector2<f64>], edge: usize, has_arrows: bool) {
+        let pair = |p: &Vector2<f64>| format!("{:.1},{:.1}", p.x, p.y);
+        let points: Vec<_> = points.iter().map(pair).collect();
+        let marker = match has_arrows {
             true => format!(r#" marker-mid="url(#arrow{edge})""#),
             false => String::new(),
         };
         self.element(format_args!(
-            r#"<polyline points="{:.1},{:.1} {:.1},{:.1} {:.1},{:.1}" fill="none" stroke="{}" stroke-width="1.3" stroke-opacity="0.75"{marker}/>"#,
-            from.x, from.y, middle.x, middle.y, to.x, to.y, PAINTS[edge].solid
+            r#"<polyline points="{}" fill="none" stroke="{}" stroke-width="1.3" stroke-opacity="0.75"{marker}/>"#,
+            points.join(" "),
+            PAINTS[edge].solid
         ));
     }
 

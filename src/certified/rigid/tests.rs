@@ -79,13 +79,12 @@ fn stray_is_bounded() {
                 Moving::new(start, end, query.local(), query.motion(), Radius::ZERO).unwrap();
             for (from, to) in [(0.0, 1.0), (0.0, 0.25), (0.75, 1.0), (0.5, 0.625)] {
                 let bound = moving.bend * (to - from) * (to - from) + moving.rest;
-                let part = moving.part(from, to);
+                let [start, end] = [from, to].map(|t| moving.places(t)[3]);
                 for i in 0..=16 {
                     let share = f64::from(i) / 16.0;
                     let point = query
                         .motion()
                         .position(&query.local()[1], from + share * (to - from));
-                    let [start, end] = [part.start[3], part.end[3]];
                     let chord = [0, 1, 2].map(|axis| between(start[axis], end[axis], share));
                     let stray = (point.coords - nalgebra::Vector3::from(chord)).norm();
                     assert!(stray <= bound, "{stray} {bound}");
@@ -94,5 +93,5 @@ fn stray_is_bounded() {
             }
         }
     }
-    assert!(largest > 0.7, "{largest}");
+    assert!(largest > 0.6, "{largest}");
 }
