@@ -72,7 +72,7 @@ pub(crate) fn certify(
         Some(names) => names
             .iter()
             .map(|name| family(name))
-            .collect::<PyResult<_>>()?,
+            .collect::<PyResult<Vec<_>>>()?,
         None if own.is_empty() => py.detach(|| with_default(|| defaults::families(&[&subject]))),
         None => Vec::new(),
     };
@@ -157,6 +157,7 @@ fn command(
 /// A query explained, and what a callable says of it if there is one: by its name, such as
 /// `lattice:1:4711`, or as a line of JSON.
 #[pyfunction]
+#[pyo3(signature = (query, method))]
 pub(crate) fn explain(
     py: Python<'_>,
     query: &str,

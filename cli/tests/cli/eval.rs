@@ -65,7 +65,12 @@ fn eval_files_that_are_none_are_refused() {
     let (folder, path) = file("some.txt", CROSSING);
     assert_refused(&tunnelproof(&["eval", &path]), &path, None, ".jsonl");
     let path = folder.path().to_str().unwrap();
-    assert_refused(&tunnelproof(&["eval", path]), path, None, "directory");
+    assert_refused(
+        &tunnelproof(&["eval", path]),
+        path,
+        None,
+        "no file of queries",
+    );
     let path = &format!("{path}/no.jsonl");
     assert_refused(&tunnelproof(&["eval", path]), path, None, "no such file");
 }
