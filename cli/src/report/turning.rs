@@ -7,9 +7,7 @@ use tunnelproof_reference::answer::ExactAnswer;
 use tunnelproof_reference::certify::verdict::judge;
 use tunnelproof_reference::corpus::turning::{Fields, TurningEntry};
 use tunnelproof_reference::registry::turning_subjects;
-use tunnelproof_reference::report::answer;
-
-use super::number;
+use tunnelproof_reference::report::{answer, number};
 
 /// The text for a query and its exact answer.
 pub fn explain(entry: &TurningEntry, truth: &ExactAnswer) -> String {
