@@ -58,6 +58,8 @@ function face(points) {
   const mesh = PhysX.CreateTriangleMesh(cooking, desc);
   PhysX.destroy(desc);
   PhysX.destroy(corner);
+  // A face without area is refused: there is nothing to hit.
+  if (PhysX.getPointer(mesh) === 0) return null;
   const geometry = new PhysX.PxTriangleMeshGeometry(mesh, scale, sides);
   return { geometry, pose: pose(points[1], [0, 0, 0, 1]), mesh };
 }
@@ -92,6 +94,10 @@ serve((query) => {
   const { isFace, steps, radii } = query;
   if (isFace ? radii[0] + radii[1] === 0 : radii[0] === 0 || radii[1] === 0) return undefined;
   const [a, b] = bodies(query);
+  if (b === null) {
+    release(a);
+    return null;
+  }
   const step = steps[0].map((x, k) => x - steps[isFace ? 1 : 2][k]);
   const toi = sweep(a, b, step);
   release(a);
