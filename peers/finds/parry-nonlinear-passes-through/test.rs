@@ -13,9 +13,15 @@ fn main() {
     let rest = Pose::IDENTITY;
     let options = ShapeCastOptions::with_max_time_of_impact(1.0);
     let linear = cast_shapes(&rest, steps[0], &first, &rest, steps[1], &second, options);
-    println!("cast_shapes: {:?}", linear.map(|hit| hit.map(|hit| hit.time_of_impact)));
+    println!(
+        "cast_shapes: {:?}",
+        linear.map(|hit| hit.map(|hit| hit.time_of_impact))
+    );
     let still = Vector::ZERO;
     let [a, b] = steps.map(|step| NonlinearRigidMotion::new(rest, still, step, still));
     let nonlinear = cast_shapes_nonlinear(&a, &first, &b, &second, 0.0, 1.0, true);
-    println!("cast_shapes_nonlinear: {:?}", nonlinear.map(|hit| hit.map(|hit| hit.time_of_impact)));
+    println!(
+        "cast_shapes_nonlinear: {:?}",
+        nonlinear.map(|hit| hit.map(|hit| hit.time_of_impact))
+    );
 }
