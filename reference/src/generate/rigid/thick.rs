@@ -32,12 +32,6 @@ pub(super) const CONFINED: RigidFamily = RigidFamily {
     draw: |rng| thick(rng, super::confined),
 };
 
-pub(super) const GRAZING: RigidFamily = RigidFamily {
-    name: "turning_thick_grazing",
-    description: "with a radius: midlines that graze each other",
-    draw: |rng| thick(rng, super::grazing),
-};
-
 pub(super) const TANGENT: RigidFamily = RigidFamily {
     name: "turning_thick_tangent",
     description: "with a radius: double roots at it, exactly or nearly",
