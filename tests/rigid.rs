@@ -2,7 +2,8 @@
 
 use tunnelproof::certified::{RigidKind, decide_rigid, decide_rigid_exactly};
 use tunnelproof::contact::{Case, Hit, Place};
-use tunnelproof::rigid::RigidQuery;
+use tunnelproof::nalgebra::Quaternion;
+use tunnelproof::rigid::{EdgeTurningEdge, Pose, RigidMotion, RigidQuery};
 use tunnelproof::{EdgeEdge, Point, VertexFace, classify, decide};
 use tunnelproof_reference::answer::ExactAnswer;
 use tunnelproof_reference::certify::verdict::{Verdict, judge};
@@ -190,4 +191,30 @@ fn rigid_positions_meet_at_the_contact() {
         };
         assert!(way.norm() < 1e-12, "{way}");
     }
+}
+
+/// A rod that turns about its middle, and a wire across its plane: scaled by powers of two, down to
+/// where squares underflow, they have the same answers.
+#[test]
+fn rigid_answers_are_the_same_at_every_scale() {
+    let pose = |z: f64| Pose::new(Point::origin(), Quaternion::new(1.0, 0.0, 0.0, z));
+    let motion = RigidMotion::new(pose(0.0), pose(0.875)).expect("82 degrees");
+    let at_size = |x: f64, y: f64, size: f64| {
+        let point = |x: f64, y: f64, z: f64| Point::new(x * size, y * size, z * size);
+        let wire = [point(x, y, -1.0), point(x, y, 1.0)];
+        let rod = [point(-1.0, 0.0, 0.0), point(1.0, 0.0, 0.0)];
+        EdgeTurningEdge::new(wire, wire, rod, motion).expect("finite")
+    };
+    let mut hits = 0;
+    for exponent in [-1000, -900, -600, -565, -520, -400, 0, 150, 400, 1000] {
+        for (x, y) in (0..12).flat_map(|x| (0..12).map(move |y| (x, y))) {
+            let [x, y] = [x, y].map(|x: i32| f64::from(x) / 8.0);
+            let truth = decide_rigid_exactly(&at_size(x, y, 1.0));
+            let query = at_size(x, y, 2f64.powi(exponent));
+            assert_eq!(decide_rigid_exactly(&query), truth, "{exponent} {x} {y}");
+            assert_eq!(decide_rigid(&query), truth, "{exponent} {x} {y}");
+            hits += usize::from(truth.is_some());
+        }
+    }
+    assert!(hits > 300, "{hits}");
 }

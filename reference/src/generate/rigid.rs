@@ -57,7 +57,6 @@ pub const RIGID_FAMILIES: &[RigidFamily] = &[
     thick::UNIFORM,
     thick::LATTICE,
     thick::CONFINED,
-    thick::GRAZING,
     thick::TANGENT,
     thick::STILL,
     thick::PLATES,

@@ -32,16 +32,10 @@ pub(super) const CONFINED: RigidFamily = RigidFamily {
     draw: |rng| thick(rng, super::confined),
 };
 
-pub(super) const GRAZING: RigidFamily = RigidFamily {
-    name: "turning_thick_grazing",
-    description: "with a radius: midlines that graze each other",
-    draw: |rng| thick(rng, super::grazing),
-};
-
 pub(super) const TANGENT: RigidFamily = RigidFamily {
     name: "turning_thick_tangent",
     description: "with a radius: double roots at it, exactly or nearly",
-    draw: |rng| first(rng, |rng| at_a_fraction(rng, true, true)),
+    draw: tangent,
 };
 
 pub(super) const STILL: RigidFamily = RigidFamily {
@@ -61,6 +55,16 @@ pub(super) const SCALES: RigidFamily = RigidFamily {
     description: "with a radius: lengths from 1e-6 to 1e6, quaternions of any length",
     draw: |rng| thick(rng, super::scales),
 };
+
+/// In one of four an ulp less than the distance, so that they just do not touch.
+fn tangent(rng: &mut dyn Rng) -> RigidQuery {
+    let query = first(rng, |rng| at_a_fraction(rng, true, true));
+    let less = query.radius().rounded().next_down();
+    match rng.random_range(0..4) {
+        0 => with_radius(&query, less.into()).unwrap_or(query),
+        _ => query,
+    }
+}
 
 fn thick(rng: &mut dyn Rng, draw: fn(&mut dyn Rng) -> RigidQuery) -> RigidQuery {
     let query = draw(rng);
