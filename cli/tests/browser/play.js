@@ -93,7 +93,7 @@ addEventListener("load", () => setTimeout(() => {
   for (const type of ["mousemove", "mousedown", "mouseup", "click"]) {
     plot.dispatchEvent(new MouseEvent(type, { clientX: area.left + area.width / 2, clientY: area.top + 10, bubbles: true }));
   }
-  expect(Math.abs(at() - last / 2) <= 2 + last / 50, `a chart leads to ${at()} of ${last}`);
+  expect(Math.abs(at() - last / 2) <= 2 + last / 30, `a chart leads to ${at()} of ${last}`);
   for (const button of all(".cut")) {
     const words = button.textContent;
     button.click();
