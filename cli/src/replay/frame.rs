@@ -107,17 +107,18 @@ pub(super) fn marks(record: &StepRecord) -> impl Iterator<Item = Mark> {
             at: at.as_ref().map(triple),
         })
     });
-    let of_bodies = record
-        .collisions
-        .body_crossings
-        .iter()
-        .map(|crossing| Mark {
-            what: match crossing.outcome {
-                BodyCrossingOutcome::Prevented => "prevented",
-                BodyCrossingOutcome::Passed => "tunnelled",
-            },
-            at: None,
-        });
+    let of_bodies = record.collisions.body_crossings.iter().map(|crossing| {
+        let (wire, arc) = (crossing.segment.wire, crossing.arc);
+        let at = place(record, &ContactSite::Wire { wire, arc });
+        let what = match crossing.outcome {
+            BodyCrossingOutcome::Prevented => "prevented",
+            BodyCrossingOutcome::Passed => "tunnelled",
+        };
+        Mark {
+            what,
+            at: at.as_ref().map(triple),
+        }
+    });
     of_wires.chain(of_bodies)
 }
 
