@@ -1,25 +1,30 @@
-//! A run for ParaView: a file of polygons (`.vtp`) for each step, and a `.pvd` that puts them on a
+//! A run for ParaView: files of polygons (`.vtp`) for each step, and a `.pvd` that puts them on a
 //! clock.
 //!
-//! A `.vtp` has every segment as a line, with its tension in N, its radius in m and its wire, and
-//! every contact as a point with the force on its place A in N. The formats are those of VTK's XML,
-//! in text.
+//! `step-NNNNNN.vtp` has every segment as a line, with its tension in N, its radius in m and its
+//! wire, and every contact as a point with the force on its place A in N. `bodies-NNNNNN.vtp` has
+//! the surfaces of all bodies where they are, each polygon with the number of its body, and as field
+//! data the pose of every body: `position` in m and `orientation`, a unit quaternion (x, y, z, w).
+//! The formats are those of VTK's XML, in text.
 
 use std::fmt::Write as _;
 
 use tunnelproof::query::Point;
-use tunnelproof::wire::StepRecord;
+use tunnelproof::wire::{Shape, StepRecord};
 
-use crate::replay::place;
+use crate::replay::{Surface, place};
 
-/// The steps of a run on their clock: the text of the `.pvd`, of files named by [`file`](fn@file).
-pub fn collection(times: &[(u64, f64)]) -> String {
+/// The steps of a run on their clock: the text of the `.pvd`, of files named by [`file`](fn@file)
+/// and, if there are bodies, by [`bodies_file`].
+pub fn collection(times: &[(u64, f64)], has_bodies: bool) -> String {
     let mut text = String::from(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n",
     );
     for (step, time) in times {
-        let name = file(*step);
-        text += &format!("<DataSet timestep=\"{time}\" part=\"0\" file=\"{name}\"/>\n");
+        let bodies = has_bodies.then(|| bodies_file(*step));
+        for (part, name) in std::iter::once(file(*step)).chain(bodies).enumerate() {
+            text += &format!("<DataSet timestep=\"{time}\" part=\"{part}\" file=\"{name}\"/>\n");
+        }
     }
     text + "</Collection>\n</VTKFile>\n"
 }
@@ -27,6 +32,79 @@ pub fn collection(times: &[(u64, f64)]) -> String {
 /// The name of the file of a step.
 pub fn file(step: u64) -> String {
     format!("step-{step:06}.vtp")
+}
+
+/// The name of the file of the bodies after a step.
+pub fn bodies_file(step: u64) -> String {
+    format!("bodies-{step:06}.vtp")
+}
+
+/// The surfaces of bodies, in their frames.
+pub struct Bodies(Vec<Option<Surface>>);
+
+impl Bodies {
+    /// Of these shapes. A plane has a pose, and no surface.
+    pub fn new<'a>(shapes: impl IntoIterator<Item = &'a Shape>) -> Self {
+        Bodies(shapes.into_iter().map(Surface::of).collect())
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Where they are after a step: the text of a `.vtp`.
+    pub fn polygons(&self, record: &StepRecord) -> String {
+        let mut points: Vec<Point> = Vec::new();
+        let (mut corners, mut ends, mut bodies) = (Vec::new(), Vec::new(), Vec::new());
+        for (body, (surface, pose)) in self.0.iter().zip(&record.bodies).enumerate() {
+            let (Some(surface), pose) = (surface, &pose.after) else {
+                continue;
+            };
+            let first = points.len();
+            points.extend(
+                surface
+                    .points
+                    .iter()
+                    .map(|at| pose.position + pose.orientation * at.coords),
+            );
+            for polygon in &surface.polygons {
+                corners.extend(polygon.iter().map(|corner| first + corner));
+                ends.push(corners.len());
+                bodies.push(body);
+            }
+        }
+        let poses = record.bodies.iter().map(|body| &body.after);
+        let positions = poses
+            .clone()
+            .flat_map(|pose| <[f64; 3]>::from(pose.position.coords));
+        let orientations = poses.flat_map(|pose| <[f64; 4]>::from(pose.orientation.coords));
+        let mut text = String::from(
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\">\n<PolyData>\n<FieldData>\n",
+        );
+        field(&mut text, "position", 3, record.bodies.len(), positions);
+        field(
+            &mut text,
+            "orientation",
+            4,
+            record.bodies.len(),
+            orientations,
+        );
+        text += &format!(
+            "</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" \
+             NumberOfPolys=\"{}\">\n<Points>\n",
+            points.len(),
+            ends.len()
+        );
+        let coordinates = points.iter().flat_map(|at| [at.x, at.y, at.z]);
+        array(&mut text, "Float64", "points", 3, coordinates);
+        text += "</Points>\n<Polys>\n";
+        array(&mut text, "Int64", "connectivity", 1, corners);
+        array(&mut text, "Int64", "offsets", 1, ends);
+        text += "</Polys>\n<CellData Scalars=\"body\">\n";
+        array(&mut text, "Int64", "body", 1, bodies);
+        text + "</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n"
+    }
 }
 
 /// The wires and contacts after a step: the text of a `.vtp`.
@@ -98,11 +176,31 @@ fn array<T: std::fmt::Display>(
     components: usize,
     values: impl IntoIterator<Item = T>,
 ) {
-    // Writing to a string does not fail.
-    let _ = writeln!(
-        text,
-        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\">"
+    let head = format!("type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\"");
+    listed(text, &head, values);
+}
+
+/// Numbers of the whole file, so many tuples.
+fn field(
+    text: &mut String,
+    name: &str,
+    components: usize,
+    tuples: usize,
+    values: impl IntoIterator<Item = f64>,
+) {
+    let head = format!(
+        "type=\"Float64\" Name=\"{name}\" NumberOfComponents=\"{components}\" NumberOfTuples=\"{tuples}\""
     );
+    listed(text, &head, values);
+}
+
+fn listed<T: std::fmt::Display>(
+    text: &mut String,
+    head: &str,
+    values: impl IntoIterator<Item = T>,
+) {
+    // Writing to a string does not fail.
+    let _ = writeln!(text, "<DataArray {head} format=\"ascii\">");
     for value in values {
         let _ = write!(text, "{value} ");
     }
@@ -168,12 +266,67 @@ mod tests {
             piece.attribute("NumberOfLines").unwrap(),
             (nodes - 3).to_string()
         );
-        let clock = collection(&[(0, 0.5), (1, 1.0)]);
+        let clock = collection(&[(0, 0.5), (1, 1.0)], false);
         let clock = roxmltree::Document::parse(&clock).unwrap();
         let files: Vec<_> = clock
             .descendants()
             .filter_map(|node| node.attribute("file"))
             .collect();
         assert_eq!(files, ["step-000000.vtp", "step-000001.vtp"]);
+    }
+
+    #[test]
+    fn vtk_has_bodies_where_they_are() {
+        let scene = Scene::embedded("twisting-under-load").unwrap();
+        let mut world = scene.world().unwrap();
+        let mut collisions = Collisions::default();
+        let record = world.step_colliding(&mut collisions, &[]).unwrap();
+        let bodies = Bodies::new(world.bodies().iter().map(|body| body.shape()));
+        let text = bodies.polygons(&record);
+        let document = roxmltree::Document::parse(&text).unwrap();
+        let values = |name: &str| -> Vec<f64> {
+            let mut nodes = document.descendants();
+            let array = nodes.find(|node| node.attribute("Name") == Some(name));
+            let text = array.unwrap().text().unwrap();
+            text.split_whitespace()
+                .map(|value| value.parse().unwrap())
+                .collect()
+        };
+        let poses: Vec<_> = record.bodies.iter().map(|body| body.after).collect();
+        assert_eq!(values("position").len(), 3 * poses.len());
+        assert_eq!(values("orientation")[3], poses[0].orientation.w);
+        let [numbers, offsets] = ["body", "offsets"].map(values);
+        assert_eq!(numbers.len(), offsets.len());
+        // The load, a symmetrical body: the mean of its corners is where it is.
+        let corners = values("connectivity");
+        let mut of_load: Vec<usize> = Vec::new();
+        for (cell, end) in offsets.iter().enumerate() {
+            let from = if cell == 0 { 0.0 } else { offsets[cell - 1] };
+            if numbers[cell] == 1.0 {
+                of_load.extend(
+                    corners[from as usize..*end as usize]
+                        .iter()
+                        .map(|at| *at as usize),
+                );
+            }
+        }
+        of_load.sort_unstable();
+        of_load.dedup();
+        let points = values("points");
+        let mean = |axis: usize| {
+            let sum: f64 = of_load.iter().map(|at| points[3 * at + axis]).sum();
+            sum / of_load.len() as f64
+        };
+        for axis in 0..3 {
+            assert!(
+                (mean(axis) - poses[1].position[axis]).abs() < 1e-9,
+                "{axis}"
+            );
+        }
+        let clock = collection(&[(0, 0.5)], true);
+        assert!(
+            clock.contains("part=\"1\" file=\"bodies-000000.vtp\""),
+            "{clock}"
+        );
     }
 }

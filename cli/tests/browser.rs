@@ -32,35 +32,22 @@ addEventListener("load", () => {
       e.querySelectorAll("circle, rect, polyline").length]),
     letters: all("figure > svg text").filter(e => e.textContent.trim())
       .map(e => parseFloat(getComputedStyle(e).fontSize) * e.ownerSVGElement.getScreenCTM().a),
+    cut: all("figure > svg text").filter(e => {
+      const [text, chart] = [e, e.ownerSVGElement].map(e => e.getBoundingClientRect());
+      return text.left < chart.left || text.right > chart.right || text.top < chart.top || text.bottom > chart.bottom;
+    }).map(e => e.textContent),
+    numbers: all("figure > svg").map(e => [...e.querySelectorAll("text")].filter(e => e.textContent.trim() && !isNaN(e.textContent)).length),
     pictures: all("figure > img").map(e => [e.complete, e.naturalWidth]),
   }), "*");
 });
 </script></body>"#;
 
-/// What the page of a run says of itself after it has played for a while.
-const PLAY: &str = r##"<script>
-addEventListener("load", () => {
-  const picture = k => { seek(frames[k].time); return document.querySelector("#view canvas").toDataURL(); };
-  const pictures = [picture(0), picture(last)];
-  seek(frames[0].time);
-  document.getElementById("play").click();
-  setTimeout(() => {
-    const all = (selector) => [...document.querySelectorAll(selector)];
-    const view = document.querySelector("#view canvas").getBoundingClientRect();
-    parent.postMessage(JSON.stringify({
-      width: innerWidth,
-      overflow: document.documentElement.scrollWidth - document.documentElement.clientWidth,
-      paper: getComputedStyle(document.body).backgroundColor,
-      view: [view.width, view.height],
-      drawn: pictures.map(picture => picture.length),
-      moved: pictures[0] !== pictures[1],
-      played: Number(document.getElementById("time").value),
-      charts: all(".chart canvas").map(e => [e.width, e.toDataURL().length]),
-      marks: all("#marks rect").map(e => e.dataset.event),
-    }), "*");
-  }, 600);
-});
-</script></body>"##;
+/// What the page of a run says of itself after all its controls were used, and it has played for a while.
+const PLAY: &str = concat!(
+    "<script>",
+    include_str!("browser/play.js"),
+    "</script></body>"
+);
 
 /// The program, if there is one.
 fn browser() -> Option<&'static str> {
@@ -171,6 +158,13 @@ fn assert_is_drawn(browser: &str, page: &Path, charts: &[&str], pictures: usize)
             );
             assert!(number(3) > 6.0 && number(4) > 4.0, "empty: {chart} {at}");
         }
+        assert_eq!(said["cut"], Value::Array(Vec::new()), "{at}");
+        let numbers = said["numbers"].as_array().unwrap().iter();
+        // Two or more on each axis.
+        assert!(
+            numbers.clone().all(|count| count.as_u64() >= Some(5)),
+            "{at}"
+        );
         let letters = said["letters"].as_array().unwrap().iter();
         let smallest = letters
             .map(|height| height.as_f64().unwrap())
@@ -309,50 +303,95 @@ fn simulate(arguments: &[&str], page: &Path) {
     assert!(output.status.success());
 }
 
+/// Every control of the page of a run was used and did something, on a telephone and on a desk.
+fn assert_plays(browser: &str, page: &Path, views: usize) -> Vec<Value> {
+    let look = |(width, is_dark)| {
+        let (said, console) = drawn(browser, page, PLAY, width, is_dark);
+        let at = format!("{} at {width}, dark: {is_dark}: {said:#}", page.display());
+        assert_eq!(console, "", "{at}");
+        assert_eq!(said["width"], width, "{at}");
+        assert_eq!(said["overflow"], 0, "{at}");
+        assert_eq!(brightness(&said["paper"]) < 128.0, is_dark, "{at}");
+        assert_eq!(said["wrong"], Value::Array(Vec::new()), "{at}");
+        assert_eq!(said["controls"], said["used"], "{at}");
+        let number = |value: &Value| value.as_f64().unwrap();
+        let list = |name: &str| said[name].as_array().unwrap().clone();
+        assert_eq!(list("views").len(), views, "{at}");
+        for view in list("views") {
+            assert!(number(&view["width"]) > 250.0, "{at}");
+            assert!(number(&view["height"]) > 200.0, "{at}");
+            // What is to be seen reaches from border to border, but for some pixels.
+            assert!((0.9..=1.0).contains(&number(&view["fills"])), "{at}");
+            // An empty picture of this size is some hundreds of bytes.
+            assert!(number(&view["drawn"]) > 5000.0, "{at}");
+            assert_eq!(view["moved"], true, "{at}");
+        }
+        assert!(number(&said["played"]) >= 1.0, "{at}");
+        let charts = list("charts");
+        assert!(charts.len() >= 3, "{at}");
+        assert!(
+            charts.iter().all(|chart| number(&chart[1]) > 2000.0),
+            "{at}"
+        );
+        said
+    };
+    let sizes = [(390, false), (390, true), (1400, false), (1400, true)];
+    sizes.into_iter().map(look).collect()
+}
+
+fn texts(said: &Value, name: &str) -> Vec<String> {
+    let all = said[name].as_array().unwrap().iter();
+    all.map(|text| text.as_str().unwrap().to_owned()).collect()
+}
+
 #[test]
 fn browser_plays_the_page_of_the_longest_run() {
     let Some(browser) = browser() else { return };
     let folder = tempfile::tempdir().unwrap();
     let page = folder.path().join("run.html");
     simulate(&["pulling-anchor"], &page);
-    let (said, console) = drawn(browser, &page, PLAY, 1280, false);
-    assert_eq!(console, "", "{said:#}");
-    assert!(said["drawn"][0].as_f64().unwrap() > 5000.0, "{said:#}");
-    assert_eq!(said["moved"], true, "{said:#}");
+    for said in assert_plays(browser, &page, 1) {
+        // The boxes start at the ends of the wire, and the cylinder hangs between them.
+        assert_eq!(texts(&said, "names"), ["cylinder", "near box", "far box"]);
+    }
 }
 
 #[test]
-fn browser_plays_the_page_of_a_run() {
+fn browser_plays_the_page_of_two_runs_on_one_clock() {
     let Some(browser) = browser() else { return };
     let folder = tempfile::tempdir().unwrap();
     let page = folder.path().join("run.html");
-    let scene = ["basic-collision", "--duration", "1.5", "--mode", "thesis"];
-    simulate(&scene, &page);
-    for (width, is_dark) in [(390, false), (1280, true)] {
-        let (said, console) = drawn(browser, &page, PLAY, width, is_dark);
-        let at = format!("at {width}: {said:#}");
-        assert_eq!(console, "", "{at}");
-        assert_eq!(said["width"], width, "{at}");
-        assert_eq!(said["overflow"], 0, "{at}");
-        assert_eq!(brightness(&said["paper"]) < 128.0, is_dark, "{at}");
-        let number = |value: &Value| value.as_f64().unwrap();
-        assert!(
-            number(&said["view"][0]) > 300.0 && number(&said["view"][1]) > 200.0,
-            "{at}"
-        );
-        // An empty picture of this size is some hundreds of bytes.
-        assert!(
-            number(&said["drawn"][0]) > 5000.0 && said["moved"] == true,
-            "{at}"
-        );
-        assert!(number(&said["played"]) >= 1.0, "{at}");
-        let charts = said["charts"].as_array().unwrap();
-        assert_eq!(charts.len(), 3, "{at}");
-        assert!(
-            charts.iter().all(|chart| number(&chart[1]) > 2000.0),
-            "{at}"
-        );
-        let marks: Vec<_> = said["marks"].as_array().unwrap().iter().collect();
-        assert!(marks.len() >= 2 && marks[0] == "tunnelled", "{at}");
+    let beside = ["--audit", "--beside", "discrete"];
+    let scene = ["basic-collision", "--duration", "1.5"];
+    simulate(&[&scene[..], &beside[..]].concat(), &page);
+    for said in assert_plays(browser, &page, 2) {
+        // Both runs, each on its half of the time line.
+        let marks = texts(&said, "marks");
+        for mark in ["prevented", "missed"] {
+            assert!(marks.iter().any(|found| found == mark), "{said:#}");
+        }
+        let legend = texts(&said, "legend").join("; ");
+        for words in [
+            "pinned",
+            "prevented",
+            "missed",
+            "normal of a contact",
+            "N or more",
+        ] {
+            assert!(legend.contains(words), "{words}: {said:#}");
+        }
     }
+}
+
+#[test]
+fn browser_colours_wires_that_are_called_after_a_colour() {
+    let Some(browser) = browser() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("run.html");
+    simulate(&["chains-on-deck", "--duration", "2"], &page);
+    let (said, console) = drawn(browser, &page, PLAY, 1400, false);
+    assert_eq!(console, "");
+    assert_eq!(said["tone"], "name", "{said:#}");
+    let legend = texts(&said, "legend");
+    assert!(legend.iter().any(|words| words == "brown"), "{said:#}");
 }

@@ -9,7 +9,7 @@ use clap::Args;
 use serde::Serialize;
 use tunnelproof::wire::recording::Recording;
 use tunnelproof_cli::audit::Audit as Auditor;
-use tunnelproof_cli::replay::Replay;
+use tunnelproof_cli::replay::{self, Replay};
 use tunnelproof_cli::report::audit;
 
 use super::output::{JsonOutput, OutputFile};
@@ -60,7 +60,8 @@ impl Audit {
         })?;
         let report = auditor.finish();
         if let Some((page, replay)) = page.zip(replay) {
-            page.write(&replay.page(Some(&report)).map_err(no_json)?)?;
+            let runs = [replay.audited(&report)];
+            page.write(&replay::page(&runs).map_err(no_json)?)?;
         }
         json.write(|| as_json(&report), || audit::text(&report))?;
         let good = if self.exact {

@@ -34,6 +34,7 @@ mod merge;
 mod mesh_step;
 mod output;
 mod pages;
+mod polygons;
 mod progress;
 mod replay;
 mod resume;

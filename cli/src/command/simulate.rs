@@ -11,13 +11,13 @@ use tunnelproof::wire::recording::{Header, Recorder};
 use tunnelproof::wire::{self, StepRecord, World};
 use tunnelproof_cli::audit::{self, Audit};
 use tunnelproof_cli::perturb;
-use tunnelproof_cli::replay::Replay;
+use tunnelproof_cli::replay::{self, Drawing, Replay};
 use tunnelproof_cli::report;
 use tunnelproof_cli::scenes::{EMBEDDED, Scene};
 use tunnelproof_cli::simulate::{Narrow, Run, Summary};
-use tunnelproof_cli::vtk;
 
 use super::output::{JsonOutput, OutputFile, print, unwritable};
+use super::polygons::Polygons;
 use super::{Failure, progress};
 
 /// Run a scene, and check every step of it for missed tunnels
@@ -27,6 +27,7 @@ Examples:
   tunnelproof simulate basic-collision --audit
   tunnelproof simulate basic-collision --mode thesis --narrow thesis --record run.tps
   tunnelproof simulate twisting-under-load --audit --replay run.html
+  tunnelproof simulate basic-collision --beside discrete --replay both.html --frames pictures
   tunnelproof simulate my-scene.toml --step 0.01 --duration 2 --json -
   tunnelproof simulate --schema > scene.schema.json
 
@@ -63,7 +64,14 @@ pub(super) struct Simulate {
     /// Write a page to watch the run to this file
     #[arg(long, value_name = "OUT")]
     replay: Option<PathBuf>,
-    /// Write every step to this folder for ParaView: steps.pvd and a .vtp for each step
+    /// Run the scene once more, with this narrow phase, and show both runs beside each other
+    #[arg(long, value_name = "NARROW", value_parser = narrow())]
+    beside: Option<Narrow>,
+    /// Write a picture of every step to this folder, frame-000000.svg and so on, to make a video of
+    #[arg(long, value_name = "FOLDER")]
+    frames: Option<PathBuf>,
+    /// Write every step to this folder for ParaView: steps.pvd, and for each step a .vtp and one of
+    /// the bodies
     #[arg(long, value_name = "FOLDER")]
     vtk: Option<PathBuf>,
     /// Write the summary, and the audit, to this file, as JSON; - is the standard output, in place
@@ -118,8 +126,14 @@ impl Simulate {
             polygons.finish()?;
         }
         let audit = watch.audit.map(Audit::finish);
-        if let Some((page, replay)) = page.zip(watch.replay) {
-            page.write(&replay.page(audit.as_ref()).map_err(super::audit::no_json)?)?;
+        if let Some(replay) = watch.replay {
+            let runs = self.shown(replay, audit.as_ref(), &scene)?;
+            if let Some(page) = page {
+                page.write(&replay::page(&runs).map_err(super::audit::no_json)?)?;
+            }
+            if let Some(folder) = &self.frames {
+                draw(&runs, folder)?;
+            }
         }
         let document = Document {
             narrow: self.narrow.name(),
@@ -137,6 +151,54 @@ impl Simulate {
             true => ExitCode::SUCCESS,
             false => ExitCode::FAILURE,
         })
+    }
+
+    /// The run, and the one beside it.
+    fn shown(
+        &self,
+        replay: Replay,
+        audit: Option<&audit::Report>,
+        scene: &Scene,
+    ) -> Result<Vec<Replay>, Failure> {
+        let first = match audit {
+            Some(report) => replay.audited(report),
+            None => replay,
+        };
+        let second = self.beside.map(|narrow| self.run_beside(narrow, scene));
+        Ok(std::iter::once(first).chain(second.transpose()?).collect())
+    }
+
+    /// The same scene with another narrow phase, audited if the first run is.
+    fn run_beside(&self, narrow: Narrow, scene: &Scene) -> Result<Replay, Failure> {
+        let world = scene.world().map_err(|error| self.wrong(error))?;
+        let mut replay = self.empty_replay(narrow, scene, &world);
+        let mut audit = self.audit.then(|| Audit::of_world(&world));
+        let run = Run {
+            scene,
+            narrow: &*narrow.phase(),
+            mode: self.mode.into(),
+        };
+        progress::working(scene.steps() as usize, "steps beside", |done| {
+            run.go(|_, record| {
+                done(1);
+                replay.step(record);
+                if let Some(audit) = &mut audit {
+                    audit.step(record);
+                }
+                Ok::<(), Failure>(())
+            })
+        })?;
+        Ok(match audit.map(Audit::finish) {
+            Some(report) => replay.audited(&report),
+            None => replay,
+        })
+    }
+
+    /// A run that is to come, called after how it is made.
+    fn empty_replay(&self, narrow: Narrow, scene: &Scene, world: &World) -> Replay {
+        let replay = Replay::new(&scene.title, Header::from(world), scene.steps());
+        let how = format!("{}, {} mode", narrow.name(), self.mode.name());
+        replay.named_as_in(scene).called(&how)
     }
 
     fn scene(&self) -> Result<Scene, Failure> {
@@ -179,30 +241,6 @@ struct Watch<'a> {
     vtk: Option<Polygons<'a>>,
 }
 
-/// A folder of files for ParaView under way.
-struct Polygons<'a> {
-    folder: &'a Path,
-    radii: Vec<f64>,
-    times: Vec<(u64, f64)>,
-}
-
-impl Polygons<'_> {
-    fn step(&mut self, record: &StepRecord) -> Result<(), Failure> {
-        self.times.push((record.step, record.time));
-        let text = vtk::polygons(record, &self.radii);
-        self.write(&vtk::file(record.step), &text)
-    }
-
-    fn finish(&self) -> Result<(), Failure> {
-        self.write("steps.pvd", &vtk::collection(&self.times))
-    }
-
-    fn write(&self, name: &str, text: &str) -> Result<(), Failure> {
-        let path = self.folder.join(name);
-        fs::write(&path, text).map_err(|error| unwritable(&path, error))
-    }
-}
-
 impl<'a> Watch<'a> {
     fn new(options: &'a Simulate, scene: &Scene, world: &World) -> Result<Self, Failure> {
         let record = |path: &'a Path| -> Result<_, Failure> {
@@ -210,23 +248,14 @@ impl<'a> Watch<'a> {
             let recorder = Recorder::new(file, world).map_err(|error| refused(path, error))?;
             Ok((recorder, path))
         };
-        let polygons = |folder: &'a Path| -> Result<_, Failure> {
-            fs::create_dir_all(folder).map_err(|error| unwritable(folder, error))?;
-            let (radii, times) = (radii(world), Vec::new());
-            Ok(Polygons {
-                folder,
-                radii,
-                times,
-            })
-        };
+        let is_shown = options.replay.is_some() || options.frames.is_some();
         Ok(Watch {
-            vtk: options.vtk.as_deref().map(polygons).transpose()?,
+            vtk: (options.vtk.as_deref())
+                .map(|folder| Polygons::new(folder, world))
+                .transpose()?,
             recorder: options.record.as_deref().map(record).transpose()?,
             audit: options.audit.then(|| Audit::of_world(world)),
-            replay: options.replay.as_ref().map(|_| {
-                let replay = Replay::new(&scene.title, Header::from(world), scene.steps());
-                replay.named_as_in(scene)
-            }),
+            replay: is_shown.then(|| options.empty_replay(options.narrow, scene, world)),
         })
     }
 
@@ -249,9 +278,15 @@ impl<'a> Watch<'a> {
     }
 }
 
-fn radii(world: &World) -> Vec<f64> {
-    let radii = world.wires().iter().map(|wire| wire.material().radius);
-    radii.collect()
+/// Every frame as a picture.
+fn draw(runs: &[Replay], folder: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(folder).map_err(|error| unwritable(folder, error))?;
+    let drawing = Drawing::new(runs);
+    for frame in 0..drawing.frames() {
+        let path = folder.join(format!("frame-{frame:06}.svg"));
+        fs::write(&path, drawing.frame(frame)).map_err(|error| unwritable(&path, error))?;
+    }
+    Ok(())
 }
 
 fn refused(path: &Path, error: impl ToString) -> Failure {

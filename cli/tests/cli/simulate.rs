@@ -48,7 +48,7 @@ fn simulate_records_what_audit_reads_and_both_find_the_same() {
     assert_eq!(output.status.code(), Some(1));
     let page = std::fs::read_to_string(page).unwrap();
     assert!(page.contains("<title>run</title>"));
-    assert!(page.contains("\"missed\":"));
+    assert!(page.contains(r#"{"what":"missed","at":["#));
     assert_eq!(page.matches("\"time\":").count(), 13);
     assert!(page.contains(r#""names":{"wires":["wire 0","wire 1","wire 2"]"#));
     assert_eq!(live["summary"]["steps"], 12);
@@ -91,6 +91,53 @@ fn simulate_writes_a_clock_and_a_file_for_each_step_for_paraview() {
     let clock = std::fs::read_to_string(to.join("steps.pvd")).unwrap();
     assert_eq!(clock.matches("<DataSet").count(), 3);
     assert!(to.join("step-000002.vtp").exists());
+}
+
+#[test]
+fn simulate_writes_bodies_for_paraview_beside_the_steps() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    let scene = ["simulate", "twisting-under-load", "--duration", "0.05"];
+    let output = tunnelproof(&[&scene[..], &["--vtk", path]].concat());
+    assert!(output.status.success(), "{}", stderr(&output));
+    let clock = std::fs::read_to_string(folder.path().join("steps.pvd")).unwrap();
+    assert_eq!(clock.matches("file=\"bodies-").count(), 3);
+    assert!(folder.path().join("bodies-000002.vtp").exists());
+}
+
+#[test]
+fn simulate_draws_two_runs_beside_each_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let [pictures, page] = ["pictures", "both.html"].map(|name| folder.path().join(name));
+    let output = tunnelproof(&[
+        "simulate",
+        "basic-collision",
+        "--duration",
+        "0.05",
+        "--beside",
+        "discrete",
+        "--audit",
+        "--frames",
+        pictures.to_str().unwrap(),
+        "--replay",
+        page.to_str().unwrap(),
+    ]);
+    // Its own run is clean, whatever the one beside it does.
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(std::fs::read_dir(&pictures).unwrap().count(), 4);
+    let picture = std::fs::read_to_string(pictures.join("frame-000001.svg")).unwrap();
+    for words in [
+        "certified, guard mode",
+        "discrete, guard mode",
+        "prevented",
+        "missed",
+    ] {
+        assert!(picture.contains(words), "{words}: {picture}");
+    }
+    let page = std::fs::read_to_string(page).unwrap();
+    assert_eq!(page.matches("class=\"canvas\"").count(), 2);
+    assert!(page.contains("audited: nothing passed unnoticed"));
+    assert!(page.contains("contacts missed"));
 }
 
 #[test]
