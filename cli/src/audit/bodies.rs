@@ -26,6 +26,9 @@ type Vector = Vector3<f64>;
 /// The largest turn of a part, in radians, for a segment that is fixed to the body.
 const FINE: f64 = std::f64::consts::PI / 180.0;
 
+/// How many times a part is looked at before the oracle is asked.
+const LOOKS: usize = 16;
+
 /// The way of a body in a step.
 pub(super) struct BodyWay {
     pieces: Vec<RigidMotion>,
@@ -96,17 +99,23 @@ impl BodyWay {
             return Ok((None, 0));
         }
         let (pieces, mut asked) = (self.pieces.len() as f64, 0);
+        let mut was_looked_at = false;
         for piece in 0..self.pieces.len() {
             let parts = self.parts(segment, piece);
             for k in 0..parts {
                 let part = self.part(segment, piece, k, parts)?;
+                if !part.comes_near(core) {
+                    continue;
+                }
+                if !was_looked_at {
+                    was_looked_at = true;
+                    if is_in(core, self.pieces[0].start(), &segment.start)? {
+                        return Ok((None, asked));
+                    }
+                }
                 let Some(hit) = part.touch(core, &mut asked)? else {
                     continue;
                 };
-                let initial = (piece, k) == (0, 0) && hit.is_initial();
-                if initial || is_in(core, self.pieces[0].start(), &segment.start)? {
-                    return Ok((None, asked));
-                }
                 let at = |k: usize| (piece as f64 + k as f64 / parts as f64) / pieces;
                 let [from, to] = [at(k), at(k + 1)];
                 let touch = Touch {
@@ -197,59 +206,73 @@ fn quarter_tangent(motion: &RigidMotion) -> f64 {
     (to - from).norm() / (to + from).norm()
 }
 
-/// A vector of space in the body's frame at one end of a motion, rounded.
+/// A vector of space in the body's frame at a time of a motion, rounded.
 fn seen(motion: &RigidMotion, t: f64, vector: &Vector) -> Vector {
     let [from, to] = motion.quaternions();
-    let [w, x, y, z] = if t == 0.0 { from } else { to };
-    let q = Quaternion::new(w, x, y, z);
-    let unit = UnitQuaternion::new_normalize(q);
+    let [w, x, y, z] = [0, 1, 2, 3].map(|i| from[i] * (1.0 - t) + to[i] * t);
+    let unit = UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z));
     unit.inverse_transform_vector(vector)
 }
 
 impl Part {
-    /// Both nodes at both ends in the body's frame, and how far they may be from the lines between.
-    fn local(&self) -> ([[Vector; 2]; 2], f64) {
-        let centres = [self.motion.start(), self.motion.end()].map(|pose| pose.centre);
+    /// Both nodes in the body's frame at [`LOOKS`] + 1 times, two by two, and how far they may be
+    /// from the lines between.
+    fn looks(&self) -> (Vec<[Vector; 2]>, f64) {
         let angle = 4.0 * quarter_tangent(&self.motion);
-        let mut most: f64 = 0.0;
-        let nodes = [0, 1].map(|node| {
-            let [from, to] = [self.start[node] - centres[0], self.end[node] - centres[1]];
-            let (r, d) = (from.norm().max(to.norm()), (to - from).norm());
-            let stray = (1.5 * angle * angle * r + 2.5 * angle * d) / 8.0;
-            let size = self.start[node]
-                .coords
-                .amax()
-                .max(self.end[node].coords.amax());
+        let centres = [self.motion.start(), self.motion.end()].map(|pose| pose.centre);
+        let [mut stray, mut rounding]: [f64; 2] = [0.0; 2];
+        for (from, to) in self.start.iter().zip(&self.end) {
+            let [first, last] = [from - centres[0], to - centres[1]];
+            let (r, d) = (first.norm().max(last.norm()), (last - first).norm());
+            stray = stray.max((1.5 * angle * angle * r + 2.5 * angle * d) / 8.0);
+            let size = from.coords.amax().max(to.coords.amax());
             let size = size + centres[0].coords.amax().max(centres[1].coords.amax());
-            most = most.max(stray + ROUNDING * size);
-            [seen(&self.motion, 0.0, &from), seen(&self.motion, 1.0, &to)]
-        });
-        (nodes, most)
+            rounding = rounding.max(ROUNDING * size);
+        }
+        let at = |k: usize| {
+            let t = k as f64 / LOOKS as f64;
+            [0, 1].map(|node| {
+                let from = self.start[node] - centres[0];
+                let to = self.end[node] - centres[1];
+                seen(&self.motion, t, &(from * (1.0 - t) + to * t))
+            })
+        };
+        let looks = (0..=LOOKS).map(at).collect();
+        // A part of the time of half the length has a quarter of the stray.
+        (looks, stray / (LOOKS * LOOKS) as f64 + rounding)
+    }
+
+    /// Whether the segment comes near the core at all.
+    fn comes_near(&self, core: &Core) -> bool {
+        let (looks, stray) = self.looks();
+        match core {
+            Core::Plane => looks.as_flattened().iter().any(|point| point.z <= stray),
+            Core::Surface(surface) => !near(&looks, stray, surface).0.is_empty(),
+        }
     }
 
     /// The first contact, by the oracle.
     fn touch(&self, core: &Core, asked: &mut u64) -> Result<Option<ExactHit>, RigidError> {
-        let (nodes, stray) = self.local();
-        let points = [nodes[0][0], nodes[0][1], nodes[1][0], nodes[1][1]];
+        let (looks, stray) = self.looks();
         match core {
             Core::Plane => {
-                if points.iter().all(|point| point.z > stray) {
+                if looks.as_flattened().iter().all(|point| point.z > stray) {
                     return Ok(None);
                 }
                 *asked += 1;
-                let covering = covering(&points);
+                let covering = covering(looks.as_flattened());
                 let on_node = |node: usize| self.against_face(node, &covering);
                 Ok(first([on_node(0)?, on_node(1)?]))
             }
             Core::Surface(surface) => {
-                let size = surface.low.amax().max(surface.high.amax());
-                let stray = stray + ROUNDING * size;
-                let apart = |low: &Vector, high: &Vector| is_apart(&points, stray, low, high);
-                if apart(&surface.low, &surface.high) || surface.is_beyond(&points, stray) {
+                let (near, stray) = near(&looks, stray, surface);
+                if near.is_empty() {
                     return Ok(None);
                 }
                 *asked += 1;
-                self.touch_surface(surface, &apart)
+                self.touch_surface(surface, &|low, high| {
+                    near.iter().all(|points| is_apart(points, stray, low, high))
+                })
             }
         }
     }
@@ -281,6 +304,19 @@ impl Part {
         let query = VertexTurningFace::new(start, end, *face, self.motion)?;
         Ok(decide_rigid_query(&RigidQuery::VertexTurningFace(query)).hit)
     }
+}
+
+/// Where the segment is, from look to look, when it may be near a surface, and how far it may be from
+/// there.
+fn near(looks: &[[Vector; 2]], stray: f64, surface: &Surface) -> (Vec<[Vector; 4]>, f64) {
+    let stray = stray + ROUNDING * surface.low.amax().max(surface.high.amax());
+    let between = looks.windows(2);
+    let between = between.map(|two| [two[0][0], two[0][1], two[1][0], two[1][1]]);
+    let is_near = |points: &[Vector; 4]| {
+        let apart = is_apart(points, stray, &surface.low, &surface.high);
+        !apart && !surface.is_beyond(points, stray)
+    };
+    (between.filter(is_near).collect(), stray)
 }
 
 fn first(hits: impl IntoIterator<Item = Option<ExactHit>>) -> Option<ExactHit> {

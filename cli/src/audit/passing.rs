@@ -112,7 +112,7 @@ impl Audit {
             let Some(Ok(way)) = way else { return true };
             let was_in = |ends| is_in(core, way.pose(), ends).unwrap_or(false);
             let swept = is_swept(core, way.first(), &change.triangle).unwrap_or(true);
-            swept && !own.iter().all(was_in)
+            swept && !own.iter().any(was_in)
         };
         (0..self.cores.len()).filter(is_through).collect()
     }

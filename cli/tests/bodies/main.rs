@@ -309,6 +309,7 @@ fn guard_carries_a_wire_along_with_every_rod() {
             "{shape:?} {speed} {offset}"
         );
         assert!(report.body_standing.is_empty());
+        assert!(highest > body, "the wire is not carried along");
     }
 }
 

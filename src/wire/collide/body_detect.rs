@@ -226,6 +226,13 @@ impl<'a> Beside<'a> {
         if segment.is_still_beside(self.way) {
             return Ok(None);
         }
+        // The end of a wire in its body would be asked about in every one of its parts.
+        let parts = |piece: &RigidMotion| segment.parts(piece) > 1;
+        if self.way.pieces.iter().any(parts)
+            && is_in(self.core, self.way.pieces[0].start(), &segment.start)?
+        {
+            return Ok(None);
+        }
         let mut tested = false;
         for piece in 0..self.way.pieces.len() {
             let parts = segment.parts(&self.way.pieces[piece]);

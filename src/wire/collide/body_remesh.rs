@@ -17,8 +17,9 @@ use crate::wire::model::core::{Core, Surface};
 use crate::wire::resolution::{Remesh, RemeshKind};
 use crate::wire::world::World;
 
-/// Whether the triangle that a change sweeps touches a core, unless all that it takes out does so
-/// already.
+/// Whether the triangle that a change sweeps touches a core. Not if something that it takes out or
+/// divides does so already, as at the end of a wire inside its body: then only the place moves where
+/// the wire leaves the core.
 pub(super) fn meets(
     world: &World,
     change: &Remesh,
@@ -74,7 +75,7 @@ fn is_pierced(
     Ok(false)
 }
 
-/// Whether every segment that a change takes out or divides touches the core or is inside.
+/// Whether a segment that a change takes out or divides touches the core already, or is inside.
 fn was_in(motion: &RigidMotion, core: &Core, change: &Remesh) -> Result<bool, CollisionError> {
     let [a, b, c] = change.triangle;
     let own = match change.kind {
@@ -82,9 +83,9 @@ fn was_in(motion: &RigidMotion, core: &Core, change: &Remesh) -> Result<bool, Co
         RemeshKind::Split => vec![[a, c]],
     };
     for ends in &own {
-        if !is_in(core, motion.start(), ends)? {
-            return Ok(false);
+        if is_in(core, motion.start(), ends)? {
+            return Ok(true);
         }
     }
-    Ok(true)
+    Ok(false)
 }

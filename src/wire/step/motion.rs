@@ -13,8 +13,9 @@ use crate::wire::world::World;
 /// The largest turn from pose to pose of a motion, in radians: 45 degrees.
 const TURN: f64 = std::f64::consts::FRAC_PI_4;
 
-/// The most of these turns in a motion; what turns farther has no way that could be tested.
-const MOST_TURNS: f64 = 4096.0;
+/// The most of these turns in a motion. A dynamic body is not let spin faster, as a thin one may
+/// that rolls on what is fast; its way could not be tested.
+const MOST_TURNS: f64 = 512.0;
 
 /// Positions and velocities at the end of a step.
 pub(in crate::wire) struct ProposedMotion {
@@ -91,6 +92,10 @@ impl World {
                 None => body.prescribed(self.time(), step),
             };
             let (velocity, angular_velocity) = (velocity * scale, spin * scale);
+            let angular_velocity = match body.dynamic {
+                true => slowed(angular_velocity, MOST_TURNS * TURN / step),
+                false => angular_velocity,
+            };
             let turned = turn(&body.orientation, &angular_velocity, step);
             let turns = (angular_velocity.norm() * step / TURN).ceil();
             let is_followed = turns <= MOST_TURNS;
@@ -147,6 +152,16 @@ impl World {
             }
         }
         moved
+    }
+}
+
+/// A vector made no longer than `most`.
+fn slowed(vector: Vector, most: f64) -> Vector {
+    let length = vector.norm();
+    if length > most {
+        vector * (most / length) * (1.0 - 1e-9)
+    } else {
+        vector
     }
 }
 
