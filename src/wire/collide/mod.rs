@@ -8,7 +8,8 @@
 //! swept boxes, broad phase, exclusion of slow pairs, narrow phase. Pairs that do not meet on the
 //! way but end up closer than their radii get a contact for the next step (thesis 3.2.4). Contacts
 //! stay on their place of the material and slide with the closest points (`touch`). What a crossing
-//! leads to is the [`Mode`]. Contacts with bodies are found where a step starts (`obstacle`), by a
+//! leads to is the [`Mode`]. How far apart thick wires are kept is in `thickness`, and what moves
+//! less so that they are, in `islands` and `parts`. Contacts with bodies are found where a step starts (`obstacle`), by a
 //! collision library (`form`).
 //!
 //! ```
@@ -42,8 +43,10 @@ mod detect;
 mod guard;
 mod islands;
 mod manifold;
+mod parts;
 mod remesh;
 mod segment;
+mod thickness;
 mod wire_contacts;
 
 #[cfg(test)]
@@ -64,7 +67,8 @@ impl World {
     /// are more contacts; keys from 2^63 on are not theirs to use.
     ///
     /// In guard mode no wire passes through another or through itself, changes of resolution
-    /// included. Segments that share a node, or are fixed to the same point, are not tested against
+    /// included. With a [guarded share of the thickness](Collisions::with_guarded_thickness) none
+    /// comes within it either. Segments that share a node, or are fixed to the same point, are not tested against
     /// each other.
     ///
     /// # Errors
