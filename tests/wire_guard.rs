@@ -20,6 +20,9 @@ use tunnelproof::wire::{
 };
 use tunnelproof_reference::oracle::decide_query;
 
+#[path = "wire_guard/thickness.rs"]
+mod thickness;
+
 const STEPS: usize = 12;
 
 fn vector(rng: &mut ChaCha8Rng, size: f64) -> Vector {

@@ -51,6 +51,19 @@ pub enum What {
     False,
     /// A change of resolution passes through another segment.
     Remesh,
+    /// Segments come as near as the share of their thickness that is guarded, or nearer than they
+    /// were.
+    Nearer {
+        /// Who missed it.
+        by: Culprit,
+        /// Whether they were closer than that share where the motion started.
+        were_near: bool,
+    },
+    /// A change of resolution does.
+    RemeshNearer {
+        /// Whether they were closer than that share before the change.
+        were_near: bool,
+    },
     /// A wire does not start where the step before left it.
     Jump {
         /// The wire.
@@ -153,6 +166,12 @@ impl fmt::Display for What {
             What::Early { by } => write!(f, "time of impact {by:e} of a step early"),
             What::False => f.write_str("reported to meet, and do not"),
             What::Remesh => f.write_str("a change of resolution passes through"),
+            What::Nearer { by, were_near } => {
+                write!(f, "{}, missed by {by}", nearer(*were_near))
+            }
+            What::RemeshNearer { were_near } => {
+                write!(f, "a change of resolution: {}", nearer(*were_near))
+            }
             What::Jump { wire } => {
                 write!(
                     f,
@@ -184,6 +203,13 @@ impl fmt::Display for What {
             }
             What::Unsound { wire } => write!(f, "wire {wire} has numbers that are no motion"),
         }
+    }
+}
+
+fn nearer(were_near: bool) -> &'static str {
+    match were_near {
+        true => "nearer than they were, inside the guarded thickness",
+        false => "inside the guarded thickness",
     }
 }
 

@@ -10,6 +10,8 @@
 //! - a wire that does not start where the step before left it *jumped*: nobody has looked at how it got there;
 //! - a midline that comes to touch the core of a body, in the motion or in a change of resolution, and that was not
 //!   reported; a midline that is inside a core at the end, but for the end of a wire that is fixed to the body;
+//! - segments that come nearer than the share of their thickness that is guarded, or nearer than they were inside of it,
+//!   in the motion that was made or in a change of resolution, are found;
 //! - the ledger sums up signed passages of each pair of wires. What is not 0 at the end is a *standing tunnel*.
 //!
 //! Pairs that share a node or are fixed to one point are left out. Boxes are compared and not computed, and the ledger moves
@@ -21,10 +23,12 @@ mod core;
 mod finding;
 mod ledger;
 mod passing;
+mod penetration;
 mod remesh;
 mod segments;
 #[cfg(test)]
 mod tests;
+mod thickness;
 
 use std::collections::BTreeMap;
 
@@ -39,12 +43,14 @@ use self::core::Core;
 use aside::passages;
 use ledger::Ledger;
 use remesh::{Meeting, Wires};
-use segments::{Segment, candidates, moving, query};
+use segments::{Segment, candidates, four, moving, query};
+use thickness::Thickness;
 use tunnelproof_reference::answer::ExactHit;
 use tunnelproof_reference::oracle::decide_query;
 
 pub use finding::{Culprit, Finding, What};
 pub use ledger::Ambiguous;
+pub use penetration::Penetration;
 
 /// How many findings are kept; the others are counted.
 pub const MOST_FINDINGS: usize = 1000;
@@ -92,6 +98,18 @@ pub struct Report {
     pub body_missed: u64,
     /// Changes of resolution that passed through a core.
     pub body_remeshes_through: u64,
+    /// The largest share of the thickness that was guarded.
+    pub guarded_thickness: f64,
+    /// Pairs of segments near enough to ask whether they keep it.
+    pub thick_pairs: u64,
+    /// Pairs that came within the guarded share of their thickness, and pairs that were within and came nearer.
+    pub nearer: [u64; 2],
+    /// The same of changes of resolution.
+    pub remeshes_nearer: [u64; 2],
+    /// How far wires stood inside each other, at the end of the step in which it was the most.
+    pub deepest: Option<Penetration>,
+    /// How far they stand inside each other at the end of the run.
+    pub standing_penetration: Option<Penetration>,
     /// Wires and bodies that jumped, or had numbers that are no motion.
     pub jumps: u64,
     /// Times of impact that were late, and the worst.
@@ -125,7 +143,9 @@ impl Report {
     /// How much passed unnoticed, and how often a wire or a body jumped.
     pub fn unnoticed(&self) -> u64 {
         let bodies = self.body_missed + self.body_remeshes_through;
-        self.missed.iter().sum::<u64>() + self.remeshes_through + bodies + self.jumps
+        let nearer = self.nearer.iter().chain(&self.remeshes_nearer);
+        let missed = self.missed.iter().chain(nearer).sum::<u64>();
+        missed + self.remeshes_through + bodies + self.jumps
     }
 
     /// How often what was reported is not exact: late, early or no contact.
@@ -146,6 +166,10 @@ impl Report {
             What::Remesh => self.remeshes_through += 1,
             What::BodyMissed { .. } => self.body_missed += 1,
             What::BodyRemesh { .. } => self.body_remeshes_through += 1,
+            What::Nearer { were_near, .. } => self.nearer[usize::from(were_near)] += 1,
+            What::RemeshNearer { were_near } => {
+                self.remeshes_nearer[usize::from(were_near)] += 1;
+            }
             What::Jump { .. }
             | What::Unsound { .. }
             | What::BodyJump { .. }
@@ -196,6 +220,7 @@ impl Audit {
             self.motion(record);
             self.prevented(record);
             self.beside_bodies(record);
+            self.thickness(record);
             self.left = Some(self.remeshes(record));
         }
     }
@@ -232,7 +257,7 @@ impl Audit {
     /// The motion that was made, pair by pair.
     fn motion(&mut self, record: &StepRecord) {
         let segments = moving(record);
-        let pairs = candidates(&segments);
+        let pairs = candidates(&segments, 0.0);
         self.report.pairs += pairs.len() as u64;
         let mut said: BTreeMap<_, _> = (record.collisions.pairs.iter())
             .map(|said| (ordered(said.pair), said.answer))
@@ -277,13 +302,55 @@ impl Audit {
         }
     }
 
+    /// Pairs that do not keep the share of their thickness that is guarded; and how far wires stand
+    /// inside each other.
+    fn thickness(&mut self, record: &StepRecord) {
+        let segments = moving(record);
+        self.report.standing_penetration = penetration::of(record.step, &segments);
+        let deepest = self.report.deepest.into_iter();
+        let both = deepest.chain(self.report.standing_penetration);
+        self.report.deepest = both.reduce(Penetration::deeper);
+        let share = record.collisions.guarded_thickness;
+        if share == 0.0 {
+            return;
+        }
+        self.report.guarded_thickness = self.report.guarded_thickness.max(share);
+        let said: BTreeMap<_, _> = (record.collisions.pairs.iter())
+            .map(|said| (ordered(said.pair), said.answer))
+            .collect();
+        let asked = |pair: &[usize; 2]| {
+            let [a, b] = pair.map(|k| &segments[k]);
+            let thickness = Thickness {
+                share,
+                radii: [a.radius, b.radius],
+                stretch: a.stretch(b),
+            };
+            let [start, end] = [four(a.start, b.start), four(a.end, b.end)];
+            let step = thickness.beyond(&[start]);
+            // Midlines that meet are asked about elsewhere.
+            let broken = (step > 0).then(|| thickness.broken(start, end, step))??;
+            Some(([a.id, b.id], broken, thickness.is_part(step)))
+        };
+        let pairs = candidates(&segments, share);
+        self.report.thick_pairs += pairs.len() as u64;
+        let broken: Vec<_> = pairs.par_iter().filter_map(asked).collect();
+        for (pair, query, were_near) in broken {
+            let by = match said.get(&pair) {
+                None => Culprit::Broad,
+                Some(PairAnswer::Excluded) => Culprit::Exclusion,
+                Some(_) => Culprit::Narrow,
+            };
+            self.find(record, What::Nearer { by, were_near }, &pair, Some(query));
+        }
+    }
+
     /// Contacts in motions that were tried and not made.
     fn prevented(&mut self, record: &StepRecord) {
         let crossings = record.collisions.crossings.iter();
         for crossing in crossings.filter(|crossing| crossing.outcome == CrossingOutcome::Prevented)
         {
             self.report.prevented += 1;
-            let query = EdgeEdge::new(crossing.start, crossing.end, 0.0).ok();
+            let query = EdgeEdge::new(crossing.start, crossing.end, crossing.radii).ok();
             let hit = query.and_then(first_contact);
             let what = match hit {
                 Some(hit) => timed(crossing.toi, &hit),
@@ -312,6 +379,14 @@ impl Audit {
                 Some(met) => {
                     for body in self.swept_bodies(record, change) {
                         self.find(record, What::BodyRemesh { body }, &[], None);
+                    }
+                    let share = record.collisions.guarded_thickness;
+                    let near = match share > 0.0 {
+                        true => wires.nearings(change, share),
+                        false => Vec::new(),
+                    };
+                    for (id, query, were_near) in near {
+                        self.find(record, What::RemeshNearer { were_near }, &[id], Some(query));
                     }
                     for Meeting {
                         id,

@@ -5,11 +5,15 @@ use tunnelproof::wire::{NodeKind, Remesh, RemeshKind, SegmentId, StepRecord, Wir
 
 use super::aside::{Held, Node, Passages, passages};
 use super::first_contact;
-use super::segments::is_one_point;
+use super::segments::{four, is_one_point};
+use super::thickness::Thickness;
 
 /// All wires where a step has left them.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Wires(Vec<Vec<Node>>);
+pub(super) struct Wires {
+    nodes: Vec<Vec<Node>>,
+    radii: Vec<f64>,
+}
 
 /// A segment that a change passes through, with a witness.
 pub(super) struct Meeting {
@@ -27,15 +31,28 @@ impl Wires {
                 .map(|((&arc, &kind), &at)| Node { arc, kind, at })
                 .collect()
         });
-        Wires(wires.collect())
+        let mut nodes: Vec<Vec<Node>> = wires.collect();
+        for slide in &record.slides {
+            let wire = nodes.get_mut(slide.wire.0);
+            if let Some(node) = wire.and_then(|wire| wire.get_mut(slide.node)) {
+                node.arc += slide.distance;
+            }
+        }
+        Wires {
+            nodes,
+            radii: record.wires.iter().map(|wire| wire.radius).collect(),
+        }
     }
 
     /// The wires that do not start there in the next step.
     pub(super) fn jumped(&self, next: &StepRecord) -> Vec<usize> {
-        let count = self.0.len().max(next.wires.len());
+        let count = self.nodes.len().max(next.wires.len());
         let starts = |w: usize| {
             let before = next.wires.get(w).map(|wire| wire.before.iter());
-            let here = self.0.get(w).map(|wire| wire.iter().map(|node| &node.at));
+            let here = self
+                .nodes
+                .get(w)
+                .map(|wire| wire.iter().map(|node| &node.at));
             match (before, here) {
                 (Some(before), Some(here)) => here.eq(before),
                 _ => false,
@@ -46,7 +63,7 @@ impl Wires {
 
     /// Where the triangle of a change is: the number of the node before its middle. None if it is not there.
     fn place(&self, change: &Remesh) -> Option<usize> {
-        let wire = self.0.get(change.wire.0)?;
+        let wire = self.nodes.get(change.wire.0)?;
         let [a, b, c] = change.triangle;
         let corners = match change.kind {
             RemeshKind::Merge => vec![a, b, c],
@@ -69,9 +86,9 @@ impl Wires {
             } else {
                 1
             };
-        let corner = |k: usize| self.0.get(own)?.get(k).map(|node| (node.kind, node.at));
+        let corner = |k: usize| self.nodes.get(own)?.get(k).map(|node| (node.kind, node.at));
         let corners: Vec<_> = [first, last].into_iter().filter_map(corner).collect();
-        let segments = self.0.iter().enumerate().flat_map(|(w, wire)| {
+        let segments = self.nodes.iter().enumerate().flat_map(|(w, wire)| {
             let wire_id = WireId(w);
             let pairs = wire.windows(2).enumerate();
             pairs.map(move |(segment, two)| {
@@ -118,19 +135,45 @@ impl Wires {
 
     /// The segments of a wire, each with both nodes.
     pub(super) fn segments(&self, wire: usize) -> impl Iterator<Item = [Node; 2]> + '_ {
-        let windows = self.0[wire].windows(2);
+        let windows = self.nodes[wire].windows(2);
         windows.map(|two| [two[0], two[1]])
     }
 
     /// How many wires there are.
     pub(super) fn count(&self) -> usize {
-        self.0.len()
+        self.nodes.len()
+    }
+
+    /// The segments that a change comes nearer to than it may, with a witness, and whether they were
+    /// nearer than a share of the thickness before. Swept as in [`meetings`](Self::meetings).
+    pub(super) fn nearings(&self, change: &Remesh, share: f64) -> Vec<(SegmentId, EdgeEdge, bool)> {
+        let [a, b, c] = change.triangle;
+        let own = match change.kind {
+            RemeshKind::Merge => vec![[a, b], [b, c]],
+            RemeshKind::Split => vec![[a, c]],
+        };
+        let [from, _, to] = change.arcs;
+        let wire = change.wire;
+        let nearing = |(id, two): (SegmentId, [Node; 2])| {
+            let thickness = Thickness {
+                share,
+                radii: [wire, id.wire].map(|wire| self.radii[wire.0]),
+                stretch: (id.wire == wire)
+                    .then(|| (two[0].arc - to).max(from - two[1].arc).max(0.0)),
+            };
+            let other = two.map(|node| node.at);
+            let before: Vec<_> = own.iter().map(|&own| four(own, other)).collect();
+            let step = thickness.beyond(&before);
+            let broken = thickness.broken(four([a, b], other), four([c, b], other), step)?;
+            Some((id, broken, thickness.is_part(step)))
+        };
+        self.apart(change).filter_map(nearing).collect()
     }
 
     /// How often a change passes through a segment: taking `b` out moves the start of `bc` to `a`.
     fn passages(&self, change: &Remesh, id: SegmentId, two: [Node; 2]) -> Option<Passages> {
         let first = self.place(change)?;
-        let wire = &self.0[change.wire.0];
+        let wire = &self.nodes[change.wire.0];
         let (a, middle) = (wire[first], middle(change));
         let (last, from, to) = match change.kind {
             RemeshKind::Merge => (first + 2, middle, a),
@@ -148,7 +191,10 @@ impl Wires {
         let other = Held {
             id,
             ends: [two; 2],
-            is_last: [id.segment == 0, id.segment + 2 == self.0[id.wire.0].len()],
+            is_last: [
+                id.segment == 0,
+                id.segment + 2 == self.nodes[id.wire.0].len(),
+            ],
         };
         let [p, q] = two.map(|node| node.at);
         let query = EdgeEdge::new([from.at, c.at, p, q], [to.at, c.at, p, q], 0.0).ok()?;
@@ -160,7 +206,7 @@ impl Wires {
         let Some(first) = self.place(change) else {
             return;
         };
-        let wire = &mut self.0[change.wire.0];
+        let wire = &mut self.nodes[change.wire.0];
         match change.kind {
             RemeshKind::Merge => drop(wire.remove(first + 1)),
             RemeshKind::Split => {

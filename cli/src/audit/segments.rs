@@ -10,22 +10,46 @@ pub(super) struct Segment {
     pub(super) id: SegmentId,
     pub(super) start: [Point; 2],
     pub(super) end: [Point; 2],
+    pub(super) radius: f64,
     arcs: [f64; 2],
     is_last: [bool; 2],
     pub(super) kinds: [NodeKind; 2],
 }
 
 impl Segment {
-    /// The smallest and the largest coordinates on the way. They are compared, not computed, so they are exact.
-    fn reach(&self) -> [[f64; 2]; 3] {
+    /// The smallest and the largest coordinates on the way, so far farther. If that is 0 they are
+    /// compared and not computed, so they are exact.
+    fn reach(&self, farther: f64) -> [[f64; 2]; 3] {
         let points = [self.start, self.end];
+        let wider = |[low, high]: [f64; 2]| match farther > 0.0 {
+            true => [(low - farther).next_down(), (high + farther).next_up()],
+            false => [low, high],
+        };
         [0, 1, 2].map(|axis| {
             let of = points.as_flattened().iter().map(|point| point[axis]);
-            [
+            wider([
                 of.clone().fold(f64::INFINITY, f64::min),
                 of.fold(f64::NEG_INFINITY, f64::max),
-            ]
+            ])
         })
+    }
+
+    /// The length of wire between two segments, if they are of one wire.
+    pub(super) fn stretch(&self, other: &Segment) -> Option<f64> {
+        let (first, last) = match self.id < other.id {
+            true => (self, other),
+            false => (other, self),
+        };
+        let stretch = last.arcs[0] - first.arcs[1];
+        (self.id.wire == other.id.wire).then(|| stretch.max(0.0))
+    }
+
+    /// The same segment, at rest where the motion ends.
+    pub(super) fn ended(&self) -> Segment {
+        Segment {
+            start: self.end,
+            ..*self
+        }
     }
 
     /// It and what fixes its ends.
@@ -80,6 +104,7 @@ pub(super) fn moving(record: &StepRecord) -> Vec<Segment> {
                 },
                 start: at(&wire.before),
                 end: at(&wire.after),
+                radius: wire.radius,
                 is_last: [segment == 0, segment + 2 == nodes],
                 arcs: [wire.arcs[segment], wire.arcs[segment + 1]],
                 kinds: [wire.kinds[segment], wire.kinds[segment + 1]],
@@ -91,13 +116,19 @@ pub(super) fn moving(record: &StepRecord) -> Vec<Segment> {
 
 /// The question whether two segments meet.
 pub(super) fn query(a: &Segment, b: &Segment) -> Result<EdgeEdge, QueryError> {
-    let four = |a: [Point; 2], b: [Point; 2]| [a[0], a[1], b[0], b[1]];
     EdgeEdge::new(four(a.start, b.start), four(a.end, b.end), 0.0)
 }
 
-/// All pairs whose boxes meet and that are not joined, by number, the smaller first.
-pub(super) fn candidates(segments: &[Segment]) -> Vec<[usize; 2]> {
-    let reaches: Vec<_> = segments.iter().map(Segment::reach).collect();
+/// The points of two segments.
+pub(super) fn four(a: [Point; 2], b: [Point; 2]) -> [Point; 4] {
+    [a[0], a[1], b[0], b[1]]
+}
+
+/// All pairs whose boxes meet and that are not joined, by number, the smaller first. The boxes are
+/// wider by a share of the radius.
+pub(super) fn candidates(segments: &[Segment], share: f64) -> Vec<[usize; 2]> {
+    let reach = |segment: &Segment| segment.reach(share * segment.radius);
+    let reaches: Vec<_> = segments.iter().map(reach).collect();
     let axis = widest(&reaches);
     let mut order: Vec<usize> = (0..segments.len()).collect();
     order.sort_by(|&a, &b| reaches[a][axis][0].total_cmp(&reaches[b][axis][0]));

@@ -9,8 +9,8 @@ use tunnelproof::certified::Certified;
 use tunnelproof::contact::{Contact, Verdict};
 use tunnelproof::narrow::{self, NarrowPhase, Unsupported};
 use tunnelproof::wire::{
-    BodyRecord, Collisions, Mode, NodeKind, Pose, Remesh, RemeshKind, Shape, WireId, WireRecord,
-    World,
+    BodyRecord, Collisions, Material, Mode, NodeKind, Pose, Remesh, RemeshKind, Shape, Stop,
+    Vector, WireId, WirePlan, WireRecord, World,
 };
 
 use super::*;
@@ -259,10 +259,15 @@ fn audit_finds_a_step_that_nobody_saw() {
     );
 }
 
-/// A wire with a corner and a wire that stands at `x`, both still; and then the corner is taken out or put in.
 fn remeshed(x: f64, kind: RemeshKind) -> Report {
+    audited(&remesh_records([x, 0.1], kind))
+}
+
+/// A wire with a corner and a wire that stands at `x` and `y`, both still; and then the corner is taken out or put in.
+fn remesh_records([x, y]: [f64; 2], kind: RemeshKind) -> [StepRecord; 2] {
     let triangle = [[0.0, 0.0, 0.0], [1.0, 0.3, 0.0], [2.0, 0.0, 0.0]].map(Point::from);
     let wire = |arcs: &[f64], points: &[Point]| WireRecord {
+        radius: 0.01,
         arcs: arcs.to_vec(),
         kinds: vec![NodeKind::Free; arcs.len()],
         before: points.to_vec(),
@@ -272,7 +277,7 @@ fn remeshed(x: f64, kind: RemeshKind) -> Report {
     let (arcs, straight) = ([0.0, 1.0, 2.0], [triangle[0], triangle[2]]);
     let bent = wire(&arcs, &triangle);
     let straight = wire(&[0.0, 2.0], &straight);
-    let standing = [[x, 0.1, -0.3], [x, 0.1, 0.4]].map(Point::from);
+    let standing = [[x, y, -0.3], [x, y, 0.4]].map(Point::from);
     let standing = wire(&[0.0, 0.7], &standing);
     let (before, after) = match kind {
         RemeshKind::Merge => (bent, straight),
@@ -288,7 +293,7 @@ fn remeshed(x: f64, kind: RemeshKind) -> Report {
     }];
     second.step = 1;
     second.wires = vec![after, standing];
-    audited(&[first, second])
+    [first, second]
 }
 
 #[test]
@@ -382,4 +387,183 @@ fn audit_tells_the_end_of_a_wire_in_its_body_from_a_wire_in_a_body() {
     let through = report("[0, 0, 0]", through, 1);
     assert_eq!(through.body_standing, [[0, 0]], "{through:?}");
     assert_eq!((through.body_missed, through.is_clean()), (0, false));
+}
+
+/// A wire at `from` that goes to `to` in a step, above one that stands across it or along it. Each
+/// is 4 cm thick.
+fn passing(from: [f64; 2], to: [f64; 2], across: bool) -> World {
+    let settings = tunnelproof::wire::Settings::default();
+    let mut world = World::new(settings.with_gravity(Vector::zeros())).unwrap();
+    let mut wire = |ends: [[f64; 3]; 2], stop: fn(Point) -> Stop, velocity| {
+        let route = ends.map(|point| stop(point.into())).to_vec();
+        let mut plan = WirePlan::new(Material::steel(0.02), 1.0, route);
+        plan.velocity = velocity;
+        world.add_wire(&plan).unwrap();
+    };
+    let ends = match across {
+        true => [[0.0, -1.0, 0.0], [0.0, 1.0, 0.0]],
+        false => [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]],
+    };
+    wire(ends, Stop::Pinned, Vector::zeros());
+    let velocity = Vector::new(0.0, to[0] - from[0], to[1] - from[1]) * 60.0;
+    wire(
+        [-0.9, 0.9].map(|x| [x, from[0], from[1]]),
+        Stop::Free,
+        velocity,
+    );
+    world
+}
+
+fn thick<'n>(kappa: f64, narrow: &'n dyn NarrowPhase) -> Collisions<'n> {
+    let collisions = Collisions::new(Mode::Guard, Method::default(), narrow);
+    collisions.with_guarded_thickness(kappa).unwrap()
+}
+
+#[test]
+fn audit_finds_a_guard_of_half_the_thickness() {
+    // It passes at three eighths of the thickness.
+    let run = |kappa| {
+        let world = passing([-0.1, 0.015], [0.1, 0.015], false);
+        let mut records = records(world, thick(kappa, &Certified), 1);
+        for record in &mut records {
+            record.collisions.guarded_thickness = 0.5;
+        }
+        audited(&records)
+    };
+    let whole = run(0.5);
+    assert!(whole.is_exact() && whole.prevented > 0, "{whole:?}");
+    assert_eq!(whole.guarded_thickness, 0.5);
+    let half = run(0.25);
+    assert!(half.nearer[0] > 0 && half.nearer[1] == 0, "{half:?}");
+    assert!(half.thick_pairs > 0);
+    assert_eq!(half.missed, [0; 3]);
+    assert!(!half.is_clean());
+    let finding = half.findings[0].clone();
+    let by = Culprit::Narrow;
+    let were_near = false;
+    assert_eq!(finding.what, What::Nearer { by, were_near });
+    assert!(finding.command().unwrap().contains("explain -"));
+}
+
+/// The certified path, but a distance below the whole of what is guarded is forgotten.
+struct Forgetful {
+    whole: f64,
+}
+
+impl NarrowPhase for Forgetful {
+    fn name(&self) -> &str {
+        "forgetful"
+    }
+
+    fn edge_edge(&self, query: &EdgeEdge) -> Result<narrow::Report, Unsupported> {
+        if query.radius().rounded() < self.whole * (1.0 - 1e-9) {
+            let midlines = EdgeEdge::new(*query.start(), *query.end(), 0.0).unwrap();
+            return Certified.edge_edge(&midlines);
+        }
+        Certified.edge_edge(query)
+    }
+}
+
+#[test]
+fn audit_finds_a_guard_that_forgets_what_was_near() {
+    let run = |narrow: &dyn NarrowPhase, from, to| {
+        let world = passing([0.0, from], [0.0, to], true);
+        audited(&records(world, thick(0.5, narrow), 1))
+    };
+    let forgetful = Forgetful { whole: 0.02 };
+    let kept = run(&Certified, 0.016, 0.008);
+    assert!(kept.is_exact() && kept.prevented > 0, "{kept:?}");
+    let forgotten = run(&forgetful, 0.016, 0.008);
+    assert!(
+        forgotten.nearer[0] == 0 && forgotten.nearer[1] > 0,
+        "{forgotten:?}"
+    );
+    assert!(!forgotten.is_clean());
+    // What was apart it knows.
+    assert!(run(&forgetful, 0.03, 0.008).is_exact());
+}
+
+#[test]
+fn audit_finds_a_guard_that_skips_a_wire_with_itself() {
+    let run = |filter: tunnelproof::wire::PairFilter<'_>| {
+        let world = Scene::from_toml(ALPHA).unwrap().world().unwrap();
+        let collisions = thick(0.5, &Certified).with_filter(filter);
+        audited(&records(world, collisions, 1))
+    };
+    let kept = run(&|_, _| true);
+    assert!(kept.is_exact() && kept.prevented > 0, "{kept:?}");
+    let skipped = run(&|a, b| a.wire != b.wire);
+    let (by, were_near) = (Culprit::Broad, false);
+    let nearer = What::Nearer { by, were_near };
+    assert!(
+        skipped.findings.iter().any(|f| f.what == nearer),
+        "{skipped:?}"
+    );
+}
+
+/// Two wires of 1 cm radius across each other, so far apart before and after a step.
+fn pressed(before: f64, after: f64) -> Report {
+    let wire = |before: [[f64; 3]; 2], after: [[f64; 3]; 2]| WireRecord {
+        radius: 0.01,
+        arcs: vec![0.0, 2.0],
+        kinds: vec![NodeKind::Free; 2],
+        before: before.map(Point::from).to_vec(),
+        after: after.map(Point::from).to_vec(),
+        tensions: vec![0.0],
+    };
+    let below = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
+    let above = |z: f64| [[0.0, -1.0, z], [0.0, 1.0, z]];
+    let mut record = StepRecord::default();
+    record.wires = vec![wire(below, below), wire(above(before), above(after))];
+    record.collisions.guarded_thickness = 0.5;
+    audited(&[record])
+}
+
+#[test]
+fn audit_knows_to_a_64th_what_came_nearer() {
+    // 1 cm is guarded.
+    for (before, after, expected) in [
+        (0.02, 0.011, [0, 0]),
+        (0.02, 0.009, [1, 0]),
+        (0.02, 0.01f64.next_up(), [0, 0]),
+        (0.02, 0.01, [1, 0]),
+        (0.01, 0.01, [0, 0]),
+        // It is beyond 51 steps of 64.
+        (0.008, 0.00797, [0, 0]),
+        (0.008, 0.00796, [0, 1]),
+        (0.001, 0.02, [0, 0]),
+    ] {
+        let report = pressed(before, after);
+        assert_eq!(report.nearer, expected, "{before} to {after}: {report:?}");
+        assert_eq!(report.is_clean(), expected == [0, 0]);
+    }
+}
+
+#[test]
+fn audit_tells_the_largest_penetration() {
+    let report = pressed(0.02, 0.015);
+    for found in [report.deepest, report.standing_penetration] {
+        let Penetration {
+            low, high, step, ..
+        } = found.unwrap();
+        assert!(
+            low <= 0.25 && 0.25 <= high && high - low < 1e-9,
+            "{found:?}"
+        );
+        assert_eq!(step, 0);
+    }
+    assert_eq!(pressed(0.02, 0.0201).deepest, None);
+}
+
+#[test]
+fn audit_finds_a_change_of_resolution_that_comes_near() {
+    // The corner is taken out, and the wire comes down to one that stands 5 mm below, or 15.
+    for (below, expected) in [(0.005, [1, 0]), (0.015, [0, 0])] {
+        let mut records = remesh_records([1.0, -below], RemeshKind::Merge);
+        records[0].collisions.guarded_thickness = 0.5;
+        let report = audited(&records);
+        assert_eq!(report.remeshes_nearer, expected, "{report:?}");
+        assert_eq!(report.remeshes_through, 0);
+        assert_eq!(report.is_clean(), expected == [0, 0]);
+    }
 }

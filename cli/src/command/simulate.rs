@@ -49,6 +49,9 @@ pub(super) struct Simulate {
     /// The time step in s, in place of the scene's
     #[arg(long, value_name = "S")]
     step: Option<f64>,
+    /// The share of the thickness of wires that guard mode keeps, in place of the scene's
+    #[arg(long, value_name = "SHARE")]
+    guarded_thickness: Option<f64>,
     /// The duration in s, in place of the scene's
     #[arg(long, value_name = "S")]
     duration: Option<f64>,
@@ -213,6 +216,8 @@ impl Simulate {
         }
         scene.settings.step = self.step.unwrap_or(scene.settings.step);
         scene.duration = self.duration.unwrap_or(scene.duration);
+        let guarded = self.guarded_thickness;
+        scene.guarded_thickness = guarded.unwrap_or(scene.guarded_thickness);
         Ok(scene)
     }
 

@@ -1,6 +1,6 @@
 //! What an audit came to, as text.
 
-use crate::audit::Report;
+use crate::audit::{Penetration, Report};
 use tunnelproof_reference::certify::table::grouped;
 
 /// Findings that are shown.
@@ -12,6 +12,10 @@ pub fn text(report: &Report) -> String {
     let worst = |(count, by): (u64, f64)| match count {
         0 => "0".to_owned(),
         count => format!("{}, worst {by:.1e} of a step", grouped(count)),
+    };
+    let both = |[apart, near]: [u64; 2]| {
+        let [all, near] = [apart + near, near].map(grouped);
+        format!("{all}, of them within before {near}")
     };
     let rows = [
         ("steps", grouped(report.steps)),
@@ -36,6 +40,15 @@ pub fn text(report: &Report) -> String {
         ("  prevented", grouped(report.body_prevented)),
         ("  missed", grouped(report.body_missed)),
         ("changes into bodies", grouped(report.body_remeshes_through)),
+        ("thickness guarded", format!("{}", report.guarded_thickness)),
+        ("thick pairs", grouped(report.thick_pairs)),
+        ("nearer than guarded", both(report.nearer)),
+        ("changes nearer", both(report.remeshes_nearer)),
+        ("deepest penetration", penetration(&report.deepest)),
+        (
+            "standing penetration",
+            penetration(&report.standing_penetration),
+        ),
         ("jumps", grouped(report.jumps)),
         ("times late", worst(report.late)),
         ("times early", worst(report.early)),
@@ -71,4 +84,24 @@ pub fn text(report: &Report) -> String {
         }
     }
     text
+}
+
+/// The share as a percentage, and where.
+fn penetration(found: &Option<Penetration>) -> String {
+    let Some(Penetration {
+        step,
+        low,
+        high,
+        segments: [a, b],
+    }) = found
+    else {
+        return "none".to_owned();
+    };
+    let percent = match high - low < 1e-5 {
+        true => format!("{:.3}%", 100.0 * high),
+        false => format!("{:.3}% to {:.3}%", 100.0 * low, 100.0 * high),
+    };
+    let name = |wire: usize, segment: usize| format!("wire {wire} segment {segment}");
+    let (a, b) = (name(a.wire.0, a.segment), name(b.wire.0, b.segment));
+    format!("{percent} of the thickness: step {step}, {a} and {b}")
 }

@@ -27,6 +27,7 @@ impl Scene {
     pub fn world(&self) -> Result<World, SceneError> {
         check::positive("duration", self.duration)
             .and_then(|()| check::not_negative("friction", self.friction))
+            .and_then(|()| check::share("guarded_thickness", self.guarded_thickness))
             .map_err(|error| refused(&[], error))?;
         let settings = self.settings.clone();
         let mut world = World::new(settings).map_err(|error| refused(&[&"settings"], error))?;
@@ -51,7 +52,7 @@ impl Scene {
     ///
     /// # Errors
     ///
-    /// A friction that is refused. None for a scene as it was read.
+    /// A friction or a share of the thickness that is refused. None for a scene as it was read.
     pub fn collisions<'n>(
         &self,
         mode: Mode,
@@ -59,7 +60,9 @@ impl Scene {
     ) -> Result<Collisions<'n>, SceneError> {
         let collisions = Collisions::new(mode, Method::default(), narrow);
         let collisions = collisions.with_friction(self.friction);
-        let collisions = collisions.map_err(|error| refused(&[&"friction"], error))?;
+        let collisions = collisions
+            .and_then(|collisions| collisions.with_guarded_thickness(self.guarded_thickness))
+            .map_err(|error| refused(&[], error))?;
         Ok(if self.contact_nodes {
             collisions.with_contact_nodes()
         } else {

@@ -12,6 +12,11 @@ pub(super) fn not_negative(field: &'static str, value: f64) -> Result<(), ModelE
     accept(value >= 0.0 && value.is_finite(), field, value, accepted)
 }
 
+pub(super) fn share(field: &'static str, value: f64) -> Result<(), ModelError> {
+    let accepted = "at least 0 and below 1";
+    accept((0.0..1.0).contains(&value), field, value, accepted)
+}
+
 pub(super) fn finite(field: &'static str, value: f64) -> Result<(), ModelError> {
     accept(value.is_finite(), field, value, "finite")
 }

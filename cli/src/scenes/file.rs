@@ -19,6 +19,10 @@ pub struct Scene {
     /// Coefficient of friction of wires; usual value 0.5.
     #[serde(default = "half")]
     pub friction: f64,
+    /// The share of the thickness of wires that guard mode keeps, in [0, 1); 0 keeps midlines apart
+    /// and no more.
+    #[serde(default)]
+    pub guarded_thickness: f64,
     /// Whether adaptive wires get contact nodes where bodies bend them; usually not.
     #[serde(default)]
     pub contact_nodes: bool,

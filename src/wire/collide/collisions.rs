@@ -4,12 +4,13 @@ use super::body_contacts::BodyContacts;
 use super::body_detect::CoreDetection;
 use super::detect::Pipeline;
 use super::segment::PairFilter;
+use super::thickness::Thickness;
 use super::wire_contacts::WireContacts;
 use crate::broad::Method;
 use crate::certified::Certified;
 use crate::narrow::NarrowPhase;
 use crate::wire::model::ModelError;
-use crate::wire::model::check::not_negative;
+use crate::wire::model::check::{not_negative, share};
 
 /// What becomes of a crossing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -30,6 +31,7 @@ pub struct Collisions<'n> {
     pub(super) filter: Option<PairFilter<'n>>,
     pub(super) mode: Mode,
     pub(super) friction: f64,
+    guarded_thickness: f64,
     pub(super) pipeline: Pipeline,
     pub(super) touches: WireContacts,
     /// None if bodies are the caller's.
@@ -55,6 +57,7 @@ impl<'n> Collisions<'n> {
             filter: None,
             mode,
             friction: 0.5,
+            guarded_thickness: 0.0,
             pipeline: Pipeline::new(method),
             touches: WireContacts::default(),
             obstacles: Some(BodyContacts::new(method)),
@@ -71,6 +74,25 @@ impl<'n> Collisions<'n> {
     pub fn with_friction(mut self, friction: f64) -> Result<Self, ModelError> {
         not_negative("friction", friction)?;
         self.friction = friction;
+        Ok(self)
+    }
+
+    /// The same with another share of the thickness that guard mode keeps, in `[0, 1)`; usually 0:
+    /// midlines are kept apart and no more. Thesis mode knows no share.
+    ///
+    /// Two segments that are farther apart than this share of the sum of their radii where a motion
+    /// starts stay farther apart throughout the motion, whatever is between its start and its end.
+    /// Two that are nearer come no nearer: of the 64 distances that divide it evenly they stay
+    /// beyond the last one that they are beyond. Places of one wire that are nearer along it than
+    /// `pi / 2` diameters count as thinner, so that it can bend: they touch at `2 / pi` of the length
+    /// of wire between them. The narrow phase is asked with a radius.
+    ///
+    /// # Errors
+    ///
+    /// A share that is not a number of at least 0 and below 1.
+    pub fn with_guarded_thickness(mut self, kappa: f64) -> Result<Self, ModelError> {
+        share("guarded_thickness", kappa)?;
+        self.guarded_thickness = kappa;
         Ok(self)
     }
 
@@ -97,6 +119,14 @@ impl<'n> Collisions<'n> {
     pub fn with_contact_nodes(mut self) -> Self {
         self.contact_nodes = true;
         self
+    }
+
+    /// What is guarded of the thickness.
+    pub(super) fn thickness(&self) -> Thickness {
+        match self.mode {
+            Mode::Guard => Thickness(self.guarded_thickness),
+            Mode::Thesis => Thickness::default(),
+        }
     }
 
     /// What becomes of a crossing.

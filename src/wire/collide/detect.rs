@@ -2,7 +2,8 @@
 
 use super::boxes::Boxes;
 use super::segment::PairFilter;
-use super::segment::{Closest, between, direction, joined, reach};
+use super::segment::{Closest, between, direction, joined};
+use super::thickness::Thickness;
 use crate::broad::{Aabb, Method, SlowPairs};
 use crate::contact::{self, EdgePoint, Verdict};
 use crate::narrow::{NarrowPhase, Report};
@@ -32,7 +33,7 @@ struct Moving {
 /// What was found in a motion.
 #[derive(Default)]
 pub(super) struct Detections {
-    /// Pairs whose midlines meet.
+    /// Pairs whose midlines meet, or come as near as they must not.
     pub(super) hits: Vec<MidlineHit>,
     /// Places of pairs that do not, and end closer than their radii, with the direction between
     /// them.
@@ -41,9 +42,10 @@ pub(super) struct Detections {
     pub(super) pairs: Vec<PairRecord>,
 }
 
-/// A pair whose midlines meet.
+/// A pair whose midlines meet, or come as near as they must not.
 pub(super) struct MidlineHit {
     pub(super) sites: [WireSite; 2],
+    pair: [SegmentId; 2],
     query: EdgeEdge,
     pub(super) contact: contact::Contact,
     report: Report,
@@ -69,6 +71,7 @@ impl Pipeline {
         motion: &ProposedMotion,
         narrow: &dyn NarrowPhase,
         filter: Option<PairFilter<'_>>,
+        thickness: Thickness,
         record: &mut CollisionRecord,
     ) -> Result<Detections, CollisionError> {
         let segments = moving(world, motion);
@@ -86,7 +89,7 @@ impl Pipeline {
         for &pair in pairs {
             let two = [pair.first(), pair.second()].map(|item| &segments[item.index()]);
             let answer = match remaining.next_if(|other| **other == pair) {
-                Some(_) => found.test_pair(world, two, narrow, record)?,
+                Some(_) => found.test_pair(world, two, narrow, thickness, record)?,
                 None => PairAnswer::Excluded,
             };
             let pair = two.map(|segment| segment.id);
@@ -133,11 +136,13 @@ impl Detections {
         world: &World,
         [a, b]: [&Moving; 2],
         narrow: &dyn NarrowPhase,
+        thickness: Thickness,
         record: &mut CollisionRecord,
     ) -> Result<PairAnswer, CollisionError> {
         let start = [a.start[0], a.start[1], b.start[0], b.start[1]];
         let end = [a.end[0], a.end[1], b.end[0], b.end[1]];
-        let query = EdgeEdge::new(start, end, 0.0)?;
+        let pair = [a.id, b.id];
+        let query = thickness.query(world, pair, start, end)?;
         let report = narrow.edge_edge(&query)?;
         record.count(&report);
         let sites = |[u, v]: [f64; 2]| [a.id.site(world, u), b.id.site(world, v)];
@@ -147,6 +152,7 @@ impl Detections {
                 let sites = sites([u, v]);
                 self.hits.push(MidlineHit {
                     sites,
+                    pair,
                     query,
                     contact,
                     report,
@@ -156,11 +162,11 @@ impl Detections {
             }
             Verdict::Miss => {
                 let closest = Closest::new(&end);
-                let near = closest.distance() < reach(world, [a.id, b.id]);
                 let sites = sites(closest.parameters);
+                let near = closest.distance() < thickness.touching(world, pair, &sites);
                 let normal = direction(&closest.separation);
                 if let (true, Some(normal)) =
-                    (near && !is_bend(world, &sites, [a.id, b.id]), normal)
+                    (near && !thickness.is_bend(world, pair, &sites), normal)
                 {
                     self.near.push((sites, normal));
                 }
@@ -170,13 +176,12 @@ impl Detections {
     }
 }
 
-/// Whether two places of one wire are so close along it that its thickness alone brings them
-/// together.
-fn is_bend(world: &World, [a, b]: &[WireSite; 2], pair: [SegmentId; 2]) -> bool {
-    a.wire == b.wire && (a.arc - b.arc).abs() <= 2.0 * reach(world, pair)
-}
-
 impl MidlineHit {
+    /// The two segments that meet.
+    pub(super) fn segments(&self) -> [SegmentId; 2] {
+        self.pair
+    }
+
     /// Unit normal from B to A by which the two are kept apart, and how far apart their places are
     /// along it where the step starts. None if they touch there and do not move.
     ///
@@ -241,6 +246,7 @@ impl MidlineHit {
             case: self.report.case,
             flags: self.report.flags,
             outcome,
+            radii: self.query.radius().parts(),
             start: *self.query.start(),
             end: *self.query.end(),
         }

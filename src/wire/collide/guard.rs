@@ -7,7 +7,9 @@ use super::body_detect::BodyHit;
 use super::collisions::{Collisions, Mode};
 use super::detect::{Detections, MidlineHit};
 use super::islands::Islands;
-use super::segment::{pair_at, reach};
+use super::parts::Parts;
+use super::segment::pair_at;
+use super::thickness::Thickness;
 use super::wire_contacts::{WireContact, WireContacts};
 use super::{body_remesh, contact_node_insertion, remesh};
 use crate::wire::Vector;
@@ -35,6 +37,8 @@ pub(super) struct Guard<'a, 'n> {
     /// What was found in the motion that is made.
     found: Detections,
     islands: Option<Islands>,
+    /// In place of islands, where thickness is guarded.
+    parts: Option<Parts>,
     record: CollisionRecord,
 }
 
@@ -44,8 +48,12 @@ impl<'a, 'n> Guard<'a, 'n> {
         world: &World,
         given: &[ContactConstraint],
     ) -> Result<Self, CollisionError> {
-        let mut record = CollisionRecord::default();
-        collisions.touches.refresh(world);
+        let thickness = collisions.thickness();
+        let mut record = CollisionRecord {
+            guarded_thickness: thickness.0,
+            ..CollisionRecord::default()
+        };
+        collisions.touches.refresh(world, thickness);
         let mut contacts = given.to_vec();
         contacts.extend(collisions.touches.contacts(collisions.friction));
         if let Some(obstacles) = &mut collisions.obstacles {
@@ -60,6 +68,7 @@ impl<'a, 'n> Guard<'a, 'n> {
             added: Vec::new(),
             found: Detections::default(),
             islands: None,
+            parts: None,
             record,
         })
     }
@@ -77,14 +86,33 @@ impl<'a, 'n> Guard<'a, 'n> {
         cores.detect(world, motion, &mut self.record)
     }
 
-    /// A contact for each hit that has a normal; whether there is any.
+    /// Whether one more contact would say of a hit what another one says already: where thick wires
+    /// lie on each other, solving again with hundreds of these costs much and changes nothing.
+    fn is_kept_apart(
+        &self,
+        world: &World,
+        thickness: Thickness,
+        hit: &MidlineHit,
+        normal: &Vector,
+    ) -> bool {
+        let mut added = self.added.iter();
+        let touches = &self.collisions.touches;
+        added.any(|touch| touch.keeps_apart(world, thickness, &hit.sites, normal))
+            || touches.keep_apart(world, thickness, &hit.sites, normal)
+    }
+
+    /// A contact for each hit that has a normal; whether there is any that is new.
     fn add_contacts(&mut self, world: &World, hits: &[MidlineHit]) -> bool {
+        let thickness = self.collisions.thickness();
         let before = self.added.len();
         for hit in hits {
             if let (Some((normal, apart)), Some(pair)) = (hit.normal(), pair_at(world, &hit.sites))
             {
+                if thickness.is_guarded() && self.is_kept_apart(world, thickness, hit, &normal) {
+                    continue;
+                }
                 let touch = self.collisions.touches.make(hit.sites, normal);
-                let gap = apart - reach(world, pair);
+                let gap = apart - thickness.touching(world, pair, &hit.sites);
                 let contact = touch.row(normal, gap, self.collisions.friction);
                 self.contacts.push(contact);
                 self.added.push(touch);
@@ -119,8 +147,9 @@ impl<'a, 'n> Guard<'a, 'n> {
 
     /// Ends the step: what was found becomes contacts of the next.
     pub(super) fn finish(mut self, world: &World, contacts: &[ContactRecord]) -> CollisionRecord {
+        let thickness = self.collisions.thickness();
         let touches = &mut self.collisions.touches;
-        touches.add(world, self.added);
+        touches.add(world, thickness, self.added);
         // A passage at a node is found by every segment there.
         let mut passed = BTreeSet::new();
         for hit in &self.found.hits {
@@ -135,14 +164,17 @@ impl<'a, 'n> Guard<'a, 'n> {
             obstacles.note(contacts);
         }
         // So that what is near is known by a contact that slid there.
-        touches.refresh(world);
+        touches.refresh(world, thickness);
         let near = self.found.near.into_iter();
         let near: Vec<WireContact> = near
             .map(|(sites, normal)| touches.make(sites, normal))
             .collect();
-        touches.add(world, near);
+        touches.add(world, thickness, near);
         if let Some(islands) = self.islands {
             self.record.scaled_islands = islands.scaled(world);
+        }
+        if let Some(parts) = self.parts {
+            self.record.scaled_islands = parts.scaled(world);
         }
         self.record
     }
@@ -162,7 +194,7 @@ fn passage(touches: &mut WireContacts, world: &World, hit: &MidlineHit) -> Cross
     }
     if let (None, Some((normal, _))) = (touches.nearest(world, &hit.sites), hit.normal()) {
         let new = touches.make(hit.sites, normal);
-        touches.add(world, [new]);
+        touches.add(world, Thickness::default(), [new]);
     }
     if ends_in_contact {
         return CrossingOutcome::Grazed;
@@ -204,13 +236,15 @@ impl StepCallbacks for Guard<'_, '_> {
         motion: &ProposedMotion,
         impulses: &[Vector],
     ) -> Result<MotionReview, Reason> {
+        let thickness = self.collisions.thickness();
         let Collisions {
             pipeline,
             narrow,
             filter,
             ..
         } = &mut *self.collisions;
-        let found = pipeline.detect(world, motion, *narrow, *filter, &mut self.record)?;
+        let found =
+            pipeline.detect(world, motion, *narrow, *filter, thickness, &mut self.record)?;
         let touched = self.touched_bodies(world, motion)?;
         let outcome = match self.collisions.mode {
             Mode::Guard => BodyCrossingOutcome::Prevented,
@@ -228,12 +262,19 @@ impl StepCallbacks for Guard<'_, '_> {
             .iter()
             .map(|hit| hit.crossing(CrossingOutcome::Prevented));
         self.record.crossings.extend(prevented);
-        if self.islands.is_none() && self.record.rounds < ROUNDS {
+        if self.islands.is_none() && self.parts.is_none() && self.record.rounds < ROUNDS {
             self.record.rounds += 1;
             let between_wires = self.add_contacts(world, &found.hits);
             if self.add_body_contacts(world, motion, &touched) || between_wires {
                 return Ok(MotionReview::SolveAgain);
             }
+        }
+        if thickness.is_guarded() {
+            let parts = self.parts.get_or_insert_with(|| Parts::new(world));
+            if !parts.shorten(world, &found.hits, &touched) {
+                return Err(touching(&found.hits, &touched).into());
+            }
+            return Ok(MotionReview::Scale(parts.motion_scales()));
         }
         let start = || Islands::new(world, &self.contacts, impulses);
         let islands = self.islands.get_or_insert_with(start);
@@ -241,7 +282,7 @@ impl StepCallbacks for Guard<'_, '_> {
             return Err(touching(&found.hits, &touched).into());
         }
         islands.shorten(world, &found.hits, &touched);
-        Ok(MotionReview::Scale(islands.motion_scales()))
+        Ok(MotionReview::Scale(islands.motion_scales(world)))
     }
 
     fn contact_nodes(
@@ -258,7 +299,7 @@ impl StepCallbacks for Guard<'_, '_> {
 }
 
 impl RemeshGuard for Guard<'_, '_> {
-    /// In guard mode: not if it would meet a segment or go through a body, nor if it moves a
+    /// In guard mode: not if it would meet a segment, or come nearer than it may, or go through a body, nor if it moves a
     /// stretch on which a contact pushes, other than by a hair beside a contact node.
     fn permits(&mut self, world: &World, change: &Remesh) -> bool {
         let Collisions {
@@ -269,6 +310,7 @@ impl RemeshGuard for Guard<'_, '_> {
             cores,
             ..
         } = &*self.collisions;
+        let thickness = self.collisions.thickness();
         let [from, _, to] = change.arcs;
         let by_body = |o: &BodyContacts| {
             let straightens = remesh::straightens_beside_contact_node(world, change);
@@ -285,7 +327,7 @@ impl RemeshGuard for Guard<'_, '_> {
         let refused = *mode == Mode::Guard
             && (change.kind == RemeshKind::Merge && (loaded() || through())
                 // A triangle that cannot be tested is not swept.
-                || remesh::meets(world, change, *filter).unwrap_or(true)
+                || remesh::meets(world, change, *filter, thickness).unwrap_or(true)
                 || obstacles.is_some()
                     && body_remesh::meets(world, change, &cores.cores).unwrap_or(true));
         self.record.refused_remeshes += usize::from(refused);

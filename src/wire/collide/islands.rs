@@ -13,7 +13,7 @@ use crate::wire::world::World;
 const ATTEMPTS: usize = 20;
 
 /// Motion goes up to this fraction of the time to a crossing.
-const SAFETY: f64 = 0.9;
+pub(super) const SAFETY: f64 = 0.9;
 
 /// Islands: wires and bodies that eyes and contacts tie together, and the factor on the motion of
 /// each island.
@@ -110,13 +110,15 @@ impl Islands {
         }
     }
 
-    pub(super) fn motion_scales(&self) -> MotionScales {
+    pub(super) fn motion_scales(&self, world: &World) -> MotionScales {
         let all: Vec<f64> = (0..self.parent.len())
             .map(|member| self.scale[self.root(member)])
             .collect();
         let (wires, bodies) = all.split_at(self.wires);
         MotionScales {
-            wires: wires.to_vec(),
+            nodes: (wires.iter().zip(&world.wires))
+                .map(|(&scale, wire)| vec![scale; wire.nodes.len()])
+                .collect(),
             bodies: bodies.to_vec(),
         }
     }
@@ -146,7 +148,7 @@ impl Islands {
 }
 
 /// Whether a body can move. What cannot ties nothing together.
-fn moves(world: &World, body: BodyId) -> bool {
+pub(super) fn moves(world: &World, body: BodyId) -> bool {
     let body = &world.bodies[body.0];
     body.dynamic || !body.phases.is_empty()
 }

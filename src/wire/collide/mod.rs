@@ -8,7 +8,8 @@
 //! swept boxes, broad phase, exclusion of slow pairs, narrow phase. Pairs that do not meet on the
 //! way but end up closer than their radii get a contact for the next step (thesis 3.2.4). Contacts
 //! stay on their place of the material and slide with the closest points (`touch`). What a crossing
-//! leads to is the [`Mode`]. Contacts with bodies are found where a step starts (`body_contacts`), by
+//! leads to is the [`Mode`]. How far apart thick wires are kept is in `thickness`, and what moves less so that
+//! they are, in `islands` and `parts`. Contacts with bodies are found where a step starts (`body_contacts`), by
 //! a collision library (`collision_shape`). Besides, midlines are tested continuously against the
 //! cores of bodies (`body_detect`), which no motion that is made lets them touch.
 //!
@@ -47,8 +48,10 @@ mod detect;
 mod guard;
 mod islands;
 mod manifold;
+mod parts;
 mod remesh;
 mod segment;
+mod thickness;
 mod wire_contacts;
 
 #[cfg(test)]
@@ -69,7 +72,8 @@ impl World {
     /// are more contacts; keys from 2^63 on are not theirs to use.
     ///
     /// In guard mode no wire passes through another or through itself, and none through a body,
-    /// changes of resolution included. Segments that share a node, or are fixed to the same point,
+    /// changes of resolution included. With a [guarded share of the
+    /// thickness](Collisions::with_guarded_thickness) no wire comes within it either. Segments that share a node, or are fixed to the same point,
     /// are not tested against each other. A segment that touches the core of a body, or is inside
     /// it, is not tested against this body until it is outside.
     ///

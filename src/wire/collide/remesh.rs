@@ -2,11 +2,12 @@
 
 use super::segment::PairFilter;
 use super::segment::joined;
+use super::thickness::Thickness;
 use crate::broad::Aabb;
 use crate::certified::decide;
-use crate::query::EdgeEdge;
+use crate::query::{EdgeEdge, QueryError};
 use crate::wire::error::CollisionError;
-use crate::wire::model::{NodeKind, WireId};
+use crate::wire::model::{NodeKind, Wire, WireId};
 use crate::wire::resolution::Remesh;
 use crate::wire::site::SegmentId;
 use crate::wire::world::World;
@@ -21,30 +22,57 @@ pub(super) fn meets(
     world: &World,
     change: &Remesh,
     filter: Option<PairFilter<'_>>,
+    thickness: Thickness,
 ) -> Result<bool, CollisionError> {
     let [a, b, c] = change.triangle;
-    let swept = Aabb::swept(&[b, c], &[a, c], 0.0)?;
+    let guarded = |wire: &Wire| thickness.0 * wire.material.radius;
+    let swept = Aabb::swept(&[b, c], &[a, c], guarded(&world.wires[change.wire.0]))?;
     let own = own(world, change);
-    for (w, wire) in world.wires.iter().enumerate() {
-        for segment in 0..wire.segments.len() {
+    for (w, of) in world.wires.iter().enumerate() {
+        for segment in 0..of.segments.len() {
             let wire = WireId(w);
             let other = SegmentId { wire, segment };
-            let kept = |&mine: &SegmentId| filter.is_none_or(|keep| keep(mine, other));
-            if own.iter().any(|&mine| joined(world, [mine, other])) || !own.iter().any(kept) {
+            let tested = |&mine: &SegmentId| filter.is_none_or(|keep| keep(mine, other));
+            if own.iter().any(|&mine| joined(world, [mine, other])) || !own.iter().any(tested) {
                 continue;
             }
             let ends = other.ends(world);
-            if !Aabb::swept(&ends, &ends, 0.0)?.overlaps(&swept) {
+            if !Aabb::swept(&ends, &ends, guarded(of))?.overlaps(&swept) {
                 continue;
             }
             let [p, q] = ends;
-            let query = EdgeEdge::new([b, c, p, q], [a, c, p, q], 0.0)?;
+            let radii = kept(world, change, thickness, &own, other)?;
+            let query = EdgeEdge::new([b, c, p, q], [a, c, p, q], radii)?;
             if decide(&query).is_some() {
                 return Ok(true);
             }
         }
     }
     Ok(false)
+}
+
+/// How near a change may not come to another segment, as the two numbers whose sum it is: what its
+/// own segments keep, and of one wire no more than the stretch between leaves.
+fn kept(
+    world: &World,
+    change: &Remesh,
+    thickness: Thickness,
+    own: &[SegmentId],
+    other: SegmentId,
+) -> Result<[f64; 2], QueryError> {
+    let [from, _, to] = change.arcs;
+    let [start, end] = other.nodes(world).map(|node| node.arc);
+    let stretch = (other.wire == change.wire).then(|| (start - to).max(from - end).max(0.0));
+    let Some(&first) = own.first() else {
+        return Ok([0.0; 2]);
+    };
+    let mut step = thickness.limit(world, [first, other], stretch);
+    let [p, q] = other.ends(world);
+    for &mine in own {
+        let [a, b] = mine.ends(world);
+        step = thickness.beyond(world, [mine, other], [a, b, p, q], step)?;
+    }
+    Ok(thickness.radii(world, [first, other], step))
 }
 
 /// Whether a node that lies beside a contact node, and hardly off the line between its neighbours,

@@ -61,6 +61,13 @@ pub(super) fn reach(world: &World, pair: [SegmentId; 2]) -> f64 {
     a + b
 }
 
+/// The length of wire between two segments, if they are of one wire; 0 between neighbours.
+pub(super) fn stretch_between(world: &World, [a, b]: [SegmentId; 2]) -> Option<f64> {
+    let (first, last) = (a.min(b), a.max(b));
+    let [end, start] = [first.nodes(world)[1].arc, last.nodes(world)[0].arc];
+    (a.wire == b.wire).then(|| (start - end).max(0.0))
+}
+
 /// Whether two segments are no pair to test: one and the same, of one node, or fixed to one point.
 pub(super) fn joined(world: &World, [a, b]: [SegmentId; 2]) -> bool {
     let neighbours = a.wire == b.wire && a.segment.abs_diff(b.segment) <= 1;

@@ -1,6 +1,7 @@
 //! Scenes with known outcomes.
 
 use super::segment::Closest;
+use super::thickness::Thickness;
 use super::wire_contacts::WireContacts;
 use super::*;
 use crate::broad::Method;
@@ -225,7 +226,7 @@ fn change_of_resolution_is_refused_exactly_where_its_triangle_meets_a_segment() 
     };
     let met = |only: usize| {
         let filter = |_: SegmentId, b: SegmentId| b.wire.0 == only;
-        remesh::meets(&world, &change, Some(&filter)).unwrap()
+        remesh::meets(&world, &change, Some(&filter), Thickness::default()).unwrap()
     };
     assert_eq!([1, 2, 3].map(met), [true, false, false]);
 }
@@ -290,8 +291,8 @@ fn side_is_counted_and_not_read_from_positions() {
         let mut touch = touches.make(sites, Vector::z());
         touch.wrong = wrong;
         let mut one = WireContacts::default();
-        one.add(&world, [touch]);
-        one.refresh(&world);
+        one.add(&world, Thickness::default(), [touch]);
+        one.refresh(&world, Thickness::default());
         let contact = one.contacts(0.5).next().unwrap();
         assert!((contact.normal - Vector::z() * z).norm() < 1e-12);
         assert!((contact.gap - gap).abs() < 1e-12);

@@ -10,6 +10,7 @@
 use std::collections::BTreeSet;
 
 use super::segment::{Closest, direction, joined, pair_at, reach};
+use super::thickness::Thickness;
 use crate::wire::Vector;
 use crate::wire::contact::ContactConstraint;
 use crate::wire::record::ContactRecord;
@@ -59,21 +60,33 @@ impl WireContacts {
 
     /// Moves every contact to where the wires are now closest; contacts that come to one place
     /// become one.
-    pub(super) fn refresh(&mut self, world: &World) {
+    pub(super) fn refresh(&mut self, world: &World, thickness: Thickness) {
         let mut taken: PairSet = self.list.iter().filter_map(|t| t.pair(world)).collect();
         for mut touch in std::mem::take(&mut self.list) {
             let pair = touch.pair(world).filter(|&pair| !joined(world, pair));
             let Some(pair) = pair else { continue };
-            touch.slide(world, pair, &mut taken);
+            touch.slide(world, pair, thickness, &mut taken);
             match self
                 .list
                 .iter_mut()
-                .find(|older| older.is_at(world, &touch.sites))
+                .find(|older| older.is_at(world, &touch.sites, thickness))
             {
                 Some(older) => older.wrong |= touch.wrong,
                 None => self.list.push(touch),
             }
         }
+    }
+
+    /// Whether a contact keeps these places apart in this direction already.
+    pub(super) fn keep_apart(
+        &self,
+        world: &World,
+        thickness: Thickness,
+        sites: &[WireSite; 2],
+        normal: &Vector,
+    ) -> bool {
+        let mut all = self.list.iter();
+        all.any(|touch| touch.keeps_apart(world, thickness, sites, normal))
     }
 
     /// What the solver is given.
@@ -82,7 +95,12 @@ impl WireContacts {
     }
 
     /// Adds contacts, at most one for each pair of segments and each place.
-    pub(super) fn add(&mut self, world: &World, new: impl IntoIterator<Item = WireContact>) {
+    pub(super) fn add(
+        &mut self,
+        world: &World,
+        thickness: Thickness,
+        new: impl IntoIterator<Item = WireContact>,
+    ) {
         let mut taken: PairSet = self.list.iter().filter_map(|t| t.pair(world)).collect();
         for touch in new {
             let free = touch.pair(world).is_some_and(|pair| taken.insert(pair));
@@ -90,7 +108,7 @@ impl WireContacts {
                 && !self
                     .list
                     .iter()
-                    .any(|older| older.is_at(world, &touch.sites))
+                    .any(|older| older.is_at(world, &touch.sites, thickness))
             {
                 self.list.push(touch);
             }
@@ -146,15 +164,26 @@ impl WireContact {
         pair_at(world, &self.sites)
     }
 
-    /// Whether it is one contact with these places: not farther along either wire than they are
-    /// thick.
-    fn is_at(&self, world: &World, sites: &[WireSite; 2]) -> bool {
+    /// Whether it keeps these places apart in this direction already.
+    pub(super) fn keeps_apart(
+        &self,
+        world: &World,
+        thickness: Thickness,
+        sites: &[WireSite; 2],
+        normal: &Vector,
+    ) -> bool {
+        const ALIKE: f64 = 0.99;
+        self.is_at(world, sites, thickness) && self.normal.dot(normal) > ALIKE
+    }
+
+    /// Whether it is one contact with these places: not farther along either wire than the spacing.
+    fn is_at(&self, world: &World, sites: &[WireSite; 2], thickness: Thickness) -> bool {
         let same = |k: usize| self.sites[k].wire == sites[k].wire;
         if !(same(0) && same(1)) {
             return false;
         }
-        let wires = sites.map(|site| world.wires[site.wire.0].material.radius);
-        (0..2).all(|k| (self.sites[k].arc - sites[k].arc).abs() <= wires[0] + wires[1])
+        let spacing = thickness.spacing(world, sites);
+        (0..2).all(|k| (self.sites[k].arc - sites[k].arc).abs() <= spacing)
     }
 
     /// The last direction between the places, from B to A.
@@ -183,11 +212,17 @@ impl WireContact {
     }
 
     /// Goes to the closest points, over ends of segments to neighbours that are closer.
-    fn slide(&mut self, world: &World, mut pair: [SegmentId; 2], taken: &mut PairSet) {
+    fn slide(
+        &mut self,
+        world: &World,
+        mut pair: [SegmentId; 2],
+        thickness: Thickness,
+        taken: &mut PairSet,
+    ) {
         let mut closest = Closest::of(world, pair);
         let from = pair;
         // Ends: each pair is closer than the one before.
-        while let Some((next, closer)) = hand_over(world, pair, &closest, taken) {
+        while let Some((next, closer)) = hand_over(world, pair, &closest, thickness, taken) {
             (pair, closest) = (next, closer);
         }
         if pair != from {
@@ -199,15 +234,17 @@ impl WireContact {
         if let Some(direction) = direction(&closest.separation) {
             self.normal = if self.wrong { -direction } else { direction };
         }
-        self.gap = self.normal.dot(&closest.separation) - reach(world, pair);
+        self.gap =
+            self.normal.dot(&closest.separation) - thickness.touching(world, pair, &self.sites);
     }
 }
 
-/// A neighbouring pair that is closer, if the closest points are at an end.
+/// A neighbouring pair that is closer to touching, if the closest points are at an end.
 fn hand_over(
     world: &World,
     pair: [SegmentId; 2],
     closest: &Closest,
+    thickness: Thickness,
     taken: &PairSet,
 ) -> Option<([SegmentId; 2], Closest)> {
     let step = |which: usize| {
@@ -225,5 +262,12 @@ fn hand_over(
     let next = [step(0), step(1)].into_iter().flatten();
     let free = next.filter(|next| !taken.contains(next) && !joined(world, *next));
     let mut closer = free.map(|next| (next, Closest::of(world, next)));
-    closer.find(|(_, other)| other.distance() < closest.distance())
+    // Above the distance at which they touch, which is less near each other along one wire.
+    let height = |pair: [SegmentId; 2], at: &Closest| {
+        let [u, v] = at.parameters;
+        let sites = [pair[0].site(world, u), pair[1].site(world, v)];
+        at.distance() + thickness.allowance(world, pair, &sites)
+    };
+    let least = height(pair, closest);
+    closer.find(|(next, other)| height(*next, other) < least)
 }

@@ -29,7 +29,7 @@ pub struct CollisionRecord {
     /// How often the step was solved again.
     pub rounds: usize,
     /// Midlines that met during the motion: in guard mode every pair of segments in every motion
-    /// that was tried.
+    /// that was tried, and also what came nearer than it may.
     pub crossings: Vec<Crossing>,
     /// Midlines that touched the core of a body: in guard mode each segment in every motion that was
     /// tried. A segment that touches the core or is inside it as the step starts is left out.
@@ -41,9 +41,11 @@ pub struct CollisionRecord {
     pub scaled_islands: Vec<ScaledIsland>,
     /// Changes of resolution that were refused.
     pub refused_remeshes: usize,
+    /// The share of the thickness that was guarded; 0 if midlines alone were kept apart.
+    pub guarded_thickness: f64,
 }
 
-/// Midlines that meet during the motion.
+/// Midlines that meet during the motion, or come as near as guard mode does not let them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Crossing {
@@ -61,6 +63,8 @@ pub struct Crossing {
     pub start: [Point; 4],
     /// Where it ends.
     pub end: [Point; 4],
+    /// The two numbers whose exact sum is how near they came at `toi`, in m; zeros if they meet.
+    pub radii: [f64; 2],
 }
 
 /// A midline that touches the core of a body during the motion.
@@ -128,13 +132,14 @@ pub enum CrossingOutcome {
     Grazed,
 }
 
-/// Things tied to each other that made only a part of their motion, because a crossing was left.
+/// Things that made only a part of their motion, because a crossing was left: all that is tied to
+/// each other, or where thickness is guarded the nodes of the segments alone.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ScaledIsland {
     /// The factor on their motion, from 0 to 1, and on the velocities that were solved for.
     pub motion_scale: f64,
-    /// The wires.
+    /// The wires, or those that have such nodes.
     pub wires: Vec<WireId>,
     /// The bodies that can move.
     pub bodies: Vec<BodyId>,

@@ -52,6 +52,8 @@ pub struct StepRecord {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WireRecord {
+    /// Radius in m.
+    pub radius: f64,
     /// Arc length of each node in m.
     pub arcs: Vec<f64>,
     /// What carries each node.
@@ -164,6 +166,7 @@ impl StepRecord {
     /// What is known before the motion.
     pub(in crate::wire) fn before(world: &World) -> Self {
         let wires = world.wires.iter().map(|wire| WireRecord {
+            radius: wire.material.radius,
             arcs: wire.nodes.iter().map(|node| node.arc).collect(),
             kinds: wire.nodes.iter().map(|node| node.kind).collect(),
             before: wire.nodes.iter().map(|node| node.position).collect(),

@@ -46,10 +46,11 @@ pub(in crate::wire) struct BodyMotion {
     pub(in crate::wire) is_followed: bool,
 }
 
-/// The factor on the motion of each wire and body, from 0 to 1.
+/// The factor on the motion of each node, by wire, and of each body, from 0 to 1. A node that a
+/// body carries moves with the body; its own factor is that of its sliding.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::wire) struct MotionScales {
-    pub(in crate::wire) wires: Vec<f64>,
+    pub(in crate::wire) nodes: Vec<Vec<f64>>,
     pub(in crate::wire) bodies: Vec<f64>,
 }
 
@@ -57,8 +58,24 @@ impl MotionScales {
     /// Everything moves as solved.
     pub(in crate::wire) fn all(world: &World) -> Self {
         MotionScales {
-            wires: vec![1.0; world.wires.len()],
+            nodes: (world.wires.iter())
+                .map(|wire| vec![1.0; wire.nodes.len()])
+                .collect(),
             bodies: vec![1.0; world.bodies.len()],
+        }
+    }
+
+    /// The factor on a node: its body's, or its own.
+    pub(in crate::wire) fn of(&self, world: &World, wire: usize, node: usize) -> f64 {
+        let carrier = world.wires[wire].nodes[node].kind.carrier();
+        carrier.map_or(self.nodes[wire][node], |(body, _)| self.bodies[body.0])
+    }
+
+    /// The same, to be changed.
+    pub(in crate::wire) fn part(&mut self, world: &World, wire: usize, node: usize) -> &mut f64 {
+        match world.wires[wire].nodes[node].kind.carrier() {
+            Some((body, _)) => &mut self.bodies[body.0],
+            None => &mut self.nodes[wire][node],
         }
     }
 }
@@ -121,14 +138,14 @@ impl World {
                 angular_velocity,
             });
         }
-        for ((wire, &first), &scale) in self
+        for ((wire, &first), scales) in self
             .wires
             .iter()
             .zip(&layout.first_node)
-            .zip(&motion_scales.wires)
+            .zip(&motion_scales.nodes)
         {
-            let nodes = wire.nodes.iter().zip(&layout.nodes[first..]);
-            let nodes = nodes.map(|(node, carrier)| {
+            let nodes = wire.nodes.iter().zip(&layout.nodes[first..]).zip(scales);
+            let nodes = nodes.map(|((node, carrier), &scale)| {
                 let velocity = carrier.velocity(x) * scale;
                 let position = match node.kind.carrier() {
                     Some((body, local)) => moved.bodies[body.0].point(&local),
@@ -138,13 +155,13 @@ impl World {
             });
             moved.wires.push(nodes.collect());
         }
-        for (wire, (&first, &scale)) in layout
+        for (wire, (&first, scales)) in layout
             .first_node
             .iter()
-            .zip(&motion_scales.wires)
+            .zip(&motion_scales.nodes)
             .enumerate()
         {
-            for node in 0..self.wires[wire].nodes.len() {
+            for (node, &scale) in scales.iter().enumerate() {
                 if let Some(column) = layout.slides[first + node] {
                     let speed = x[column] * scale;
                     moved.slides.push(SlideRate { wire, node, speed });
