@@ -332,6 +332,7 @@ fn remeshed_beside_a_body(x: f64, kind: RemeshKind) -> Report {
         after: pose,
     }];
     record.wires = vec![WireRecord {
+        radius: 0.01,
         kinds: vec![NodeKind::Free; places.len()],
         tensions: vec![0.0; places.len() - 1],
         arcs: arcs_before,
