@@ -340,7 +340,7 @@ fn soak_finds_a_broad_phase_that_drops_pairs() {
     let asked = AtomicU64::new(0);
     let drops = |_, _| asked.fetch_add(1, Ordering::Relaxed) % 20 != 19;
     let mut tally = Tally::default();
-    for seed in 0..20 {
+    for seed in 0..60 {
         let mut collisions = Collisions::default().with_filter(&drops);
         tally.scene(scene(seed), &mut collisions);
     }

@@ -344,6 +344,10 @@ mod tests {
         for family in RIGID_FAMILIES {
             for index in 0..10 {
                 let query = family.query(5, index);
+                // With a radius the oracle takes up to minutes without optimisation.
+                if !query.radius().is_zero() {
+                    continue;
+                }
                 let svg = draw_turning("turning", &query, &decide_rigid_query(&query));
                 let document = roxmltree::Document::parse(&svg).unwrap();
                 let arcs = document

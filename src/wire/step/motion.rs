@@ -172,10 +172,10 @@ impl World {
     }
 }
 
-/// A vector made no longer than `most`.
+/// A vector made no longer than `most`. One whose length is not finite stays, and the step is refused.
 fn slowed(vector: Vector, most: f64) -> Vector {
     let length = vector.norm();
-    if length > most {
+    if length > most && length.is_finite() {
         vector * (most / length) * (1.0 - 1e-9)
     } else {
         vector
