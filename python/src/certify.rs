@@ -7,7 +7,7 @@ use numpy::{PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use tunnelproof::narrow::Tolerance;
-use tunnelproof_cli::report::{explanation, page};
+use tunnelproof_cli::report::page;
 use tunnelproof_float_env::with_default;
 use tunnelproof_reference::certify::caller::{Caller, in_quotes};
 use tunnelproof_reference::certify::defaults;
@@ -21,6 +21,7 @@ use tunnelproof_reference::corpus::locate::locate;
 use tunnelproof_reference::corpus::{self, CorpusError, Entry, Format, Problem, ReadOptions};
 use tunnelproof_reference::generate::{self, Family};
 use tunnelproof_reference::registry;
+use tunnelproof_reference::report::explanation::Explanation;
 use tunnelproof_reference::report::merge::{Kept, merge as join};
 use tunnelproof_reference::report::results::Results;
 use tunnelproof_reference::subject::Subject;
@@ -181,7 +182,10 @@ pub(crate) fn explain(
             explain: None,
         })
         .collect();
-    let text = || explanation::explain(&entry.id, &entry.query, &subjects);
+    let text = || {
+        let explanation = Explanation::new(&entry.query, &subjects);
+        format!("{}\n\n{explanation}", entry.id)
+    };
     Ok(py.detach(|| with_default(text)))
 }
 

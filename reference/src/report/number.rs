@@ -16,7 +16,7 @@ pub fn fraction<R: Ratio>(value: &R) -> String {
     }
 }
 
-/// The number to [`DIGITS`] digits, cut, with `...` where more follow.
+/// The number to 20 digits, cut, with `...` where more follow.
 pub fn decimal<Z: Integer>(number: &Algebraic<Z>) -> String {
     let unit = ten_to_the_digits::<Z>();
     if let Some(value) = number.rational() {
