@@ -168,14 +168,16 @@ impl Kept {
                 "number of shards",
                 self.settings.shard.of() == other.settings.shard.of(),
             ),
+            // Before the command, which may tell it too.
+            (
+                "tolerance",
+                names(&self.subjects) != names(&other.subjects)
+                    || tolerances(&self.subjects) == tolerances(&other.subjects),
+            ),
             ("command", same(&self.settings) == same(&other.settings)),
             (
                 "list of subjects",
                 names(&self.subjects) == names(&other.subjects),
-            ),
-            (
-                "tolerance",
-                tolerances(&self.subjects) == tolerances(&other.subjects),
             ),
             (
                 "list of judges",
