@@ -500,7 +500,9 @@ impl BodyHit {
     }
 
     /// A contact by which the wire stays on its side of the body where the motion ends: as far from
-    /// the core as the surface and the wire's radius are. None if the wire does not come from
+    /// the core as the surface and the wire's radius are, or as it is where the step starts if it is
+    /// nearer then. It does not push a wire out of the surface, which is for the contacts of
+    /// surfaces; the end of a wire at its own body has none. None if the wire does not come from
     /// anywhere.
     pub(super) fn row(
         &self,
@@ -529,7 +531,7 @@ impl BodyHit {
                 local: self.local,
             },
             normal,
-            gap: apart - inset - wire.material.radius,
+            gap: (apart - inset - wire.material.radius).max(0.0),
             friction,
         })
     }
