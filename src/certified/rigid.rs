@@ -34,14 +34,27 @@
 //! `256 u`, times all of these. Bounds themselves are computed with a few roundings, which [`UP`]
 //! outweighs.
 
-use super::exact;
+mod ball;
+mod contact;
+mod differences;
+mod features;
+mod guess;
+mod place;
+mod root;
+mod rough;
+mod series;
+mod term;
+
+use super::exact::{self, Passage};
 use super::kind::{Sealed, Stages};
 use super::motion::{Positions, Vector};
+use super::stage::Finding;
 use super::thick;
 use crate::contact::{EdgePlace, FacePlace, Hit, Place};
 use crate::environment;
 use crate::query::{EdgeEdge, Point, Radius, VertexFace};
 use crate::rigid::{EdgeTurningEdge, RigidMotion, VertexTurningFace};
+use contact::{APART, CROSSING, touch};
 
 /// A kind of query about a body that turns: [`EdgeTurningEdge`] or [`VertexTurningFace`].
 ///
@@ -51,7 +64,8 @@ pub trait RigidKind: Sealed + Copy + Send + Sync + 'static {
     type Place: Copy + std::fmt::Debug + PartialEq + Send + Sync + Into<Place> + 'static;
 
     #[doc(hidden)]
-    fn is_apart(&self) -> bool;
+    #[allow(private_interfaces, reason = "only this module uses it")]
+    fn decide_in_f64(&self) -> Finding<Hit<Self::Place>>;
 
     #[doc(hidden)]
     fn decide_in_integers(&self) -> Option<Hit<Self::Place>>;
@@ -69,9 +83,10 @@ pub trait RigidKind: Sealed + Copy + Send + Sync + 'static {
 /// In debug builds, if the floating-point environment is not the one that the proofs assume.
 pub fn decide_rigid<K: RigidKind>(query: &K) -> Option<Hit<K::Place>> {
     debug_assert_eq!(environment::check(), Ok(()));
-    match query.is_apart() {
-        true => None,
-        false => query.decide_in_integers(),
+    match query.decide_in_f64() {
+        Finding::Hit(hit) => Some(hit),
+        Finding::Miss => None,
+        Finding::Undecided => query.decide_in_integers(),
     }
 }
 
@@ -82,13 +97,25 @@ pub fn decide_rigid_exactly<K: RigidKind>(query: &K) -> Option<Hit<K::Place>> {
 
 impl Sealed for EdgeTurningEdge {}
 
+impl EdgeTurningEdge {
+    fn turning(&self) -> Turning<'_, 2, 2> {
+        Turning {
+            start: self.start(),
+            end: self.end(),
+            local: self.local(),
+            motion: self.motion(),
+            radius: self.radius(),
+        }
+    }
+}
+
 impl RigidKind for EdgeTurningEdge {
     type Place = EdgePlace;
 
-    fn is_apart(&self) -> bool {
-        let (local, motion, radius) = (self.local(), self.motion(), self.radius());
-        let moving = Moving::new(self.start(), self.end(), local, motion, radius);
-        moving.is_some_and(|moving| moving.is_apart::<EdgeEdge>())
+    #[allow(private_interfaces, reason = "only this module uses it")]
+    fn decide_in_f64(&self) -> Finding<Hit<EdgePlace>> {
+        let passage = || exact::passage_of_turning_edges(self);
+        self.turning().decide::<EdgeEdge>(passage)
     }
 
     fn decide_in_integers(&self) -> Option<Hit<EdgePlace>> {
@@ -98,17 +125,83 @@ impl RigidKind for EdgeTurningEdge {
 
 impl Sealed for VertexTurningFace {}
 
+impl VertexTurningFace {
+    fn turning(&self) -> Turning<'_, 1, 3> {
+        Turning {
+            start: self.start(),
+            end: self.end(),
+            local: self.local(),
+            motion: self.motion(),
+            radius: self.radius(),
+        }
+    }
+}
+
 impl RigidKind for VertexTurningFace {
     type Place = FacePlace;
 
-    fn is_apart(&self) -> bool {
-        let (local, motion, radius) = (self.local(), self.motion(), self.radius());
-        let moving = Moving::new(self.start(), self.end(), local, motion, radius);
-        moving.is_some_and(|moving| moving.is_apart::<VertexFace>())
+    #[allow(private_interfaces, reason = "only this module uses it")]
+    fn decide_in_f64(&self) -> Finding<Hit<FacePlace>> {
+        let passage = || exact::passage_of_turning_face(self);
+        self.turning().decide::<VertexFace>(passage)
     }
 
     fn decide_in_integers(&self) -> Option<Hit<FacePlace>> {
         exact::decide_turning_face(self)
+    }
+}
+
+/// A query of either kind.
+#[derive(Clone, Copy)]
+struct Turning<'a, const WORLD: usize, const LOCAL: usize> {
+    start: &'a [Point; WORLD],
+    end: &'a [Point; WORLD],
+    local: &'a [Point; LOCAL],
+    motion: &'a RigidMotion,
+    radius: Radius,
+}
+
+impl<const WORLD: usize, const LOCAL: usize> Turning<'_, WORLD, LOCAL> {
+    /// The answer as far as `f64` and double-double arithmetic prove it.
+    fn decide<K: Stages>(&self, passage: impl FnOnce() -> Passage) -> Finding<Hit<K::Place>> {
+        let Some(moving) = Moving::new(self) else {
+            return Finding::Undecided;
+        };
+        let proved = moving.apart_until::<K>(0.0);
+        if proved == 1.0 {
+            return Finding::Miss;
+        }
+        Finding::of_certain(self.contact::<K>(&moving, proved, passage))
+    }
+
+    /// The contact of what is apart up to a time.
+    #[inline(never)]
+    fn contact<K: Stages>(
+        &self,
+        moving: &Moving<WORLD, LOCAL>,
+        proved: f64,
+        passage: impl FnOnce() -> Passage,
+    ) -> Option<Hit<K::Place>> {
+        let touch = touch::<K, WORLD, LOCAL>(self, moving, proved)?;
+        let passage = match self.radius.is_zero() {
+            true => CROSSING,
+            false => self.passage::<K>(proved).unwrap_or_else(passage),
+        };
+        Some(touch.hit::<K>(passage))
+    }
+
+    /// What the midlines do, if that is certain, where `f` is not identically 0.
+    fn passage<K: Stages>(&self, proved: f64) -> Option<Passage> {
+        let midlines = Turning {
+            radius: Radius::ZERO,
+            ..*self
+        };
+        let moving = Moving::new(&midlines)?;
+        let proved = moving.apart_until::<K>(proved);
+        if proved == 1.0 {
+            return Some(APART);
+        }
+        touch::<K, WORLD, LOCAL>(&midlines, &moving, proved).map(|_| CROSSING)
     }
 }
 
@@ -150,13 +243,14 @@ struct Moving<'a, const WORLD: usize, const LOCAL: usize> {
 
 impl<'a, const WORLD: usize, const LOCAL: usize> Moving<'a, WORLD, LOCAL> {
     /// `None` where squares could over- or underflow.
-    fn new(
-        start: &'a [Point; WORLD],
-        end: &'a [Point; WORLD],
-        local: &'a [Point; LOCAL],
-        motion: &RigidMotion,
-        radius: Radius,
-    ) -> Option<Self> {
+    fn new(query: &Turning<'a, WORLD, LOCAL>) -> Option<Self> {
+        let Turning {
+            start,
+            end,
+            local,
+            motion,
+            radius,
+        } = *query;
         let quaternions = motion.quaternions();
         let centres = [motion.start(), motion.end()].map(|pose| plain(&pose.centre));
         let reach = local.iter().map(|p| p.coords.norm_squared());
@@ -181,10 +275,10 @@ impl<'a, const WORLD: usize, const LOCAL: usize> Moving<'a, WORLD, LOCAL> {
         })
     }
 
-    /// Whether the two sides are certainly apart for the whole step.
+    /// Up to when the two sides are certainly apart, if they are up to some time: 1 for the whole
+    /// step.
     #[inline(always)]
-    fn is_apart<K: Stages>(&self) -> bool {
-        let mut from = 0.0;
+    fn apart_until<K: Stages>(&self, mut from: f64) -> f64 {
         let mut length = if self.bend > FAR * self.reach {
             0.5
         } else {
@@ -200,7 +294,7 @@ impl<'a, const WORLD: usize, const LOCAL: usize> Moving<'a, WORLD, LOCAL> {
             let until = thick::apart_until::<K>(&part, Radius::from((bend + self.rest) * UP));
             if until >= 1.0 {
                 if to == 1.0 {
-                    return true;
+                    return 1.0;
                 }
                 (from, length) = (to, 2.0 * length);
                 start = end;
@@ -216,7 +310,7 @@ impl<'a, const WORLD: usize, const LOCAL: usize> Moving<'a, WORLD, LOCAL> {
                 break;
             }
         }
-        false
+        from
     }
 
     /// The places of all points at a time.

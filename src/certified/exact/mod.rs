@@ -73,7 +73,9 @@ pub(super) use face::{case_of_face, decide_face};
 use locus::{Locus, Place};
 pub(super) use near::are_near;
 pub(super) use passage::{Passage, passage_of_edges, passage_of_face};
-pub(super) use rigid::{decide_turning_edges, decide_turning_face};
+pub(super) use rigid::{
+    decide_turning_edges, decide_turning_face, passage_of_turning_edges, passage_of_turning_face,
+};
 use scaled::Scaled;
 pub(super) use thick::{
     decide_thick_edges, decide_thick_face, normal_of_edges_exactly, normal_of_face_exactly,

@@ -500,10 +500,9 @@ impl BodyHit {
     }
 
     /// A contact by which the wire stays on its side of the body where the motion ends: as far from
-    /// the core as the surface and the wire's radius are, or as it is where the step starts if it is
-    /// nearer then. It does not push a wire out of the surface, which is for the contacts of
-    /// surfaces; the end of a wire at its own body has none. None if the wire does not come from
-    /// anywhere.
+    /// the core as the surface and the wire's radius are. The end of a wire at its own body, which
+    /// has no contact with the surface, is held off the core and not pushed out of the surface. None
+    /// if the wire does not come from anywhere.
     pub(super) fn row(
         &self,
         world: &World,
@@ -523,6 +522,9 @@ impl BodyHit {
         let straight = (ended.velocity + ended.angular_velocity.cross(&arm)) * world.settings.step;
         let arrives = ended.position + ended.orientation * self.local;
         let apart = normal.dot(&(place - arrives + straight));
+        let gap = apart - inset - wire.material.radius;
+        let mut nodes = self.segment.nodes(world).into_iter();
+        let is_end = nodes.any(|node| node.kind.is_eye(self.body));
         Some(ContactConstraint {
             key,
             a: self.site.into(),
@@ -531,7 +533,7 @@ impl BodyHit {
                 local: self.local,
             },
             normal,
-            gap: (apart - inset - wire.material.radius).max(0.0),
+            gap: if is_end { gap.max(0.0) } else { gap },
             friction,
         })
     }

@@ -80,6 +80,16 @@ pub(in crate::certified) fn decide_turning_face(
     }))
 }
 
+/// What the midlines of two edges do to each other, one of a turning body.
+pub(in crate::certified) fn passage_of_turning_edges(query: &EdgeTurningEdge) -> Passage {
+    passage(&Edges::new(query))
+}
+
+/// What a vertex and a face of a turning body do to each other without their radius.
+pub(in crate::certified) fn passage_of_turning_face(query: &VertexTurningFace) -> Passage {
+    passage(&Face::new(query))
+}
+
 /// What the two do to each other without their radius.
 fn passage<const W: usize>(sides: &impl Sides<W>) -> Passage {
     let crosses = match sides.f().is_zero() {
