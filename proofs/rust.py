@@ -93,7 +93,8 @@ class File:
                 head = [text for _, text in self.tokens[at + 1 : opened]]
                 head = head[head.index("for") + 1 :] if "for" in head else head[self.after_generics(head, 0) :]
                 of, ends, at = head[0], self.closing(opened), opened
-            elif word == "const" and self.tokens[at + 1][0] == "name" and self.tokens[at + 2][1] == ":":
+            # A parameter of a type is no item.
+            elif word == "const" and self.tokens[at + 1][0] == "name" and self.tokens[at + 2][1] == ":" and self.tokens[at - 1][1] not in "<,":
                 end = self.end_of_item(at)
                 value = next((i for i in range(at, end) if self.tokens[i][1] == "="), None)
                 if value and "usize" not in [text for _, text in self.tokens[value:end]]:
