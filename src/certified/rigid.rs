@@ -45,9 +45,12 @@ mod rough;
 mod series;
 mod term;
 
+use wide::f64x2;
+
+use super::ends::{Ends, larger};
 use super::exact::{self, Passage};
 use super::kind::{Sealed, Stages};
-use super::motion::{Positions, Vector};
+use super::motion::Vector;
 use super::stage::Finding;
 use super::thick;
 use crate::contact::{EdgePlace, FacePlace, Hit, Place};
@@ -254,11 +257,14 @@ impl<'a, const WORLD: usize, const LOCAL: usize> Moving<'a, WORLD, LOCAL> {
         let quaternions = motion.quaternions();
         let centres = [motion.start(), motion.end()].map(|pose| plain(&pose.centre));
         let reach = local.iter().map(|p| p.coords.norm_squared());
-        let reach = reach.fold(0.0, f64::max).sqrt() * UP + LEAST;
-        let points = start.iter().chain(end).flat_map(|p| p.iter());
-        let far = points
-            .chain(centres.iter().flatten())
-            .fold(0.0, |a: f64, b| a.max(b.abs()));
+        let reach = reach.fold(0.0, larger).sqrt() * UP + LEAST;
+        let mut far = 0.0;
+        for point in start.iter().chain(end) {
+            far = larger(far, largest(&plain(point)));
+        }
+        for centre in &centres {
+            far = larger(far, largest(centre));
+        }
         let bend = bend(&quaternions)? * reach;
         // Not below the sum of both numbers.
         let radius = radius.rounded() * UP;
@@ -284,26 +290,22 @@ impl<'a, const WORLD: usize, const LOCAL: usize> Moving<'a, WORLD, LOCAL> {
         } else {
             1.0
         };
-        let mut start = self.places(from);
         // Ends: after so many parts.
         for _ in 0..MOST_PARTS {
             let to = f64::min(from + length, 1.0);
             let bend = f64::min(self.bend * (to - from) * (to - from), 2.0 * self.reach);
-            let end = self.places(to);
-            let part = Positions { start, end };
+            let part = self.places::<f64x2>(Ends::new(from, to));
             let until = thick::apart_until::<K>(&part, Radius::from((bend + self.rest) * UP));
             if until >= 1.0 {
                 if to == 1.0 {
                     return 1.0;
                 }
                 (from, length) = (to, 2.0 * length);
-                start = end;
                 continue;
             }
             // What is taken off outweighs the roundings, as no part is as short as that.
             if until > 0.125 {
                 from += 0.999 * until * (to - from);
-                start = self.places(from);
             }
             length *= 0.25;
             if length < SHORTEST {
@@ -313,47 +315,49 @@ impl<'a, const WORLD: usize, const LOCAL: usize> Moving<'a, WORLD, LOCAL> {
         from
     }
 
-    /// The places of all points at a time.
+    /// The places of all points at two times.
     #[inline(always)]
-    fn places(&self, t: f64) -> [Vector; 4] {
+    fn places<E: Ends>(&self, t: E) -> [[E; 3]; 4] {
+        let rest = E::both(1.0) - t;
+        let between = |from: f64, to: f64| rest * E::both(from) + t * E::both(to);
         let [c0, c1] = &self.centres;
         let [q0, q1] = &self.quaternions;
-        let q: [f64; 4] = std::array::from_fn(|i| between(q0[i], q1[i], t));
-        let centre: Vector = std::array::from_fn(|i| between(c0[i], c1[i], t));
-        let factor = 2.0 / (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+        let q: [E; 4] = std::array::from_fn(|i| between(q0[i], q1[i]));
+        let square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+        let factor = E::new(2.0 / square.start(), 2.0 / square.end());
         std::array::from_fn(|i| match i < WORLD {
-            true => {
-                let (from, to) = (plain(&self.start[i]), plain(&self.end[i]));
-                std::array::from_fn(|axis| between(from[axis], to[axis], t))
-            }
+            true => std::array::from_fn(|axis| between(self.start[i][axis], self.end[i][axis])),
             false => {
-                let turned = turned(&q, factor, &plain(&self.local[i - WORLD]));
-                std::array::from_fn(|axis| centre[axis] + turned[axis])
+                let turned = turned(&q, factor, &self.local[i - WORLD]);
+                std::array::from_fn(|axis| between(c0[axis], c1[axis]) + turned[axis])
             }
         })
     }
 }
 
+/// The largest magnitude of a component.
+#[inline(always)]
+fn largest([x, y, z]: &Vector) -> f64 {
+    larger(larger(x.abs(), y.abs()), z.abs())
+}
+
+#[inline(always)]
 fn plain(p: &Point) -> Vector {
     [p.x, p.y, p.z]
 }
 
-#[inline(always)]
-fn between(from: f64, to: f64, t: f64) -> f64 {
-    (1.0 - t) * from + t * to
-}
-
 /// `p + 2 (w (v x p) + v x (v x p)) / D`, with `factor` for `2 / D`.
 #[inline(always)]
-fn turned(&[w, x, y, z]: &[f64; 4], factor: f64, p: &Vector) -> Vector {
-    let cross = |p: &Vector| {
+fn turned<E: Ends>(&[w, x, y, z]: &[E; 4], factor: E, p: &Point) -> [E; 3] {
+    let cross = |p: &[E; 3]| {
         [
             y * p[2] - z * p[1],
             z * p[0] - x * p[2],
             x * p[1] - y * p[0],
         ]
     };
-    let once = cross(p);
+    let p = [E::both(p.x), E::both(p.y), E::both(p.z)];
+    let once = cross(&p);
     let twice = cross(&once);
     std::array::from_fn(|i| p[i] + factor * (w * once[i] + twice[i]))
 }

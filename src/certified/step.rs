@@ -308,7 +308,9 @@ pub(crate) fn limit<K: Kind>(
         }
         let toi = hit.map(|hit| hit.toi);
         let radius = with_room::<K::Stages>(positions, kept);
-        let until = radius.map_or(0.0, |radius| apart_until::<K::Stages>(positions, radius));
+        let until = radius.map_or(0.0, |radius| {
+            apart_until::<K::Stages>(&positions.points(), radius)
+        });
         return Some(Limit {
             kept,
             is_whole: rank == 0,
@@ -324,7 +326,7 @@ pub(crate) fn limit<K: Kind>(
 #[inline(always)]
 pub(crate) fn is_apart_with_room<K: Kind>(positions: &Positions, kept: Radius) -> bool {
     with_room::<K::Stages>(positions, kept)
-        .is_some_and(|radius| apart_until::<K::Stages>(positions, radius) >= 1.0)
+        .is_some_and(|radius| apart_until::<K::Stages>(&positions.points(), radius) >= 1.0)
 }
 
 /// Whether straight motion to the rounded positions at a step keeps a distance above this.

@@ -2,6 +2,7 @@
 //! it.
 
 use super::Moving;
+use crate::certified::ends::{Ends, Plain};
 use crate::certified::kind::Stages;
 use crate::certified::motion::{Vector, add, cross, dot, scaled, sub};
 use crate::certified::nearest::{Gram, Spot};
@@ -14,9 +15,15 @@ const FIRST: f64 = 1.0 / 1024.0;
 const STEPS: usize = 60;
 
 impl<const WORLD: usize, const LOCAL: usize> Moving<'_, WORLD, LOCAL> {
+    /// The places of all points at a time.
+    pub(super) fn places_at(&self, t: f64) -> [Vector; 4] {
+        let both = self.places(Plain::both(t));
+        both.map(|point| point.map(Plain::start))
+    }
+
     /// `K`, `L` and `M` at a time.
     fn differences<K: Stages>(&self, t: f64) -> [Vector; 3] {
-        let points = self.places(t);
+        let points = self.places_at(t);
         K::DIFFERENCES.map(|(from, to)| sub(&points[to], &points[from]))
     }
 

@@ -20,6 +20,9 @@ pub(super) struct Root {
 const STEPS: usize = 3;
 const PRECISE_STEPS: usize = 3;
 
+/// `2^-53`.
+const U: f64 = f64::EPSILON / 2.0;
+
 /// The root of a series around `middle` that is near a guess, if it is certain that there is none
 /// from `from` to there, and that it is not a number in `f64`. `precise` is the value of the
 /// polynomial at a time.
@@ -46,32 +49,28 @@ pub(super) fn root_after<const N: usize>(
         if !(from..=1.0).contains(&t) {
             return None;
         }
-        let near = 4.0 * (t.next_up() - t);
-        let slope = series.slope_at(Rough::new(t - middle, (near + U * (t + middle)) * UP));
         let value = precise(Ball::new(t));
+        let [_, about] = series.about(t - middle);
+        let near = (2.0 * (value.value() / about).abs() + f64::EPSILON * t) * UP;
+        // The middle is subtracted with an error.
+        let slope = series.slope_at(Rough::new(t - middle, (near + U * (t + middle)) * UP));
         let after = step(value, slope)?;
-        if after.most() < near {
-            if let Some(bracket) = bracket(t, after) {
-                let time = Ball::new(t).add(Ball::new(after.value()));
-                let time = time.widened(after.error());
-                return is_only(series, middle, from, bracket).then_some(Root {
-                    bracket,
-                    time,
-                    before: slope.sign()?.reverse(),
-                });
-            }
-            // Certain, but that it is not `t` itself.
-            if after.most() < 0.25 * near {
-                return None;
-            }
+        let time = Ball::new(t)
+            .add(Ball::new(after.value()))
+            .widened(after.error());
+        if after.most() < near
+            && let Some(bracket) = bracket(time)
+        {
+            return is_only(series, middle, from, bracket).then_some(Root {
+                bracket,
+                time,
+                before: slope.sign()?.reverse(),
+            });
         }
-        t += after.value();
+        t = time.value();
     }
     None
 }
-
-/// `2^-53`.
-const U: f64 = f64::EPSILON / 2.0;
 
 /// The quotient of a value and all slopes with the opposite sign: how far the root is.
 fn step(value: Ball, slope: Rough) -> Option<Rough> {
@@ -85,14 +84,16 @@ fn step(value: Ball, slope: Rough) -> Option<Rough> {
     error.is_finite().then_some(Rough::new(about, error))
 }
 
-/// The neighbours of a number near `t`, if it is certain that they are.
-fn bracket(t: f64, after: Rough) -> Option<[f64; 2]> {
-    let bracket = match after.sign()? {
-        Ordering::Less => [t.next_down(), t],
-        _ => [t, t.next_up()],
+/// The neighbours of a time, if it is certain that they are, and that it is not one of them.
+fn bracket(time: Ball) -> Option<[f64; 2]> {
+    let nearest = time.value();
+    let bracket = match time.sub(Ball::new(nearest)).sign()? {
+        Ordering::Less => [nearest.next_down(), nearest],
+        _ => [nearest, nearest.next_up()],
     };
-    let is_near = after.most() < (bracket[1] - bracket[0]) * (2.0 - UP);
-    (is_near && bracket[0] >= 0.0 && bracket[1] <= 1.0).then_some(bracket)
+    let [below, above] = bracket.map(|end| time.sub(Ball::new(end)).sign());
+    let is_between = below == Some(Ordering::Greater) && above == Some(Ordering::Less);
+    (is_between && bracket[0] >= 0.0 && bracket[1] <= 1.0).then_some(bracket)
 }
 
 /// Whether the slope certainly has one sign from a time to the end of the bracket.

@@ -58,13 +58,14 @@ fn stray_is_bounded() {
             let moving = Moving::new(&query.turning()).unwrap();
             for (from, to) in [(0.0, 1.0), (0.0, 0.25), (0.75, 1.0), (0.5, 0.625)] {
                 let bound = moving.bend * (to - from) * (to - from) + moving.rest;
-                let [start, end] = [from, to].map(|t| moving.places(t)[3]);
+                let [start, end] = [from, to].map(|t| moving.places_at(t)[3]);
                 for i in 0..=16 {
                     let share = f64::from(i) / 16.0;
                     let point = query
                         .motion()
                         .position(&query.local()[1], from + share * (to - from));
-                    let chord = [0, 1, 2].map(|axis| between(start[axis], end[axis], share));
+                    let chord =
+                        [0, 1, 2].map(|axis| (1.0 - share) * start[axis] + share * end[axis]);
                     let stray = (point.coords - nalgebra::Vector3::from(chord)).norm();
                     assert!(stray <= bound, "{stray} {bound}");
                     largest = f64::max(largest, stray / bound);

@@ -47,8 +47,8 @@ pub(super) fn start_distance<K: Stages>(positions: &Positions) -> f64 {
 /// Up to when the two sides are certainly farther apart than a radius above 0, as far as planes
 /// prove it: 1 for the whole step, 0 if that is not proved of any part.
 #[inline(always)]
-pub(super) fn apart_until<K: Stages>(positions: &Positions, radius: Radius) -> f64 {
-    let moving = Moving::new::<K>(&positions.points::<f64x2>(), rounded_up(radius));
+pub(super) fn apart_until<K: Stages>(points: &[[f64x2; 3]; 4], radius: Radius) -> f64 {
+    let moving = Moving::new::<K>(points, rounded_up(radius));
     if moving.boxes.are_disjoint {
         return 1.0;
     }
