@@ -59,7 +59,8 @@ impl Vectors {
             return self.check(&vectors::files());
         }
         let folder = self.out.join(vectors::TURNING);
-        fs::create_dir_all(&folder).map_err(|error| unwritable(&folder, error))?;
+        let made = fs::create_dir_all(&self.out).and_then(|()| fs::create_dir_all(&folder));
+        made.map_err(|error| unwritable(&self.out, error))?;
         let files = vectors::files();
         for file in &files {
             OutputFile::create(&self.out.join(&file.name))?.write(&file.text)?;
