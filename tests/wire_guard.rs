@@ -335,14 +335,34 @@ fn changes_of_resolution_do_not_cross_whatever_narrow_phase_motions_have() {
     assert_eq!(tally.met_remeshing, 0, "{tally:?}");
 }
 
-#[test]
-fn soak_finds_a_broad_phase_that_drops_pairs() {
-    let asked = AtomicU64::new(0);
-    let drops = |_, _| asked.fetch_add(1, Ordering::Relaxed) % 20 != 19;
-    let mut tally = Tally::default();
-    for seed in 0..60 {
-        let mut collisions = Collisions::default().with_filter(&drops);
-        tally.scene(scene(seed), &mut collisions);
+/// A wire at 100 m/s across one that is pinned, each of one segment, so that they are kept apart by a
+/// single pair.
+fn one_pair() -> World {
+    let mut world = World::new(Settings::default()).unwrap();
+    let pinned = [-1.0, 1.0].map(|y| Stop::Pinned(Point::new(0.0, y, 0.0)));
+    let thrown = [-1.0, 1.0].map(|x| Stop::Free(Point::new(x, 0.1, 0.5)));
+    for (route, speed) in [(pinned, 0.0), (thrown, -100.0)] {
+        let mut plan = WirePlan::new(Material::steel(0.01), 2.0, route.to_vec());
+        plan.velocity = Vector::new(0.0, 0.0, speed);
+        plan.resolution.adaptive = false;
+        world.add_wire(&plan).unwrap();
     }
-    assert!(tally.met > 0, "{tally:?}");
+    world
+}
+
+#[test]
+fn soak_finds_a_broad_phase_that_drops_a_pair() {
+    for is_kept in [true, false] {
+        let asked = AtomicU64::new(0);
+        let keeps = |_, _| {
+            asked.fetch_add(1, Ordering::Relaxed);
+            is_kept
+        };
+        let mut tally = Tally::default();
+        tally.scene(one_pair(), &mut Collisions::default().with_filter(&keeps));
+        assert_eq!(tally.steps, STEPS, "{tally:?}");
+        assert!(asked.into_inner() > 0, "{tally:?}");
+        assert_eq!(tally.met > 0, !is_kept, "{tally:?}");
+        assert_eq!(tally.prevented > 0, is_kept, "{tally:?}");
+    }
 }

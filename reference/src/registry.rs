@@ -15,7 +15,7 @@ use crate::field;
 use crate::oracle::{Oracle, decide_query, decide_rigid_query};
 use crate::shadow::Shadow;
 use crate::shrink::Truth;
-use crate::subject::{Answer, Certified, Engine, Subject};
+use crate::subject::{Answer, Certified, Engine, NoAnswer, RigidSubject, Subject};
 
 /// Agrees with the oracle on every query that it takes, or one of the two is wrong: edges without
 /// radius.
@@ -64,6 +64,22 @@ pub struct TurningSubject {
     pub answer: fn(&RigidQuery) -> Answer,
 }
 
+/// The name of the second judge of bodies that turn.
+pub const SECOND_OF_TURNS: &str = "difference";
+
+impl RigidSubject for TurningSubject {
+    fn name(&self) -> &str {
+        self.name
+    }
+
+    fn answers(&self, queries: &[RigidQuery]) -> Vec<Result<Answer, NoAnswer>> {
+        queries
+            .iter()
+            .map(|query| Ok((self.answer)(query)))
+            .collect()
+    }
+}
+
 /// Everyone who answers queries of bodies that turn: the oracle, the second judge and the certified
 /// path.
 pub fn turning_subjects() -> [TurningSubject; 3] {
@@ -73,7 +89,7 @@ pub fn turning_subjects() -> [TurningSubject; 3] {
             answer: |query| Answer::Exact(decide_rigid_query(query)),
         },
         TurningSubject {
-            name: "difference",
+            name: SECOND_OF_TURNS,
             answer: |query| Answer::Exact(difference::decide_rigid::<field::Default>(query)),
         },
         TurningSubject {

@@ -7,6 +7,7 @@ use tunnelproof::certified::decide;
 use tunnelproof::contact::{Case, Hit, Place};
 use tunnelproof::narrow::{NarrowPhase, Report, Tolerance, Unsupported};
 use tunnelproof::query::Query;
+use tunnelproof::rigid::RigidQuery;
 
 use crate::answer::{Enclosure, ExactAnswer};
 
@@ -31,6 +32,21 @@ pub trait Subject: Sync {
         };
         queries.iter().map(answer).collect()
     }
+
+    /// How far off the subject declares its answers to be; nothing for one that claims exactness.
+    fn tolerance(&self) -> Tolerance {
+        Tolerance::NONE
+    }
+}
+
+/// Someone who answers queries of bodies that turn.
+pub trait RigidSubject: Sync {
+    /// The name used in tables and on the command line.
+    fn name(&self) -> &str;
+
+    /// The answers to several queries, as many and in their order. [`NoAnswer::Unsupported`] names the kind of the
+    /// same query of linear motion.
+    fn answers(&self, queries: &[RigidQuery]) -> Vec<Result<Answer, NoAnswer>>;
 
     /// How far off the subject declares its answers to be; nothing for one that claims exactness.
     fn tolerance(&self) -> Tolerance {

@@ -34,7 +34,7 @@ pub(super) struct Certificate {
     details: bool,
     /// Exit with 1 unless every subject passes and all judges and labels agree
     #[arg(long)]
-    strict: bool,
+    pub(super) strict: bool,
 }
 
 /// The files, seen to be writable.
@@ -68,11 +68,22 @@ impl Certificate {
             html: file(&self.html)?,
             junit: file(&self.junit)?,
             badge: file(&self.badge)?,
-            shown: Shown {
-                details: self.details,
-                paint: paint(),
-            },
+            shown: self.shown(),
         })
+    }
+
+    /// How much is printed.
+    pub(super) fn shown(&self) -> Shown {
+        Shown {
+            details: self.details,
+            paint: paint(),
+        }
+    }
+
+    /// Whether a file is asked for.
+    pub(super) fn has_file(&self) -> bool {
+        let files = [&self.json, &self.html, &self.junit, &self.badge];
+        files.iter().any(|file| file.is_some())
     }
 }
 

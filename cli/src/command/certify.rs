@@ -11,7 +11,7 @@ use tunnelproof_reference::certify::judged::Judged;
 use tunnelproof_reference::certify::run::Panel;
 use tunnelproof_reference::certify::shard::Shard;
 use tunnelproof_reference::certify::source::Source;
-use tunnelproof_reference::generate::{FAMILIES, Family};
+use tunnelproof_reference::generate::{FAMILIES, Family, RigidFamily};
 use tunnelproof_reference::program::Conduct;
 use tunnelproof_reference::registry;
 use tunnelproof_reference::shadow::Shadow;
@@ -20,9 +20,11 @@ use tunnelproof_reference::subject::Subject;
 
 use super::certificate::Certificate;
 use super::resume::Resumed;
-use super::sources::{family, of_families, of_files};
+use super::sources::{AnyFamily, any_family, of_families, of_files};
 use super::subjects::{Answering, AskedList, Permit, Programs, asked_list};
 use super::{Failure, Reading, output, progress};
+
+mod turning;
 
 /// Judge subjects against the exact answer
 ///
@@ -36,13 +38,14 @@ Examples:
   tunnelproof certify --strict --subject oracle,shadow queries.jsonl unit-tests/edge-edge/*.csv
   tunnelproof certify --subject 'cmd:./my_ccd --flags' --html certificate.html
   tunnelproof certify --subject lib:./my_ccd.so Sample-Scalable-CCD-Data/cloth-funnel
+  tunnelproof certify --family turning_plates,turning_thick_plates --count 1000
   tunnelproof certify --shard 3/8 --json part-3.json queries.jsonl.zst
   tunnelproof certify --count 10000000 --json result.json --resume
 
 Without files: the figure cases and every family of edges without radius, or, if no subject takes
 these, every family that one of them takes. With files: these, and the families asked for. Families of
 vertices and faces, and of radii: face_... and thick_...; subjects that do not take such queries are not
-asked. A folder stands for the files of queries in it. Both public benchmarks are read as they are
+asked. Families of bodies that turn, turning_..., are judged in a run of their own. A folder stands for the files of queries in it. Both public benchmarks are read as they are
 published, with their labels.
 
 With --resume, what is judged so far is kept in OUT.part beside OUT, the file of --json, after each family
@@ -72,8 +75,8 @@ pub(super) struct Certify {
     permit: Permit,
     /// Families of generated queries; by default all of edges without radius, or none if files are
     /// given
-    #[arg(long, value_delimiter = ',', value_parser = family())]
-    family: Vec<&'static Family>,
+    #[arg(long, value_delimiter = ',', value_parser = any_family())]
+    family: Vec<AnyFamily>,
     /// How many queries of each family; 0 for none
     #[arg(long, value_name = "N", default_value_t = 20_000)]
     count: u64,
@@ -101,6 +104,9 @@ pub(super) struct Certify {
 impl Certify {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
         self.reading.check(&self.files)?;
+        if !self.turning_families().is_empty() {
+            return self.run_turning();
+        }
         let files = of_files(&self.files, &self.reading)?;
         if files.is_empty() && self.count == 0 && !self.family.is_empty() {
             return Err(Failure::Nothing);
@@ -152,7 +158,8 @@ impl Certify {
             }
         }
         if !self.family.is_empty() {
-            let names: Vec<_> = self.family.iter().map(|family| family.name()).collect();
+            let families = self.linear_families();
+            let names: Vec<_> = families.iter().map(|family| family.name()).collect();
             option("family", names.join(","));
         }
         if self.files.is_empty() || !self.family.is_empty() {
@@ -177,6 +184,22 @@ impl Certify {
             count: self.count,
             shard: self.shard,
         }
+    }
+
+    fn linear_families(&self) -> Vec<&'static Family> {
+        let linear = |family: &AnyFamily| match family {
+            AnyFamily::Linear(family) => Some(*family),
+            AnyFamily::Turning(_) => None,
+        };
+        self.family.iter().filter_map(linear).collect()
+    }
+
+    fn turning_families(&self) -> Vec<&'static RigidFamily> {
+        let turning = |family: &AnyFamily| match family {
+            AnyFamily::Linear(_) => None,
+            AnyFamily::Turning(family) => Some(*family),
+        };
+        self.family.iter().filter_map(turning).collect()
     }
 
     fn answering(&self) -> Result<Vec<Answering>, Failure> {
@@ -209,7 +232,7 @@ impl Certify {
                 let subjects: Vec<_> = panel.subjects.iter().map(|judged| judged.subject).collect();
                 defaults::families(&subjects)
             }
-            false => self.family.clone(),
+            false => self.linear_families(),
         };
         let is_everything = self.family.is_empty() && families.len() == FAMILIES.len();
         let figures = is_everything.then_some(Source::Figures);

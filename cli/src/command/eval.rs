@@ -9,9 +9,8 @@ use tunnelproof_reference::certify::run::RunError;
 use tunnelproof_reference::certify::source::Source;
 use tunnelproof_reference::corpus::Entry;
 use tunnelproof_reference::corpus::turning::{self, TurningEntry};
-use tunnelproof_reference::registry::turning_subjects;
 use tunnelproof_reference::report::answer;
-use tunnelproof_reference::subject::Subject;
+use tunnelproof_reference::subject::{RigidSubject, Subject};
 
 use super::output::standard_output;
 use super::sources::of_files;
@@ -47,7 +46,7 @@ pub(super) struct Eval {
     /// of a shared library
     #[arg(long, default_value = "oracle", value_parser = asked)]
     subject: Asked,
-    /// The files hold queries of bodies that turn; oracle, difference and certified answer them
+    /// The files hold queries of bodies that turn; oracle, difference, certified and programs answer them
     #[arg(long, conflicts_with_all = ["kind", "radius"])]
     turning: bool,
     #[command(flatten)]
@@ -79,29 +78,13 @@ impl Eval {
 impl Eval {
     /// The same of bodies that turn.
     fn run_turning(self) -> Result<ExitCode, Failure> {
-        let name: &str = match &self.subject {
-            Asked::Known(subject) => subject.name(),
-            Asked::Program(name) => name,
-        };
-        let asked = turning_subjects()
-            .into_iter()
-            .find(|known| known.name == name);
-        let subject = asked.ok_or_else(|| Failure::Program {
-            name: name.to_owned(),
-            reason: "answers no queries of bodies that turn".to_owned(),
-        })?;
+        let answering = self.programs.start_turning(&self.subject)?;
         let mut output = BufWriter::new(io::stdout().lock());
         for path in &self.files {
             map_chunks_in_order(
                 turning::open(path)?.map(|entry| entry.map_err(Failure::from)),
                 CHUNK,
-                |entries: Vec<TurningEntry>| {
-                    let line = |entry: &TurningEntry| {
-                        let answer = (subject.answer)(&entry.query);
-                        Ok(answer::turning_line(&entry.id, &answer))
-                    };
-                    entries.iter().map(line).collect()
-                },
+                |entries: Vec<TurningEntry>| turning_lines(answering.subject(), &entries),
                 |lines: Vec<String>| write_lines(&mut output, &lines),
             )?;
         }
@@ -111,6 +94,24 @@ impl Eval {
 
 /// How many queries a subject is asked for at once.
 const CHUNK: usize = 64;
+
+fn turning_lines(
+    subject: &dyn RigidSubject,
+    entries: &[TurningEntry],
+) -> Vec<Result<String, Failure>> {
+    let queries: Vec<_> = entries.iter().map(|entry| entry.query).collect();
+    let answers = subject.answers(&queries).into_iter().zip(entries);
+    answers
+        .map(|(answer, entry)| match answer {
+            Ok(answer) => Ok(answer::turning_line(&entry.id, &answer)),
+            Err(reason) => Err(RunError::NoAnswer {
+                place: entry.id.clone(),
+                reason,
+            }
+            .into()),
+        })
+        .collect()
+}
 
 fn answer_lines(
     subject: &dyn Subject,

@@ -69,7 +69,8 @@ pub(super) fn searching<T>(queries: usize, work: impl FnOnce(&(dyn Fn(u64) + Syn
     result
 }
 
-fn of(count: u64) -> ProgressBar {
+/// A bar for so many queries.
+pub(super) fn of(count: u64) -> ProgressBar {
     match is_shown() {
         true => ProgressBar::new(count).with_style(style()),
         false => ProgressBar::hidden(),

@@ -5,7 +5,9 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use tunnelproof_cli::sweep::{Domain, DomainError, Precision};
 use tunnelproof_reference::certify::source::Source;
 use tunnelproof_reference::corpus::folder;
-use tunnelproof_reference::generate::{self, FAMILIES, Family};
+use tunnelproof_reference::generate::{
+    self, FAMILIES, Family, RIGID_FAMILIES, RigidFamily, rigid_by_name,
+};
 
 use super::{Failure, Reading};
 
@@ -104,6 +106,22 @@ pub(super) fn has_a_scale(family: &Family) -> bool {
 fn precision() -> impl TypedValueParser<Value = Precision> {
     PossibleValuesParser::new(Precision::ALL.map(Precision::name))
         .try_map(|name| Precision::from_name(&name).ok_or("unknown precision"))
+}
+
+/// A family of queries of linear motion, or of bodies that turn.
+#[derive(Clone, Copy)]
+pub(super) enum AnyFamily {
+    Linear(&'static Family),
+    Turning(&'static RigidFamily),
+}
+
+pub(super) fn any_family() -> impl TypedValueParser<Value = AnyFamily> {
+    let turning = RIGID_FAMILIES.iter().map(RigidFamily::name);
+    PossibleValuesParser::new(generate::all().map(Family::name).chain(turning)).try_map(|name| {
+        let linear = generate::by_name(&name).map(AnyFamily::Linear);
+        let turning = || rigid_by_name(&name).map(AnyFamily::Turning);
+        linear.or_else(turning).ok_or("unknown family")
+    })
 }
 
 pub(super) fn family() -> impl TypedValueParser<Value = &'static Family> {

@@ -58,7 +58,9 @@ impl Vectors {
             fs::read_dir(&self.out).map_err(|error| unreadable(&self.out, error))?;
             return self.check(&vectors::files());
         }
-        fs::create_dir_all(&self.out).map_err(|error| unwritable(&self.out, error))?;
+        let folder = self.out.join(vectors::TURNING);
+        let made = fs::create_dir_all(&self.out).and_then(|()| fs::create_dir_all(&folder));
+        made.map_err(|error| unwritable(&self.out, error))?;
         let files = vectors::files();
         for file in &files {
             OutputFile::create(&self.out.join(&file.name))?.write(&file.text)?;
@@ -69,15 +71,8 @@ impl Vectors {
 
     /// Writes the packages of the files that are there.
     fn package(&self, to: &Path) -> Result<ExitCode, Failure> {
-        let entries = fs::read_dir(&self.out).map_err(|error| unreadable(&self.out, error))?;
         let mut folder = Vec::new();
-        for entry in entries {
-            let path = entry.map_err(|error| unreadable(&self.out, error))?.path();
-            let name = path
-                .file_name()
-                .unwrap_or_default()
-                .to_string_lossy()
-                .into_owned();
+        for (path, name) in self.names()? {
             if name.ends_with(".json") || name == README {
                 let bytes = fs::read(&path).map_err(|error| unreadable(&path, error))?;
                 folder.push(package::File { path: name, bytes });
@@ -126,19 +121,41 @@ impl Vectors {
         Ok(ExitCode::SUCCESS)
     }
 
-    /// The names of `.json` files in the folder that are neither vectors nor their schema.
+    /// The names of `.json` files in the folders that are neither vectors nor their schema.
     fn surplus(&self, files: &[VectorFile]) -> Result<BTreeSet<String>, Failure> {
-        let entries = fs::read_dir(&self.out).map_err(|error| unreadable(&self.out, error))?;
-        let mut surplus = BTreeSet::new();
-        for entry in entries {
-            let entry = entry.map_err(|error| unreadable(&self.out, error))?;
-            let name = entry.file_name().to_string_lossy().into_owned();
-            let is_known = name == SCHEMA || files.iter().any(|file| file.name == name);
-            if name.ends_with(".json") && !is_known {
-                surplus.insert(name);
+        let schemas = [SCHEMA.to_owned(), format!("{}/{SCHEMA}", vectors::TURNING)];
+        let is_known =
+            |name: &String| schemas.contains(name) || files.iter().any(|file| file.name == *name);
+        let names = self.names()?.into_iter().map(|(_, name)| name);
+        Ok(names
+            .filter(|name| name.ends_with(".json") && !is_known(name))
+            .collect())
+    }
+
+    /// What is in the folder, and in that of bodies that turn if there is one: paths, and names as
+    /// seen from the folder.
+    fn names(&self) -> Result<Vec<(PathBuf, String)>, Failure> {
+        let mut names = Vec::new();
+        let turning = self.out.join(vectors::TURNING);
+        let folders = [
+            (&self.out, String::new()),
+            (&turning, format!("{}/", vectors::TURNING)),
+        ];
+        for (folder, within) in folders {
+            let entries = match fs::read_dir(folder) {
+                Err(error) if !within.is_empty() && error.kind() == io::ErrorKind::NotFound => {
+                    continue;
+                }
+                entries => entries.map_err(|error| unreadable(folder, error))?,
+            };
+            for entry in entries {
+                let path = entry.map_err(|error| unreadable(folder, error))?.path();
+                let name = path.file_name().unwrap_or_default().to_string_lossy();
+                let name = format!("{within}{name}");
+                names.push((path, name));
             }
         }
-        Ok(surplus)
+        Ok(names)
     }
 }
 

@@ -6,7 +6,7 @@ use tunnelproof_reference::algebraic::{Algebraic, isolate_roots};
 use tunnelproof_reference::field::{Integer, Ratio};
 
 /// A rational number: numerator and denominator in decimal digits, in lowest terms.
-type Fraction = [String; 2];
+pub(super) type Fraction = [String; 2];
 
 /// A real algebraic number in `[0, 1]`: a fraction, or a root of a polynomial if it is irrational.
 #[derive(Serialize)]
@@ -37,6 +37,11 @@ impl ExactTime {
                 root: Some(Root::new(time)),
             },
         }
+    }
+
+    /// The fraction, if it is one.
+    pub(super) fn into_fraction(self) -> Option<Fraction> {
+        self.fraction
     }
 
     /// Whether it is a root of a polynomial and no fraction.

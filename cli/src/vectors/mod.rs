@@ -23,9 +23,11 @@ mod layout;
 mod method;
 pub mod package;
 mod reports;
+mod turning;
 mod vector;
 
 use flag::Note;
+pub use turning::FOLDER as TURNING;
 use vector::{Described, Vector};
 
 /// A file of vectors.
@@ -57,7 +59,8 @@ struct Document {
     vectors: Vec<Vector>,
 }
 
-/// Every file of vectors. No query is in two of them, but those that belong to a wire.
+/// Every file of vectors, those of bodies that turn in a folder of their own. No query is in two of
+/// the others, but those that belong to a wire.
 pub fn files() -> Vec<VectorFile> {
     let mut sources = vec![given::figures(), given::errata(), reports::reports()];
     // Casts are queries of the same kinds; they are for the bench of physics engines.
@@ -65,7 +68,8 @@ pub fn files() -> Vec<VectorFile> {
     let families: Vec<_> = families.into_par_iter().map(families::selection).collect();
     sources.extend(families);
     without_repetition(&mut sources);
-    sources.into_iter().map(Source::file).collect()
+    let files = sources.into_iter().map(Source::file);
+    files.chain(turning::files()).collect()
 }
 
 /// Leaves of equal queries the first one.

@@ -5,7 +5,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::run::{PROGRAM, stderr, tunnelproof};
+use crate::run::{PROGRAM, code, stderr, stdout, tunnelproof};
 
 /// What a program does, each time that it is started, on its 40th query.
 const MISDEEDS: [&str; 6] = ["crash", "hang", "half a line", "nan", "garbage", "wrong id"];
@@ -217,6 +217,68 @@ fn certify_refuses_what_is_no_tolerance() {
         let message = stderr(&output);
         assert!(message.contains(problem), "{message}");
     }
+}
+
+#[test]
+fn certify_of_bodies_that_turn_judges_engines_and_programs() {
+    let certify = |subject: &str| {
+        tunnelproof(&[
+            "certify",
+            "--strict",
+            "--family",
+            "turning_lattice,turning_thick_lattice",
+            "--count",
+            "70",
+            "--subject",
+            subject,
+        ])
+    };
+    let ours = certify("oracle,difference,certified");
+    let text = stdout(&ours);
+    assert_eq!(code(&ours), 0, "{text}{}", stderr(&ours));
+    assert!(text.contains("140 queries of 2 families: "), "{text}");
+    assert!(
+        text.contains("oracle and difference agree on all 140 queries"),
+        "{text}"
+    );
+    let right = certify(&format!(
+        "cmd:{PROGRAM} --threads 1 eval --turning --subject certified -"
+    ));
+    assert_eq!(code(&right), 0, "{}{}", stdout(&right), stderr(&right));
+    let misses = certify(r#"cmd:sh -c 'while read -r line; do echo "{\"hit\": false}"; done'"#);
+    assert_eq!(code(&misses), 1);
+    for fault in [" tunnels, ", " missed grazes"] {
+        assert!(stderr(&misses).contains(fault), "{}", stderr(&misses));
+    }
+    assert!(stdout(&misses).contains("tunnelproof explain turning_"));
+}
+
+#[test]
+fn certify_of_bodies_that_turn_refuses_what_it_cannot_do() {
+    let refused = |more: &[&str], what: &str| {
+        let mut arguments = vec!["certify", "--family", "turning_uniform", "--count", "1"];
+        arguments.extend(more);
+        let output = tunnelproof(&arguments);
+        assert_eq!(code(&output), 2, "{more:?}");
+        assert!(stderr(&output).contains(what), "{}", stderr(&output));
+    };
+    refused(
+        &["--subject", "thesis"],
+        "answers no queries of bodies that turn",
+    );
+    refused(
+        &["--subject", "cmd:cat", "--wire", "binary"],
+        "in lines alone",
+    );
+    refused(&["--family", "uniform"], "in a run each");
+    refused(&["queries.jsonl"], "in a run each");
+    refused(&["--json", "out.json"], "have no --json");
+    refused(&["--shrink"], "have no --shrink");
+    refused(&["--shard", "1/2"], "have no --shard");
+    refused(
+        &["--subject", "cmd:cat", "--permit", "near=1e-9"],
+        "is not for bodies that turn",
+    );
 }
 
 #[test]

@@ -15,7 +15,7 @@ use super::says;
 /// Coefficients ascending, the last one not 0.
 type Poly = Vec<BigRational>;
 
-type Vector3 = [BigRational; 3];
+pub(crate) type Vector3 = [BigRational; 3];
 
 /// What is wrong with the points or the exact time of a vector.
 pub(crate) fn check(vector: &Vector) -> Result<(), String> {
@@ -90,7 +90,7 @@ fn check_root(vector: &Vector, root: &Root, toi: Bounds) -> Result<(), String> {
     says("no time of contact", is_of_a_border(vector, is_root))
 }
 
-fn number(value: f64) -> BigRational {
+pub(crate) fn number(value: f64) -> BigRational {
     BigRational::from_float(value).unwrap()
 }
 
@@ -105,7 +105,7 @@ fn hex_float(text: &str) -> Option<BigRational> {
     Some(if text.starts_with('-') { -value } else { value })
 }
 
-fn fraction([numerator, denominator]: &[String; 2]) -> Option<BigRational> {
+pub(crate) fn fraction([numerator, denominator]: &[String; 2]) -> Option<BigRational> {
     let (n, d): (BigInt, BigInt) = (numerator.parse().ok()?, denominator.parse().ok()?);
     (d.is_positive() && n.gcd(&d).is_one()).then(|| BigRational::new(n, d))
 }
@@ -132,7 +132,7 @@ fn radius_squared(vector: &Vector) -> BigRational {
 
 /// Whether the two touch: the distance is the radius, or less at the start.
 fn touch(vector: &Vector, time: &BigRational) -> bool {
-    let distance = distance_squared(vector, &positions(vector, time));
+    let distance = distance_squared(vector.is_of_edges(), &positions(vector, time));
     match time.is_zero() {
         true => distance <= radius_squared(vector),
         false => distance == radius_squared(vector),
@@ -141,9 +141,9 @@ fn touch(vector: &Vector, time: &BigRational) -> bool {
 
 /// The least of the squared distances that can be it: of a vertex from an edge, of the insides of
 /// both edges, or of the vertex from the inside of the face.
-fn distance_squared(vector: &Vector, points: &[Vector3; 4]) -> BigRational {
+pub(crate) fn distance_squared(is_of_edges: bool, points: &[Vector3; 4]) -> BigRational {
     let [a, b, c, d] = points;
-    let (of_ends, inside) = match vector.is_of_edges() {
+    let (of_ends, inside) = match is_of_edges {
         true => (
             vec![(a, c, d), (b, c, d), (c, a, b), (d, a, b)],
             between_lines(points),

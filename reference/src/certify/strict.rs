@@ -106,18 +106,31 @@ fn failing(tolerance: Tolerance, tally: &Tally) -> impl Iterator<Item = Fault> {
 
 /// Whether there is such a fault, and it counts.
 pub fn fails(tolerance: Tolerance, tally: &Tally, fault: Fault) -> bool {
-    let counts = match fault {
+    counts(tolerance, fault, tally.worst(fault)) && tally.count(fault) > 0
+}
+
+/// Whether a fault counts of which this is the severity of the worst.
+pub(super) fn counts(tolerance: Tolerance, fault: Fault, worst: f64) -> bool {
+    match fault {
         // A hit is near, not false, by the tolerance of whoever reports it.
         Fault::NearHit => tolerance.near == 0.0,
-        Fault::Late => !tolerance.permits_late(tally.worst(Fault::Late)),
+        Fault::Late => !tolerance.permits_late(worst),
         Fault::Early | Fault::WrongCase => false,
         _ => true,
-    };
-    counts && tally.count(fault) > 0
+    }
 }
 
 fn counted(tolerance: Tolerance, tally: &Tally, fault: Fault) -> String {
-    let words = match fault {
+    format!(
+        "{} {}",
+        grouped(tally.count(fault)),
+        words(tolerance, fault)
+    )
+}
+
+/// What several faults are called.
+pub(super) fn words(tolerance: Tolerance, fault: Fault) -> &'static str {
+    match fault {
         Fault::Tunnel => "tunnels",
         Fault::JointTunnel => "joint tunnels",
         Fault::MissedGraze => "missed grazes",
@@ -129,6 +142,5 @@ fn counted(tolerance: Tolerance, tally: &Tally, fault: Fault) -> String {
         Fault::Early => "early times of impact",
         Fault::WrongCase => "wrong cases",
         Fault::Differs => "answers that differ from the exact one",
-    };
-    format!("{} {words}", grouped(tally.count(fault)))
+    }
 }

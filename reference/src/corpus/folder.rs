@@ -11,6 +11,9 @@
 //! | `queries/227ee.csv` | six columns, no label; `ee` is edge-edge, `vf` vertex-face |
 //! | `mma_bool/227ee_mma_bool.json` | the labels, an array of `true`, `false`, 1 and 0 |
 //! | `boxes`, `frames`, `roots` | pairs, meshes and times of impact: not read |
+//!
+//! Of the test vectors of this project, those of bodies that turn stand in a folder `turning` beside
+//! the schema of the others, and are not read.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -65,7 +68,7 @@ fn collect(folder: &Path, found: &mut Vec<String>) -> Result<(), CorpusError> {
     paths.sort();
     for path in paths {
         if path.is_dir() {
-            if !is_beside(&path) {
+            if !is_beside(&path) && !is_of_turns(&path) {
                 collect(&path, found)?;
             }
         } else if let Some(path) = path.to_str().filter(|path| has_queries(path)) {
@@ -80,6 +83,12 @@ fn is_beside(folder: &Path) -> bool {
     let name = folder.file_name().and_then(|name| name.to_str());
     let is_named = name.is_some_and(|name| BESIDE.contains(&name));
     is_named && folder.with_file_name("queries").is_dir()
+}
+
+/// Whether it is the folder of the test vectors of bodies that turn, beside the schema of the others.
+fn is_of_turns(folder: &Path) -> bool {
+    let schema = folder.with_file_name("schema.json");
+    folder.ends_with("turning") && schema.to_str().is_some_and(is_schema)
 }
 
 fn has_queries(path: &str) -> bool {

@@ -1,5 +1,7 @@
 //! Families of queries of bodies that turn: half of each family edges, half vertices and faces.
 
+use std::fmt;
+
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use rand::{Rng, RngExt};
 use rand_chacha::ChaCha8Rng;
@@ -114,6 +116,12 @@ pub struct RigidId {
     pub seed: u64,
     /// Which query of that seed, from 0.
     pub index: u64,
+}
+
+impl fmt::Display for RigidId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}:{}", self.family.name, self.seed, self.index)
+    }
 }
 
 impl RigidId {

@@ -17,9 +17,11 @@ use std::io::{self, BufRead, Read};
 use serde_json::Value;
 use tunnelproof::contact::Case;
 use tunnelproof::query::Query;
+use tunnelproof::rigid::RigidQuery;
 
 use crate::answer::Enclosure;
 use crate::corpus::jsonl::{self, Numbers};
+use crate::corpus::turning::{self, TurningEntry};
 use crate::corpus::{Entry, hexfloat};
 use crate::subject::Said;
 
@@ -30,7 +32,20 @@ const LONGEST_LINE: u64 = 1 << 16;
 
 pub(super) fn write(id: u64, query: &Query, bytes: &mut Vec<u8>) {
     let entry = Entry::unlabelled(id.to_string(), *query);
-    let line = jsonl::write(&entry, Numbers::Decimal);
+    push(&jsonl::write(&entry, Numbers::Decimal), bytes);
+}
+
+/// As in [`crate::corpus::turning`].
+pub(super) fn write_rigid(id: u64, query: &RigidQuery, bytes: &mut Vec<u8>) {
+    let entry = TurningEntry {
+        id: id.to_string(),
+        query: *query,
+        label: None,
+    };
+    push(&turning::write(&entry, Numbers::Decimal), bytes);
+}
+
+fn push(line: &str, bytes: &mut Vec<u8>) {
     bytes.extend_from_slice(line.as_bytes());
     bytes.push(b'\n');
 }

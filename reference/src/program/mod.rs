@@ -23,6 +23,7 @@ use crate::subject::{Answer, Lapse, LapseKind, NoAnswer, Subject};
 
 pub mod frames;
 pub mod lines;
+mod rigid;
 mod stderr;
 pub mod wire;
 mod worker;
@@ -31,7 +32,7 @@ mod worker;
 mod tests;
 
 use stderr::Stderr;
-use wire::Wire;
+use wire::{AskedQuery, Wire};
 use worker::{GRACE, Worker};
 
 /// How long a program may take for an answer, unless something else is asked for.
@@ -171,7 +172,7 @@ impl Program {
 
     /// Answers to the first of these queries, at least one. The last of them may be a lapse that
     /// ended the program.
-    fn some_answers(&self, queries: &[Query]) -> Vec<Result<Answer, NoAnswer>> {
+    fn some_answers(&self, queries: &[impl AskedQuery]) -> Vec<Result<Answer, NoAnswer>> {
         if self.hangs_in_a_row.load(Ordering::Relaxed) >= MOST_HANGS {
             let detail = format!("it hung on {MOST_HANGS} queries in a row");
             let lapse = Lapse::new(LapseKind::GivenUp, detail);
@@ -191,6 +192,19 @@ impl Program {
             Err(lapse) => answers.push(Err(lapse.into())),
         }
         self.count_hangs(&answers);
+        answers
+    }
+
+    /// Answers to all of these queries; refusals, if they cannot be written in the form that it reads.
+    fn all_answers<Q: AskedQuery>(&self, queries: &[Q]) -> Vec<Result<Answer, NoAnswer>> {
+        if !Q::has_form(self.command.wire) {
+            let refusals = queries.iter().map(|query| Err(query.refusal().into()));
+            return refusals.collect();
+        }
+        let mut answers = Vec::with_capacity(queries.len());
+        while answers.len() < queries.len() {
+            answers.extend(self.some_answers(&queries[answers.len()..]));
+        }
         answers
     }
 
@@ -216,11 +230,7 @@ impl Subject for Program {
     }
 
     fn answers(&self, queries: &[Query]) -> Vec<Result<Answer, NoAnswer>> {
-        let mut answers = Vec::with_capacity(queries.len());
-        while answers.len() < queries.len() {
-            answers.extend(self.some_answers(&queries[answers.len()..]));
-        }
-        answers
+        self.all_answers(queries)
     }
 
     fn tolerance(&self) -> Tolerance {

@@ -144,7 +144,7 @@ fn schema_of_queries_takes_the_lines_that_are_written() {
     for family in ["scales", "face_uniform", "thick_face_lattice"] {
         for query in queries(family) {
             let mut bytes = Vec::new();
-            Wire::Lines.write(7, &query, &mut bytes);
+            query.write(Wire::Lines, 7, &mut bytes);
             let text = String::from_utf8(bytes).unwrap();
             assert!(is_valid(schema, &text), "{text}");
         }
@@ -172,7 +172,7 @@ fn frame_of_a_query_has_every_number_in_its_place() {
         .chain(queries("scales"))
     {
         let mut bytes = Vec::new();
-        Wire::Binary.write(9, &query, &mut bytes);
+        query.write(Wire::Binary, 9, &mut bytes);
         assert_eq!(bytes.len(), 4 + frames::QUERY);
         assert_eq!(bytes[..4], [224, 0, 0, 0]);
         assert_eq!(bytes[4..12], 9u64.to_le_bytes());

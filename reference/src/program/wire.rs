@@ -3,7 +3,8 @@
 use std::io::{self, BufRead};
 
 use tunnelproof::narrow::Unsupported;
-use tunnelproof::query::Query;
+use tunnelproof::query::{Query, QueryKind, Radius};
+use tunnelproof::rigid::RigidQuery;
 
 use crate::subject::{Answer, Lapse, LapseKind, NoAnswer, Said};
 
@@ -53,14 +54,6 @@ impl Wire {
         Wire::ALL.into_iter().find(|wire| wire.name() == name)
     }
 
-    /// Appends a query with a number.
-    pub(super) fn write(self, id: u64, query: &Query, bytes: &mut Vec<u8>) {
-        match self {
-            Wire::Lines => lines::write(id, query, bytes),
-            Wire::Binary => frames::write(id, query, bytes),
-        }
-    }
-
     /// The bytes of the next message; `None` at the end. A message that is longer than any answer
     /// has to be is cut.
     pub(super) fn read(self, reader: &mut impl BufRead) -> io::Result<Option<Vec<u8>>> {
@@ -80,15 +73,66 @@ impl Wire {
     }
 }
 
+/// A query that a program is asked.
+pub(super) trait AskedQuery {
+    /// Appends it with a number, in a [form that it has](Self::has_form).
+    fn write(&self, wire: Wire, id: u64, bytes: &mut Vec<u8>);
+
+    /// Whether it can be written in this form.
+    fn has_form(wire: Wire) -> bool;
+
+    /// That a subject does not take it.
+    fn refusal(&self) -> Unsupported;
+}
+
+impl AskedQuery for Query {
+    fn write(&self, wire: Wire, id: u64, bytes: &mut Vec<u8>) {
+        match wire {
+            Wire::Lines => lines::write(id, self, bytes),
+            Wire::Binary => frames::write(id, self, bytes),
+        }
+    }
+
+    fn has_form(_wire: Wire) -> bool {
+        true
+    }
+
+    fn refusal(&self) -> Unsupported {
+        refusal(self.kind(), self.radius())
+    }
+}
+
+impl AskedQuery for RigidQuery {
+    fn write(&self, _wire: Wire, id: u64, bytes: &mut Vec<u8>) {
+        lines::write_rigid(id, self, bytes);
+    }
+
+    fn has_form(wire: Wire) -> bool {
+        wire == Wire::Lines
+    }
+
+    fn refusal(&self) -> Unsupported {
+        let kind = match self {
+            RigidQuery::EdgeTurningEdge(_) => QueryKind::EdgeEdge,
+            RigidQuery::VertexTurningFace(_) => QueryKind::VertexFace,
+        };
+        refusal(kind, self.radius())
+    }
+}
+
+fn refusal(kind: QueryKind, radius: Radius) -> Unsupported {
+    match radius.is_zero() {
+        true => Unsupported::Kind(kind),
+        false => Unsupported::Radius(radius),
+    }
+}
+
 impl Reply {
     /// The reply to this query as a subject gives it.
-    pub(super) fn to(self, query: &Query) -> Result<Answer, NoAnswer> {
+    pub(super) fn to(self, query: &impl AskedQuery) -> Result<Answer, NoAnswer> {
         match self {
             Reply::Said(said) => Ok(Answer::Said(said)),
-            Reply::Unsupported if query.radius().is_zero() => {
-                Err(Unsupported::Kind(query.kind()).into())
-            }
-            Reply::Unsupported => Err(Unsupported::Radius(query.radius()).into()),
+            Reply::Unsupported => Err(query.refusal().into()),
         }
     }
 }

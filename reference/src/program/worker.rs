@@ -10,13 +10,11 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use tunnelproof::query::Query;
-
 use crate::subject::{Answer, Lapse, LapseKind, NoAnswer};
 
 use super::Command;
 use super::stderr::{self, Stderr};
-use super::wire::Wire;
+use super::wire::{AskedQuery, Wire};
 
 /// How many messages are read ahead.
 const AHEAD: usize = 256;
@@ -83,7 +81,7 @@ impl Worker {
     /// ended: it can be asked nothing more.
     pub(super) fn ask(
         &mut self,
-        queries: &[Query],
+        queries: &[impl AskedQuery],
         answers: &mut Vec<Result<Answer, NoAnswer>>,
     ) -> Result<(), Lapse> {
         if self.output.try_recv().is_ok() {
@@ -93,7 +91,7 @@ impl Worker {
         let first = self.asked;
         let mut bytes = Vec::new();
         for (id, query) in (first..).zip(queries) {
-            self.wire.write(id, query, &mut bytes);
+            query.write(self.wire, id, &mut bytes);
         }
         self.asked += queries.len() as u64;
         if let Some(input) = &self.input {

@@ -7,6 +7,8 @@ use std::io::{self, Write};
 use flate2::{Compression, GzBuilder};
 use hmac_sha256::Hash;
 
+use super::TURNING;
+
 /// A file by its path in a folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct File {
@@ -73,8 +75,11 @@ fn crate_files(folder: &[File]) -> io::Result<Vec<File>> {
             file.path
         )
     });
-    let entries: String = entries.collect();
-    let library = include_str!("lib.rs.in").replace("ENTRIES\n", &entries);
+    let in_folder = |entry: &String| entry.contains(&format!("\"{TURNING}/"));
+    let (turning, others): (Vec<_>, Vec<_>) = entries.partition(in_folder);
+    let library = include_str!("lib.rs.in")
+        .replace("ENTRIES\n", &others.concat())
+        .replace("TURNS\n", &turning.concat());
     files.push(file("src/lib.rs", library));
     files.push(file("Cargo.toml", versioned(include_str!("Cargo.toml.in"))));
     files.push(file("README.md", include_str!("crate.md").to_owned()));
@@ -165,7 +170,13 @@ mod tests {
 
     #[test]
     fn packages_hold_every_file_of_the_folder() {
-        let folder = ["README.md", "a.json", "b.json", "schema.json"];
+        let folder = [
+            "README.md",
+            "a.json",
+            "b.json",
+            "schema.json",
+            "turning/c.json",
+        ];
         let folder = folder.map(|name| file(name, format!("text of {name}")));
         let packages = packages(&folder).unwrap();
         assert_eq!(packages, super::packages(&folder).unwrap());
@@ -203,7 +214,10 @@ mod tests {
             assert_eq!(unpacked(find(path)), b"text of a.json");
         }
         let library = String::from_utf8(find("crate/src/lib.rs").clone()).unwrap();
-        assert_eq!(library.matches("include_bytes!(\"../data/").count(), 3);
+        assert_eq!(library.matches("include_bytes!(\"../data/").count(), 4);
+        let turning = library.split_once("TURNING: &[File]").unwrap().1;
+        assert_eq!(turning.matches("include_bytes!").count(), 1);
+        assert!(turning.contains("name: \"turning/c.json\""), "{library}");
     }
 
     const SUM_OF_A: &str =

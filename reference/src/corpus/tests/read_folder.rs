@@ -100,15 +100,22 @@ fn folder_has_the_files_of_queries_but_no_schema_and_an_empty_one_is_refused() {
         ),
         ("a.jsonl.gz", ""),
         ("README.md", ""),
+        ("turning/c.json", ""),
     ] {
+        fs::create_dir_all(at("turning")).unwrap();
         fs::write(at(name), text).unwrap();
     }
     let found = files(folder.path());
-    assert_eq!(
-        found,
-        ["a.jsonl.gz", "b.json"].map(|name| at(name).to_str().unwrap().to_owned())
-    );
+    let named = |names: &[&str]| -> Vec<_> {
+        let path = |name: &&str| at(name).to_str().unwrap().to_owned();
+        names.iter().map(path).collect()
+    };
+    assert_eq!(found, named(&["a.jsonl.gz", "b.json"]));
     assert!(folder::is_schema(at("schema.json").to_str().unwrap()));
+    // Those of bodies that turn are left out beside that schema alone.
+    fs::remove_file(at("schema.json")).unwrap();
+    let found = files(folder.path());
+    assert_eq!(found, named(&["a.jsonl.gz", "b.json", "turning/c.json"]));
 }
 
 /// The scene that is there on some machines only.
