@@ -15,6 +15,8 @@ mod families;
 mod mesh;
 mod method;
 mod queries;
+mod query;
+mod simulate;
 
 /// The functions that `tunnelproof/__init__.py` calls.
 #[pymodule]
@@ -24,13 +26,17 @@ mod _tunnelproof {
     #[pymodule_export]
     use crate::certified::decide;
     #[pymodule_export]
-    use crate::certify::{certify, explain, merge};
+    use crate::certify::{certify, merge};
     #[pymodule_export]
     use crate::exact::exact;
     #[pymodule_export]
     use crate::families::{families, family};
     #[pymodule_export]
     use crate::mesh::Mesh;
+    #[pymodule_export]
+    use crate::query::{draw, explain, gap, locate, shrink};
+    #[pymodule_export]
+    use crate::simulate::{Seen, scenes, simulate};
 
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");
