@@ -17,6 +17,7 @@ mod method;
 mod queries;
 mod query;
 mod simulate;
+mod turning;
 
 /// The functions that `tunnelproof/__init__.py` calls.
 #[pymodule]
@@ -37,6 +38,8 @@ mod _tunnelproof {
     use crate::query::{draw, explain, gap, locate, shrink};
     #[pymodule_export]
     use crate::simulate::{Seen, scenes, simulate};
+    #[pymodule_export]
+    use crate::turning::decide_rigid;
 
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -15,7 +15,7 @@ wires. With 0 contact is a common point.
 time of impact is the exact one rounded down. Positions at that time are rounded, and may already be
 past the contact. :func:`advance` gives positions to store instead: straight motion to them touches
 nothing. :class:`Mesh` does the same for whole meshes, whose pairs it finds itself.
-:func:`exact`
+:func:`decide_rigid` is the certified path for rigid bodies that turn within the step. :func:`exact`
 is the oracle in exact arithmetic, by another method. :func:`certify` judges a method of your own
 against it on :func:`families` of queries, each of which aims at a weakness. :func:`explain` says
 what happens in one :class:`Query`, :func:`shrink` finds the smallest one on which a method is still
@@ -48,6 +48,7 @@ from ._mesh import Mesh, MeshContacts, MeshLimits, MeshStep, NearPairs, Pairs
 from ._query import Explanation, Method, Query, Shrunk, checked, explain, gap, query, shrink
 from ._simulate import Simulation, scenes, simulate
 from ._step import Advances, advance
+from ._turning import decide_rigid
 
 __all__ = [
     "Advances",
@@ -74,6 +75,7 @@ __all__ = [
     "advance",
     "certify",
     "decide",
+    "decide_rigid",
     "exact",
     "explain",
     "families",
