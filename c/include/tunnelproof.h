@@ -159,8 +159,8 @@ int64_t tunnelproof_decide_vertex_face_batch(const double *points, const double 
  * taken. It may be 90 degrees at most: divide the step otherwise.
  *
  * The answer is as above, but for the normal, which is 0, 0, 0; `place_error` is at most 2^-50.
- * Where the body does not turn, it is that of the functions above. A query that is a hit takes from
- * some hundred microseconds to milliseconds. */
+ * Where the body does not turn, it is that of the functions above. Ordinary contacts take
+ * microseconds; grazes, ends of edges and times that are doubles take up to some milliseconds. */
 int32_t tunnelproof_decide_edge_turning_edge(const double *points, const double *local,
                                              const double *poses, const double *radii,
                                              tunnelproof_hit *hit);
