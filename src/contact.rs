@@ -231,6 +231,18 @@ impl Place {
             Place::Face(place) => place.error,
         }
     }
+
+    /// The weights of A, B, C and D, as those of a [`ContactPoint`]; and those at the other end where
+    /// two edges overlap.
+    pub fn weights(&self) -> ([f64; 4], Option<[f64; 4]>) {
+        match self {
+            Place::Edges(place) => (place.first.weights(), place.second.map(EdgePoint::weights)),
+            Place::Face(place) => {
+                let [b, c, d] = place.weights;
+                ([1.0, b, c, d], None)
+            }
+        }
+    }
 }
 
 impl From<EdgePlace> for Place {

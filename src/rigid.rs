@@ -271,6 +271,16 @@ macro_rules! turning {
                     false => self.motion.position(&self.local[i - $world], t),
                 })
             }
+
+            /// The point in space of the side that does not turn, with these
+            /// [weights](crate::contact::Place::weights) of A, B, C and D, at a time in `[0, 1]`,
+            /// rounded.
+            pub fn point(&self, weights: &[f64; 4], t: f64) -> Point {
+                let positions = self.positions(t);
+                let first = positions[0].coords * weights[0];
+                let rest = (1..$world).map(|i| positions[i].coords * weights[i]);
+                Point::from(rest.fold(first, |sum, part| sum + part))
+            }
         }
     };
 }

@@ -51,6 +51,9 @@ extern "C" {
 #define TUNNELPROOF_COUNT (-5)
 #define TUNNELPROOF_LENGTH (-6)
 #define TUNNELPROOF_CLEARANCE (-7)
+/* And of bodies that turn: a quaternion is 0, or the body turns by more than 90 degrees. */
+#define TUNNELPROOF_NO_ORIENTATION (-8)
+#define TUNNELPROOF_TURNS_TOO_FAR (-9)
 
 /* Whether the two sides pass through each other at the first contact (a crossing) or not (a graze).
  * With a radius: whether they do so within the step. After a graze they may cross later in the
@@ -114,7 +117,7 @@ typedef struct tunnelproof_hit {
   double place_error;
   /* The unit vector along which they touch, from the first side to the second as they are just
    * before the contact. 0, 0, 0 where there is none: they share a point at the start of the
-   * step. */
+   * step. Of bodies that turn it is not computed, and always 0, 0, 0. */
   double normal[3];
   /* The distance of `normal` from the exact one is at most this. */
   double normal_error;
@@ -140,6 +143,40 @@ int64_t tunnelproof_decide_edge_edge_batch(const double *points, const double *r
 int64_t tunnelproof_decide_vertex_face_batch(const double *points, const double *radii,
                                              size_t count, int32_t *verdicts,
                                              tunnelproof_hit *hits);
+
+/* The same of rigid bodies that turn within the step. Edge-turning-edge: the edge AB moves on
+ * straight lines, the edge CD is one of the body. Vertex-turning-face: the vertex A moves on a
+ * straight line, the face BCD is one of the body.
+ *
+ * `points` are those in space at the start of the step, then at its end: 12 numbers, A, B, A, B, or 6,
+ * A, A. `local` are those in the body's frame: 6 numbers, C and D, or 9, B, C and D. `poses` are 14
+ * numbers: x, y, z of the body's centre in space and w, x, y, z of its quaternion at the start, then
+ * at the end. `radii` are two numbers, or NULL for radius 0. All lengths are in metres.
+ *
+ * A point p of the body's frame is at c + R(q) p. Within the step the centre c and the quaternion q
+ * both change at constant rates, so that the body passes through both poses exactly as they are
+ * given. Quaternions may have any length but 0; q and -q mean the same, and the shorter turn is
+ * taken. It may be 90 degrees at most: divide the step otherwise.
+ *
+ * The answer is as above, but for the normal, which is 0, 0, 0; `place_error` is at most 2^-50.
+ * Where the body does not turn, it is that of the functions above. Ordinary contacts take
+ * microseconds; grazes, ends of edges and times that are doubles take up to some milliseconds. */
+int32_t tunnelproof_decide_edge_turning_edge(const double *points, const double *local,
+                                             const double *poses, const double *radii,
+                                             tunnelproof_hit *hit);
+int32_t tunnelproof_decide_vertex_turning_face(const double *points, const double *local,
+                                               const double *poses, const double *radii,
+                                               tunnelproof_hit *hit);
+
+/* Decides `count` queries, as the batches above: numbers of the same kind follow one another. */
+int64_t tunnelproof_decide_edge_turning_edge_batch(const double *points, const double *local,
+                                                   const double *poses, const double *radii,
+                                                   size_t count, int32_t *verdicts,
+                                                   tunnelproof_hit *hits);
+int64_t tunnelproof_decide_vertex_turning_face_batch(const double *points, const double *local,
+                                                     const double *poses, const double *radii,
+                                                     size_t count, int32_t *verdicts,
+                                                     tunnelproof_hit *hits);
 
 /* Why a step is not a whole one. */
 enum tunnelproof_blocked {

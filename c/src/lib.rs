@@ -11,19 +11,22 @@ use std::mem::MaybeUninit;
 use std::slice;
 
 use tunnelproof::certified::Kind;
+use tunnelproof::contact::Place;
 use tunnelproof::{
-    Batch, Case, ContactKind, ContactPoint as EnginePoint, EdgeEdge, EdgePlace, FacePlace,
-    Hit as EngineHit, Point, QueryError, Radius, VertexFace,
+    Batch, Case, ContactKind, ContactPoint as EnginePoint, EdgeEdge, Hit as EngineHit, Point,
+    QueryError, Radius, VertexFace,
 };
 use tunnelproof_float_env::with_default;
 
 mod advance;
 mod mesh;
 mod subject;
+mod turning;
 
 pub use advance::{Advance, tunnelproof_advance_edge_edge, tunnelproof_advance_vertex_face};
 pub use mesh::*;
 pub use subject::{tunnelproof_certified_edge_edge, tunnelproof_certified_vertex_face};
+pub use turning::*;
 
 const MISS: i32 = 0;
 const HIT: i32 = 1;
@@ -34,6 +37,8 @@ const INDEX: i32 = -4;
 const COUNT: i32 = -5;
 const LENGTH: i32 = -6;
 const CLEARANCE: i32 = -7;
+const NO_ORIENTATION: i32 = -8;
+const TURNS_TOO_FAR: i32 = -9;
 
 /// `tunnelproof_contact_point`.
 #[repr(C)]
@@ -76,6 +81,19 @@ impl Hit {
         let (first, second) = hit.points(query);
         let normal = hit.normal(query);
         Hit {
+            normal: normal.map_or([0.0; 3], |normal| normal.direction.into()),
+            normal_error: normal.map_or(0.0, |normal| normal.error),
+            ..Hit::without_normal(hit, first.into(), second.map(ContactPoint::from))
+        }
+    }
+
+    fn without_normal<P: Copy + Into<Place>>(
+        hit: &EngineHit<P>,
+        first: ContactPoint,
+        second: Option<ContactPoint>,
+    ) -> Self {
+        let place: Place = hit.place.into();
+        Hit {
             toi: hit.toi,
             toi_above: hit.toi_above,
             kind: kind(hit.kind),
@@ -84,11 +102,11 @@ impl Hit {
             temporarily_parallel: hit.flags.temporarily_parallel.into(),
             temporarily_point: hit.flags.temporarily_point.into(),
             has_second: second.is_some().into(),
-            first: first.into(),
-            second: second.unwrap_or(first).into(),
-            place_error: Q::error(&hit.place),
-            normal: normal.map_or([0.0; 3], |normal| normal.direction.into()),
-            normal_error: normal.map_or(0.0, |normal| normal.error),
+            first,
+            second: second.unwrap_or(first),
+            place_error: place.error(),
+            normal: [0.0; 3],
+            normal_error: 0.0,
         }
     }
 }
@@ -116,28 +134,17 @@ fn case(case: Case) -> i32 {
 /// A kind of query.
 trait Query: Kind {
     fn new(start: [Point; 4], end: [Point; 4], radius: Radius) -> Result<Self, QueryError>;
-
-    /// The error of a place.
-    fn error(place: &Self::Place) -> f64;
 }
 
 impl Query for EdgeEdge {
     fn new(start: [Point; 4], end: [Point; 4], radius: Radius) -> Result<Self, QueryError> {
         EdgeEdge::new(start, end, radius)
     }
-
-    fn error(place: &EdgePlace) -> f64 {
-        place.error
-    }
 }
 
 impl Query for VertexFace {
     fn new(start: [Point; 4], end: [Point; 4], radius: Radius) -> Result<Self, QueryError> {
         VertexFace::new(start, end, radius)
-    }
-
-    fn error(place: &FacePlace) -> f64 {
-        place.error
     }
 }
 

@@ -77,12 +77,16 @@ static void leave(void) { fesetenv(FE_DFL_ENV); }
 /* Meshes take longer, and are asked about in one block of so many. */
 enum { BLOCK = 1000, MESH_BLOCKS = 50, PAIRS = 8, VERTICES = 4 * PAIRS, CONTACTS = 256 };
 
+/* So many queries of bodies that turn in each block. */
+enum { TURNING = 50 };
+
 /* Queries, and a mesh that is made of the first of them. */
 typedef struct {
   double points[24 * BLOCK];
   double radii[2 * BLOCK];
   /* Of ordinary size, and subnormal. */
   double start[2][3 * VERTICES], end[2][3 * VERTICES];
+  double poses[14 * TURNING];
 } questions;
 
 /* What is answered. Everything that is not written stays 0. */
@@ -99,6 +103,11 @@ typedef struct {
   int32_t is_free[2];
   double positions[2][3 * VERTICES], steps[2];
   size_t counts[2][4];
+  int32_t turning_verdicts[2][TURNING];
+  tunnelproof_hit turning_hits[2][TURNING];
+  int64_t turning_count;
+  int32_t turning_batch_verdicts[TURNING];
+  tunnelproof_hit turning_batch_hits[TURNING];
   tunnelproof_limit limits[2][CONTACTS];
   tunnelproof_near_pair near_pairs[2][CONTACTS];
   /* How often the environment was not the caller's after a call. */
@@ -166,6 +175,14 @@ static void draw(size_t block) {
     for (k = 0; k < 2; k++) asked.radii[2 * i + k] = bits(1) ? radius(family) : 0;
     if (bits(family == 0 ? 1 : 4)) asked.radii[2 * i] = asked.radii[2 * i + 1] = 0;
   }
+  for (i = 0; i < TURNING; i++) {
+    const double size = i % 3 ? 1 : ldexp(1, -1060);
+    for (k = 0; k < 14; k++) {
+      const int is_centre = k % 7 < 3;
+      asked.poses[14 * i + k] = is_centre ? coordinate(family_of(i)) / 4 : size * drawn() / 4;
+    }
+    asked.poses[14 * i + 3] = asked.poses[14 * i + 10] = size;
+  }
   for (i = 0; i < 3 * VERTICES; i++) {
     asked.start[0][i] = drawn();
     asked.end[0][i] = asked.start[0][i] + drawn() / 4;
@@ -205,6 +222,23 @@ static void ask_of_mesh(answers *out, int i) {
   memcpy(out->counts[i] + 2, step.candidates, sizeof step.candidates);
 }
 
+/* Points in space and of the body are those of the other queries. */
+static void ask_of_bodies(answers *out) {
+  const double *points = asked.points, *poses = asked.poses, *radii = asked.radii;
+  size_t i;
+  for (i = 0; i < TURNING; i++) {
+    out->turning_verdicts[0][i] = tunnelproof_decide_edge_turning_edge(
+        points + 24 * i, points + 24 * i + 12, poses + 14 * i, radii + 2 * i,
+        &out->turning_hits[0][i]);
+    out->turning_verdicts[1][i] = tunnelproof_decide_vertex_turning_face(
+        points + 24 * i, points + 24 * i + 12, poses + 14 * i, radii + 2 * i,
+        &out->turning_hits[1][i]);
+  }
+  out->turning_count = tunnelproof_decide_edge_turning_edge_batch(
+      points, points + 12 * TURNING, poses, radii, TURNING, out->turning_batch_verdicts,
+      out->turning_batch_hits);
+}
+
 /* Asks everything. No number is computed here: that would depend on the environment. */
 static void ask(answers *out, int of_mesh) {
   const unsigned long own = control();
@@ -230,6 +264,8 @@ static void ask(answers *out, int of_mesh) {
       out->changed += control() != own;
     }
   }
+  ask_of_bodies(out);
+  out->changed += control() != own;
   out->hit_count[0] = tunnelproof_decide_edge_edge_batch(asked.points, NULL, BLOCK,
                                                          out->batch_verdicts[0],
                                                          out->batch_hits[0]);
@@ -243,7 +279,7 @@ static void ask(answers *out, int of_mesh) {
 /* Asks so many queries in an environment and in the default one; how many blocks differ. */
 static int compare(const environment *which, size_t count) {
   const unsigned long own = control();
-  size_t block, hits = 0, i;
+  size_t block, hits = 0, turning = 0, i;
   int failures = 0;
   for (block = 0; block * BLOCK < count && failures < 10; block++) {
     /* What hangs is ended by the signal. */
@@ -261,6 +297,9 @@ static int compare(const environment *which, size_t count) {
     }
     if (here.changed || control() != own) failures += 1;
     there.changed = here.changed = 0;
+    for (i = 0; i < TURNING; i++)
+      turning += (here.turning_verdicts[0][i] == TUNNELPROOF_HIT) +
+                 (here.turning_verdicts[1][i] == TUNNELPROOF_HIT);
     for (i = 0; i < BLOCK; i++) hits += here.verdicts[i] == TUNNELPROOF_HIT;
     if (memcmp(&there, &here, sizeof here) != 0) {
       int one = -1;
@@ -269,12 +308,13 @@ static int compare(const environment *which, size_t count) {
             memcmp(&there.hits[i - 1], &here.hits[i - 1], sizeof *here.hits) != 0)
           one = (int)i - 1;
       printf("%s: block %zu: other answers, ", which->name, block);
-      if (one < 0) printf("of a batch, a step or a mesh\n");
+      if (one < 0) printf("of a batch, a step, a mesh or a body that turns\n");
       else printf("at first to query %d\n", one);
       failures += 1;
     }
   }
-  printf("%-22s %zu queries, %zu hits, %d failures\n", which->name, block * BLOCK, hits, failures);
+  printf("%-22s %zu queries, %zu hits, %zu of bodies that turn, %d failures\n", which->name,
+         block * BLOCK, hits, turning, failures);
   return failures;
 }
 

@@ -108,6 +108,103 @@ static void refused(void) {
   CHECK(tunnelproof_decide_vertex_face(points, NULL, NULL) == TUNNELPROOF_NOT_FINITE);
 }
 
+/* A wire at rest; a rod on the x axis of its body, which turns by 90 degrees about z. They meet at
+ * 45, where t / (1 - t) is the tangent of 22.5 degrees, or t the square root of 2, less 1. */
+static const double wire[12] = {1, 1, -1, 1, 1, 1, 1, 1, -1, 1, 1, 1};
+static const double rod[6] = {0, 0, 0, 2, 0, 0};
+static const double quarter[14] = {0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 1};
+
+static void turning(void) {
+  const double half_root = sqrt(0.5);
+  const double radii[2] = {0.1, 0.2};
+  const double vertex[6] = {1, 1, 0, 1, 1, 0};
+  const double face[9] = {0, 0, -1, 2, 0, -1, 1, 0, 2};
+  const double *weights;
+  tunnelproof_hit hit;
+
+  memset(&hit, 0xff, sizeof hit);
+  CHECK(tunnelproof_decide_edge_turning_edge(wire, rod, quarter, NULL, &hit) == TUNNELPROOF_HIT);
+  CHECK(hit.toi <= 2 * half_root - 1 && nextafter(hit.toi, 1) == hit.toi_above);
+  CHECK(fabs(hit.toi - (2 * half_root - 1)) < 1e-15);
+  CHECK(hit.kind == TUNNELPROOF_CROSSING && hit.side == -1);
+  CHECK(hit.motion_case == TUNNELPROOF_GENERAL && hit.has_second == 0);
+  CHECK(hit.temporarily_parallel == 0 && hit.temporarily_point == 0);
+  weights = hit.first.weights;
+  CHECK(fabs(weights[0] - 0.5) < 1e-15 && fabs(weights[1] - 0.5) < 1e-15);
+  CHECK(fabs(weights[2] - 1 + half_root) < 1e-15 && fabs(weights[3] - half_root) < 1e-15);
+  CHECK(is_near(hit.first.point, 1, 1, 0, 1e-15) && hit.place_error <= ldexp(1, -50));
+  CHECK(memcmp(&hit.second, &hit.first, sizeof hit.first) == 0);
+  CHECK(is_near(hit.normal, 0, 0, 0, 0) && hit.normal_error == 0);
+  CHECK(tunnelproof_decide_edge_turning_edge(wire, rod, quarter, NULL, NULL) == TUNNELPROOF_HIT);
+
+  CHECK(tunnelproof_decide_edge_turning_edge(wire, rod, quarter, radii, &hit) == TUNNELPROOF_HIT);
+  CHECK(hit.toi < 0.35);
+  CHECK(tunnelproof_decide_vertex_turning_face(vertex, face, quarter, NULL, &hit) ==
+        TUNNELPROOF_HIT);
+  CHECK(fabs(hit.toi - (2 * half_root - 1)) < 1e-15 && hit.first.weights[0] == 1);
+  CHECK(is_near(hit.first.point, 1, 1, 0, 0) && hit.has_second == 0);
+}
+
+static void turning_refused(void) {
+  static const double tests[6][3] = {
+      /* place among the poses, value, verdict */
+      {3, 0, TUNNELPROOF_NO_ORIENTATION},
+      {10, -1, TUNNELPROOF_TURNS_TOO_FAR},
+      {10, 0.99, TUNNELPROOF_TURNS_TOO_FAR},
+      {10, NAN, TUNNELPROOF_NOT_FINITE},
+      {1, INFINITY, TUNNELPROOF_NOT_FINITE},
+      {10, 1.01, TUNNELPROOF_HIT},
+  };
+  const double negative[2] = {0.5, -1};
+  double poses[14], bad[6];
+  int32_t verdict;
+  int i;
+  for (i = 0; i < 6; i++) {
+    memcpy(poses, quarter, sizeof poses);
+    poses[(int)tests[i][0]] = tests[i][1];
+    if (i == 1) poses[13] = 3;
+    verdict = tunnelproof_decide_edge_turning_edge(wire, rod, poses, NULL, NULL);
+    CHECK(verdict == (int32_t)tests[i][2]);
+  }
+  memcpy(bad, rod, sizeof bad);
+  bad[4] = NAN;
+  CHECK(tunnelproof_decide_edge_turning_edge(wire, bad, quarter, NULL, NULL) ==
+        TUNNELPROOF_NOT_FINITE);
+  CHECK(tunnelproof_decide_edge_turning_edge(wire, rod, quarter, negative, NULL) ==
+        TUNNELPROOF_RADIUS);
+  CHECK(tunnelproof_decide_edge_turning_edge(NULL, rod, quarter, NULL, NULL) == TUNNELPROOF_NULL);
+  CHECK(tunnelproof_decide_edge_turning_edge(wire, NULL, quarter, NULL, NULL) == TUNNELPROOF_NULL);
+  CHECK(tunnelproof_decide_edge_turning_edge(wire, rod, NULL, NULL, NULL) == TUNNELPROOF_NULL);
+  CHECK(tunnelproof_decide_edge_turning_edge_batch(wire, rod, quarter, NULL, 1, NULL, NULL) ==
+        TUNNELPROOF_NULL);
+  CHECK(tunnelproof_decide_vertex_turning_face_batch(NULL, NULL, NULL, NULL, 0, NULL, NULL) == 0);
+}
+
+/* Three that turn: the second is refused, the third has a radius that the others do not. */
+static void turning_in_batch(void) {
+  double points[36], local[18], poses[42], radii[6] = {0, 0, 0, 0, 0.1, 0.2};
+  int32_t verdicts[3];
+  tunnelproof_hit hits[3], one;
+  int i;
+  for (i = 0; i < 3; i++) {
+    memcpy(points + 12 * i, wire, sizeof wire);
+    memcpy(local + 6 * i, rod, sizeof rod);
+    memcpy(poses + 14 * i, quarter, sizeof quarter);
+  }
+  for (i = 3; i < 7; i++) poses[14 + i] = 0;
+  CHECK(tunnelproof_decide_edge_turning_edge_batch(points, local, poses, radii, 3, verdicts,
+                                                   hits) == 2);
+  CHECK(verdicts[0] == TUNNELPROOF_HIT && verdicts[1] == TUNNELPROOF_NO_ORIENTATION);
+  CHECK(verdicts[2] == TUNNELPROOF_HIT && hits[2].toi < hits[0].toi);
+  for (i = 0; i < 3; i += 2) {
+    CHECK(tunnelproof_decide_edge_turning_edge(wire, rod, quarter, radii + 2 * i, &one) ==
+          TUNNELPROOF_HIT);
+    CHECK(memcmp(&one, &hits[i], sizeof one) == 0);
+  }
+  CHECK(tunnelproof_decide_edge_turning_edge_batch(points, local, poses, NULL, 3, verdicts,
+                                                   NULL) == 2);
+}
+
 enum { COUNT = 10000 };
 static double many[24 * COUNT];
 static double radii[2 * COUNT];
@@ -320,6 +417,9 @@ int main(void) {
   overlap();
   at_start();
   refused();
+  turning();
+  turning_refused();
+  turning_in_batch();
   for (i = 0; i < 24 * COUNT; i++) many[i] = drawn();
   for (i = 0; i < 2 * COUNT; i++) radii[i] = fabs(drawn()) / 16;
   for (i = 0; i < 2; i++) {

@@ -5,8 +5,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
 use tunnelproof::certified::Kind;
+use tunnelproof::contact::Place;
 use tunnelproof::{
-    Batch, ContactPoint, EdgeEdge, EdgePlace, FacePlace, Hit, Normal, Query, QueryKind, VertexFace,
+    Batch, ContactPoint, EdgeEdge, Hit, Normal, Point, Query, QueryKind, VertexFace,
 };
 use tunnelproof_float_env::with_default;
 
@@ -34,9 +35,6 @@ trait Side: Kind {
     const KIND: QueryKind;
 
     fn of(query: &Query) -> Option<&Self>;
-
-    /// The error of a place.
-    fn error(place: &Self::Place) -> f64;
 }
 
 impl Side for EdgeEdge {
@@ -44,10 +42,6 @@ impl Side for EdgeEdge {
 
     fn of(query: &Query) -> Option<&Self> {
         query.as_edge_edge()
-    }
-
-    fn error(place: &EdgePlace) -> f64 {
-        place.error
     }
 }
 
@@ -57,34 +51,34 @@ impl Side for VertexFace {
     fn of(query: &Query) -> Option<&Self> {
         query.as_vertex_face()
     }
-
-    fn error(place: &FacePlace) -> f64 {
-        place.error
-    }
 }
+
+/// Weights of A, B, C and D, and the point on the first side.
+type Contact = ([f64; 4], Point);
 
 /// A hit with what is computed from it and its query.
 #[derive(Clone)]
-struct Row<P> {
-    hit: Hit<P>,
-    first: ContactPoint,
-    second: Option<ContactPoint>,
-    normal: Option<Normal>,
+pub(crate) struct Row {
+    pub(crate) hit: Hit<Place>,
+    pub(crate) first: Contact,
+    pub(crate) second: Option<Contact>,
+    pub(crate) normal: Option<Normal>,
 }
 
-impl<P: Copy> Row<P> {
-    fn new<K: Kind<Place = P>>(query: &K, hit: Hit<P>) -> Self {
+impl Row {
+    fn new<K: Kind>(query: &K, hit: Hit<K::Place>) -> Self {
         let (first, second) = hit.points(query);
+        let contact = |contact: ContactPoint| (contact.weights, contact.point);
         Row {
-            hit,
-            first,
-            second,
+            first: contact(first),
+            second: second.map(contact),
             normal: hit.normal(query),
+            hit: hit.map_place(Into::into),
         }
     }
 
     /// The second point, which is the first where there is none.
-    fn second(&self) -> ContactPoint {
+    fn second(&self) -> Contact {
         self.second.unwrap_or(self.first)
     }
 
@@ -95,9 +89,14 @@ impl<P: Copy> Row<P> {
 
 fn written<K: Side>(py: Python<'_>, rows: Rows) -> PyResult<Bound<'_, PyDict>> {
     let rows = py.detach(|| decided::<K>(rows))?;
-    let mut columns = Columns::new(py, &rows);
+    columns(py, &rows)
+}
+
+/// The columns of `Hits`.
+pub(crate) fn columns<'py>(py: Python<'py>, rows: &[Option<Row>]) -> PyResult<Bound<'py, PyDict>> {
+    let mut columns = Columns::new(py, rows);
     columns.flags("hit", |_| true)?;
-    columns.numbers("toi", |row: &Row<K::Place>| [row.hit.toi])?;
+    columns.numbers("toi", |row: &Row| [row.hit.toi])?;
     columns.numbers("toi_above", |row| [row.hit.toi_above])?;
     columns.codes("kind", |row| columns::kind(row.hit.kind))?;
     columns.codes("side", |row| row.hit.side)?;
@@ -106,19 +105,19 @@ fn written<K: Side>(py: Python<'_>, rows: Rows) -> PyResult<Bound<'_, PyDict>> {
         row.hit.flags.temporarily_parallel
     })?;
     columns.flags("temporarily_point", |row| row.hit.flags.temporarily_point)?;
-    columns.numbers("first_weights", |row| row.first.weights)?;
-    columns.numbers("first_point", |row| row.first.point.into())?;
+    columns.numbers("first_weights", |row| row.first.0)?;
+    columns.numbers("first_point", |row| row.first.1.into())?;
     columns.flags("has_second", |row| row.second.is_some())?;
-    columns.numbers("second_weights", |row| row.second().weights)?;
-    columns.numbers("second_point", |row| row.second().point.into())?;
-    columns.numbers("place_error", |row| [K::error(&row.hit.place)])?;
+    columns.numbers("second_weights", |row| row.second().0)?;
+    columns.numbers("second_point", |row| row.second().1.into())?;
+    columns.numbers("place_error", |row| [row.hit.place.error()])?;
     columns.numbers("normal", Row::direction)?;
     columns.numbers("normal_error", |row| [row.normal.map_or(0.0, |x| x.error)])?;
     Ok(columns.dict)
 }
 
 /// What is decided of queries of a kind, each hit at the place of its query.
-fn decided<K: Side>(rows: Rows) -> Result<Vec<Option<Row<K::Place>>>, Refused> {
+fn decided<K: Side>(rows: Rows) -> Result<Vec<Option<Row>>, Refused> {
     let queries = rows.queries(K::KIND)?;
     let queries: Vec<&K> = queries.iter().filter_map(K::of).collect();
     let mut batch = Batch::<K>::new();

@@ -1,6 +1,5 @@
 //! Certification of a method in Python.
 
-use std::io::Cursor;
 use std::sync::Arc;
 
 use numpy::{PyReadonlyArray2, PyReadonlyArray3};
@@ -17,16 +16,11 @@ use tunnelproof_reference::certify::run::Panel;
 use tunnelproof_reference::certify::shard::Shard;
 use tunnelproof_reference::certify::source::Source;
 use tunnelproof_reference::certify::table::{self, Shown};
-use tunnelproof_reference::corpus::locate::locate;
-use tunnelproof_reference::corpus::{self, CorpusError, Entry, Format, Problem, ReadOptions};
 use tunnelproof_reference::generate::{self, Family};
-use tunnelproof_reference::registry;
-use tunnelproof_reference::report::explanation::Explanation;
 use tunnelproof_reference::report::merge::{Kept, merge as join};
 use tunnelproof_reference::report::results::Results;
-use tunnelproof_reference::subject::Subject;
 
-use crate::method::Method;
+use crate::method::{Method, tolerance};
 use crate::queries::{self, Rows};
 
 /// The result as JSON, as text, as text with all details, and as a page.
@@ -62,12 +56,7 @@ pub(crate) fn certify(
     let shard: Shard = format!("{}/{}", shard.0, shard.1)
         .parse()
         .map_err(|error| PyValueError::new_err(format!("shard is {shard:?}: {error}")))?;
-    let tolerance = tolerance(near, late)?;
-    let subject = Method {
-        name,
-        call,
-        tolerance,
-    };
+    let subject = Method::new(name, call, tolerance(near, late)?);
     let command = command(&subject, families.as_deref(), !own.is_empty(), count, seed);
     let families = match families {
         Some(names) => names
@@ -111,22 +100,14 @@ pub(crate) fn certify(
         shard,
     };
     let certificate = || written(&Findings::new(panel, settings, blocks, Vec::new()));
-    Ok(py.detach(|| with_default(certificate)))
+    let certificate = py.detach(|| with_default(certificate));
+    subject.finish()?;
+    Ok(certificate)
 }
 
 fn family(name: &str) -> PyResult<&'static Family> {
     let refuse = || PyValueError::new_err(format!("there is no family {name:?}"));
     generate::by_name(name).ok_or_else(refuse)
-}
-
-fn tolerance(near: f64, late: f64) -> PyResult<Tolerance> {
-    for (name, value) in [("near", near), ("late", late)] {
-        if !(value >= 0.0 && value.is_finite()) {
-            let message = format!("{name} is {value}, not a number from 0");
-            return Err(PyValueError::new_err(message));
-        }
-    }
-    Ok(Tolerance { near, late })
 }
 
 /// The expression that judges again.
@@ -153,47 +134,6 @@ fn command(
     let tolerances = tolerances.filter(|(_, value)| *value > 0.0);
     words.extend(tolerances.map(|(name, value)| format!("{name}={value:e}")));
     format!("tunnelproof.certify({})", words.join(", "))
-}
-
-/// A query explained, and what a callable says of it if there is one: by its name, such as
-/// `lattice:1:4711`, or as a line of JSON.
-#[pyfunction]
-#[pyo3(signature = (query, method))]
-pub(crate) fn explain(
-    py: Python<'_>,
-    query: &str,
-    method: Option<(String, Py<PyAny>)>,
-) -> PyResult<String> {
-    let entry = match query.trim_start().starts_with('{') {
-        true => line(query),
-        false => locate(query, ReadOptions::default()),
-    };
-    let entry = entry.map_err(|error| PyValueError::new_err(error.to_string()))?;
-    let method = method.map(|(name, call)| Method {
-        name,
-        call,
-        tolerance: Tolerance::NONE,
-    });
-    let own = method.iter().map(|method| method as &dyn Subject);
-    let subjects = registry::subjects().into_iter().chain(own);
-    let subjects: Vec<_> = subjects
-        .map(|subject| Judged {
-            subject,
-            explain: None,
-        })
-        .collect();
-    let text = || {
-        let explanation = Explanation::new(&entry.query, &subjects);
-        format!("{}\n\n{explanation}", entry.id)
-    };
-    Ok(py.detach(|| with_default(text)))
-}
-
-fn line(text: &str) -> Result<Entry, CorpusError> {
-    let lines = Cursor::new(text.to_owned());
-    let mut entries = corpus::read(lines, "query", Some(Format::Jsonl), ReadOptions::default())?;
-    let none = || Err(CorpusError::new("query", Problem::Empty));
-    entries.next().unwrap_or_else(none)
 }
 
 /// The certificate of the whole, from those of all its shards as JSON.

@@ -15,6 +15,9 @@ mod families;
 mod mesh;
 mod method;
 mod queries;
+mod query;
+mod simulate;
+mod turning;
 
 /// The functions that `tunnelproof/__init__.py` calls.
 #[pymodule]
@@ -24,13 +27,19 @@ mod _tunnelproof {
     #[pymodule_export]
     use crate::certified::decide;
     #[pymodule_export]
-    use crate::certify::{certify, explain, merge};
+    use crate::certify::{certify, merge};
     #[pymodule_export]
     use crate::exact::exact;
     #[pymodule_export]
     use crate::families::{families, family};
     #[pymodule_export]
     use crate::mesh::Mesh;
+    #[pymodule_export]
+    use crate::query::{draw, explain, gap, locate, shrink};
+    #[pymodule_export]
+    use crate::simulate::{Seen, scenes, simulate};
+    #[pymodule_export]
+    use crate::turning::decide_rigid;
 
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -1,6 +1,9 @@
 //! A method in Python as a subject.
 
+use std::sync::OnceLock;
+
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
+use pyo3::exceptions::{PyException, PyValueError};
 use pyo3::prelude::*;
 use tunnelproof::narrow::{Tolerance, Unsupported};
 use tunnelproof::query::{Query, QueryKind};
@@ -13,8 +16,10 @@ use crate::queries::row;
 /// A callable that is asked `(kind, points, radii)` and answers `(hit, toi)`, or `None` for what it does not take.
 pub(crate) struct Method {
     pub(crate) name: String,
-    pub(crate) call: Py<PyAny>,
+    call: Py<PyAny>,
     pub(crate) tolerance: Tolerance,
+    /// What ends the program, or a cell of a notebook, such as `KeyboardInterrupt`. It is no answer.
+    ending: OnceLock<PyErr>,
 }
 
 type Answers = Vec<Result<Answer, NoAnswer>>;
@@ -27,8 +32,8 @@ impl Subject for Method {
     fn answer(&self, query: &Query) -> Result<Answer, NoAnswer> {
         match self.ask(query.kind(), &[*query]) {
             Ok(mut answers) if answers.len() == 1 => answers.remove(0),
-            Ok(_) => Err(lapse("as many answers as queries are due")),
-            Err(error) => Err(lapse(&error.to_string())),
+            Ok(_) => Err(raised("as many answers as queries are due")),
+            Err(error) => Err(raised(&error.to_string())),
         }
     }
 
@@ -49,12 +54,54 @@ impl Subject for Method {
     }
 }
 
-fn lapse(detail: &str) -> NoAnswer {
-    Lapse::new(LapseKind::Panicked, detail.lines().next().unwrap_or("")).into()
+/// An exception, in one line.
+fn raised(detail: &str) -> NoAnswer {
+    Lapse::new(LapseKind::Raised, detail.lines().next().unwrap_or("")).into()
+}
+
+/// The tolerance that a method declares.
+pub(crate) fn tolerance(near: f64, late: f64) -> PyResult<Tolerance> {
+    for (name, value) in [("near", near), ("late", late)] {
+        if !(value >= 0.0 && value.is_finite()) {
+            let message = format!("{name} is {value}, not a number from 0");
+            return Err(PyValueError::new_err(message));
+        }
+    }
+    Ok(Tolerance { near, late })
 }
 
 impl Method {
+    pub(crate) fn new(name: String, call: Py<PyAny>, tolerance: Tolerance) -> Self {
+        Method {
+            name,
+            call,
+            tolerance,
+            ending: OnceLock::new(),
+        }
+    }
+
+    /// After the last question: raises what was not for the method to raise.
+    pub(crate) fn finish(self) -> PyResult<()> {
+        self.ending.into_inner().map_or(Ok(()), Err)
+    }
+
+    /// Asks, unless it is to end. Of exceptions, those that are no `Exception` end it.
     fn ask(&self, kind: QueryKind, queries: &[Query]) -> PyResult<Answers> {
+        if self.ending.get().is_some() {
+            return Err(PyException::new_err("interrupted"));
+        }
+        self.call(kind, queries).inspect_err(|error| {
+            let is_ending = Python::attach(|py| {
+                (!error.is_instance_of::<PyException>(py)).then(|| error.clone_ref(py))
+            });
+            if let Some(error) = is_ending {
+                // Another thread may have been first.
+                let _ = self.ending.set(error);
+            }
+        })
+    }
+
+    fn call(&self, kind: QueryKind, queries: &[Query]) -> PyResult<Answers> {
         Python::attach(|py| {
             let (points, radii): (Vec<_>, Vec<_>) = queries.iter().map(row).unzip();
             let points = PyArray1::from_vec(py, points.into_flattened().into_flattened());

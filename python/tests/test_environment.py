@@ -45,6 +45,21 @@ def pair_questions(family):
     return ask
 
 
+def turning_questions(kind):
+    rng = np.random.default_rng(29)
+    world = 2 if kind == "edge-turning-edge" else 1
+    points, local = rng.uniform(-1, 1, (200, 2 * world, 3)), rng.uniform(-1, 1, (200, 4 - world, 3))
+    poses = rng.uniform(-0.25, 0.25, (200, 2, 7))
+    poses[:, :, 3] = 1
+    radii = rng.choice([0, 1e-3, 5e-324], (200, 2))
+
+    def ask():
+        hits = tunnelproof.decide_rigid(kind, points, local, poses, radii)
+        return hits.hit, hits.toi, hits.toi_above, hits.first.weights, hits.first.point, hits.place_error
+
+    return ask
+
+
 def judge():
     def method(kind, points, radii):
         hits = tunnelproof.decide(kind, points, radii)
@@ -81,6 +96,13 @@ def test_answers_are_the_same_in_every_rounding_mode(name, libm):
 
 def test_meshes_are_the_same_in_every_rounding_mode(libm):
     same(mesh_questions(), libm)
+
+
+@pytest.mark.parametrize("kind", ["edge-turning-edge", "vertex-turning-face"])
+def test_bodies_that_turn_are_the_same_in_every_rounding_mode(kind, libm):
+    ask = turning_questions(kind)
+    assert 5 < ask()[0].sum() < 195
+    same(ask, libm)
 
 
 def test_a_method_that_changes_the_mode_is_judged_as_any_other(libm):

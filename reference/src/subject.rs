@@ -101,6 +101,8 @@ pub struct Lapse {
 pub enum LapseKind {
     /// It panics.
     Panicked,
+    /// It raises an exception, in a language that has them.
+    Raised,
     /// It refuses the query for a reason that is not that of the query.
     Refused,
     /// Its time of impact is no time of the step: NaN, or outside `[0, 1]`.
@@ -122,8 +124,9 @@ pub struct Certified;
 
 impl LapseKind {
     /// Every way, in the order of tables.
-    pub const ALL: [LapseKind; 8] = [
+    pub const ALL: [LapseKind; 9] = [
         LapseKind::Panicked,
+        LapseKind::Raised,
         LapseKind::Refused,
         LapseKind::NoTime,
         LapseKind::Crashed,
@@ -137,6 +140,7 @@ impl LapseKind {
     pub fn name(self) -> &'static str {
         match self {
             LapseKind::Panicked => "panicked",
+            LapseKind::Raised => "raised",
             LapseKind::Refused => "refused",
             LapseKind::NoTime => "no time",
             LapseKind::Crashed => "crashed",

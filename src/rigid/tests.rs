@@ -93,3 +93,53 @@ fn query_new_names_the_point() {
         "y of point D in the body's frame is -inf, not a finite number"
     );
 }
+
+#[test]
+fn point_is_that_of_the_linear_query_where_the_body_does_not_turn() {
+    use crate::contact::Place;
+    use crate::{EdgeEdge, decide, decide_rigid};
+
+    let p = Point::new;
+    let (start, end) = (
+        [p(0.1, 0.2, -1.3), p(1.4, 1.7, 1.0)],
+        [p(0.1, 0.0, -1.3), p(1.6, 1.7, 0.9)],
+    );
+    let rod = [p(1.0, 0.0, 0.0), p(0.0, 1.0, 0.0)];
+    let still = Quaternion::new(1.0, 0.0, 0.0, 0.0);
+    let away = p(1.0, 1.0, 0.0);
+    let motion =
+        RigidMotion::new(Pose::new(Point::origin(), still), Pose::new(away, still)).unwrap();
+    let turning = EdgeTurningEdge::new(start, end, rod, motion).unwrap();
+    let [c, d] = rod.map(|corner| corner + away.coords);
+    let linear = EdgeEdge::new(
+        [start[0], start[1], rod[0], rod[1]],
+        [end[0], end[1], c, d],
+        0.0,
+    )
+    .unwrap();
+
+    let hit = decide_rigid(&turning).expect("the rod meets the wire");
+    let (first, second) = Place::from(hit.place).weights();
+    let (expected, none) = decide(&linear).unwrap().points(&linear);
+    assert_eq!((second, none), (None, None));
+    let at = turning.point(&first, hit.toi);
+    assert!((at - expected.point).norm() < 1e-14, "{at}");
+    // On the rod as well.
+    let [_, _, c, d] = turning.positions(hit.toi);
+    let other = c.coords * first[2] + d.coords * first[3];
+    assert!((at.coords - other).norm() < 1e-14, "{at}");
+}
+
+#[test]
+fn point_of_a_vertex_is_the_vertex() {
+    let p = Point::new;
+    let still = Pose::new(Point::origin(), Quaternion::new(1.0, 0.0, 0.0, 0.0));
+    let motion = RigidMotion::new(still, still).unwrap();
+    let corners = [p(0.0, 0.0, 0.0), p(4.0, 0.0, 0.0), p(0.0, 4.0, 0.0)];
+    let query =
+        VertexTurningFace::new([p(1.0, 1.0, 1.0)], [p(1.0, 1.0, -1.0)], corners, motion).unwrap();
+    let hit = crate::decide_rigid(&query).expect("the vertex falls through the face");
+    let place: crate::contact::Place = hit.place.into();
+    assert_eq!(place.weights(), ([1.0, 0.5, 0.25, 0.25], None));
+    assert_eq!(query.point(&place.weights().0, hit.toi), p(1.0, 1.0, 0.0));
+}

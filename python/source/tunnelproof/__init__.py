@@ -14,10 +14,13 @@ wires. With 0 contact is a common point.
 :func:`decide` is the certified path, for simulators: it misses no contact and invents none, and its
 time of impact is the exact one rounded down. Positions at that time are rounded, and may already be
 past the contact. :func:`advance` gives positions to store instead: straight motion to them touches
-nothing. :class:`Mesh` does the same for whole meshes, whose pairs it finds itself. :func:`exact` is
-the oracle in exact arithmetic, by another method. :func:`certify` judges a method of your own
-against it on :func:`families` of queries, each of which aims at a weakness; :func:`explain` says
-what happens in a query.
+nothing. :class:`Mesh` does the same for whole meshes, whose pairs it finds itself.
+:func:`decide_rigid` is the certified path for rigid bodies that turn within the step. :func:`exact`
+is the oracle in exact arithmetic, by another method. :func:`certify` judges a method of your own
+against it on :func:`families` of queries, each of which aims at a weakness. :func:`explain` says
+what happens in one :class:`Query`, :func:`shrink` finds the smallest one on which a method is still
+wrong, and :func:`gap` says how near a miss was. :func:`simulate` runs scenes of wires. Notebooks draw
+queries and results, and ``plot()`` gives the picture of what has one.
 
 All functions release the global interpreter lock and use all cores. Arrays of other types are
 converted to ``float64``. Arguments are copied, but for positions of meshes: these are read where
@@ -29,9 +32,8 @@ the calling thread had: a library that switches on flush-to-zero changes no answ
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from enum import IntEnum
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -39,9 +41,14 @@ import numpy.typing as npt
 
 from . import _tunnelproof
 from ._arrays import Bools, Codes, Floats, Kind, query_arrays
+from ._hits import Case, ContactPoints, Hits
+from ._html import Picture, frame
 from ._kinds import Blocked, ContactKind, Feature
 from ._mesh import Mesh, MeshContacts, MeshLimits, MeshStep, NearPairs, Pairs
+from ._query import Explanation, Method, Query, Shrunk, checked, explain, gap, query, shrink
+from ._simulate import Simulation, scenes, simulate
 from ._step import Advances, advance
+from ._turning import decide_rigid
 
 __all__ = [
     "Advances",
@@ -51,6 +58,7 @@ __all__ = [
     "ContactKind",
     "ContactPoints",
     "ExactHits",
+    "Explanation",
     "Family",
     "Feature",
     "Hits",
@@ -60,101 +68,27 @@ __all__ = [
     "MeshStep",
     "NearPairs",
     "Pairs",
+    "Picture",
+    "Query",
+    "Shrunk",
+    "Simulation",
     "advance",
     "certify",
     "decide",
+    "decide_rigid",
     "exact",
     "explain",
     "families",
+    "gap",
     "merge",
     "queries",
+    "query",
+    "scenes",
+    "shrink",
+    "simulate",
 ]
 
 __version__ = _tunnelproof.VERSION
-
-Method = Callable[[Kind, Floats, Floats], "tuple[npt.ArrayLike, npt.ArrayLike] | None"]
-
-
-class Case(IntEnum):
-    """How the two sides move relative to each other during the whole step. If several hold, the
-    last here."""
-
-    GENERAL = 1
-    """None of those below."""
-    COPLANAR = 2
-    """All four points share a plane."""
-    PARALLEL = 3
-    """The edges are parallel, on two lines."""
-    COLLINEAR = 4
-    """All four points of two edges share a line."""
-    SHARED_START = 5
-    """A and C, of two edges, are the same point."""
-    DEGENERATE = 6
-    """An edge is a point, or the face has no area."""
-
-
-@dataclass(frozen=True, eq=False)
-class ContactPoints:
-    """A point of contact of each of ``n`` queries, NaN where there is no hit."""
-
-    weights: Floats
-    """The weights of A, B, C and D, in ``[0, 1]``, float64 of shape ``(n, 4)``.
-
-    Of two edges they are ``1 - u, u, 1 - v, v`` with u on AB and v on CD. Of a vertex and a face
-    they are 1 and the weights of B, C and D."""
-    point: Floats
-    """The point on the first side at ``toi``, in metres, rounded, float64 of shape ``(n, 3)``."""
-
-
-@dataclass(frozen=True, eq=False)
-class Hits:
-    """The first contacts of ``n`` queries of either kind, by the certified path.
-
-    Where ``hit`` is false, floats are NaN, integers 0 and the rest is false.
-    """
-
-    hit: Bools
-    """Whether they touch in the step, bool of shape ``(n,)``. No hit is false, no contact is
-    missed."""
-    toi: Floats
-    """The largest float that is not above the time of impact, in ``[0, 1]``, float64 of shape
-    ``(n,)``.
-
-    Positions at this time are rounded to floats, and may already be past the contact."""
-    toi_above: Floats
-    """The smallest float that is not below the time of impact, float64 of shape ``(n,)``."""
-    kind: Codes
-    """Values of :class:`ContactKind`, of the first contact, exact, int8 of shape ``(n,)``."""
-    side: Codes
-    """The sign of f just before the contact, exact, int8 of shape ``(n,)``; 0 if always 0, or at
-    time 0.
-
-    Of two edges ``f = ((B - A) x (D - C)) . (C - A)``, of a vertex and a face
-    ``f = ((C - B) x (D - B)) . (A - B)``."""
-    case: Codes
-    """Values of :class:`Case`, exact, int8 of shape ``(n,)``."""
-    temporarily_parallel: Bools
-    """Whether the edges are parallel at the time of impact, or the face is a segment, though not
-    for the whole step; bool of shape ``(n,)``."""
-    temporarily_point: Bools
-    """Whether an edge, or the face, is a point at the time of impact, though not for the whole
-    step; bool of shape ``(n,)``."""
-    first: ContactPoints
-    """Where they touch, or with a radius are nearest."""
-    has_second: Bools
-    """Whether two edges touch, or are nearest, along a segment from ``first`` to ``second``; bool
-    of shape ``(n,)``."""
-    second: ContactPoints
-    """The other end of that segment; ``first`` again where there is none."""
-    place_error: Floats
-    """Neither u, v nor a weight of a face's corner is farther from the exact one than this, at
-    most ``2**-32``, float64 of shape ``(n,)``."""
-    normal: Floats
-    """The unit vector along which they touch, from the first side to the second as they are just
-    before the contact, float64 of shape ``(n, 3)``; 0 where they share a point at the start of the
-    step."""
-    normal_error: Floats
-    """The distance of ``normal`` from the exact one is at most this, float64 of shape ``(n,)``."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -208,12 +142,7 @@ def decide(kind: Kind, points: npt.ArrayLike, radius: npt.ArrayLike = 0.0) -> Hi
     >>> hits.normal.round(9) + 0.0
     array([[0., 0., 1.]])
     """
-    columns = _tunnelproof.decide(kind, *query_arrays(points, radius))
-    first, second = (
-        ContactPoints(columns.pop(f"{name}_weights"), columns.pop(f"{name}_point"))
-        for name in ("first", "second")
-    )
-    return Hits(first=first, second=second, **columns)
+    return Hits._of(_tunnelproof.decide(kind, *query_arrays(points, radius)))
 
 
 def exact(kind: Kind, points: npt.ArrayLike, radius: npt.ArrayLike = 0.0) -> ExactHits:
@@ -276,6 +205,9 @@ class Certificate:
         failures: list[str] = self.results["exact_failures"]
         return failures
 
+    def _repr_html_(self) -> str:
+        return frame(self.html, 560)
+
 
 def certify(
     method: Method,
@@ -323,7 +255,7 @@ def certify(
     ]
     return Certificate(
         *_tunnelproof.certify(
-            _checked(method),
+            checked(method),
             name,
             near,
             late,
@@ -334,38 +266,6 @@ def certify(
             shard,
         )
     )
-
-
-def explain(query: str, method: Method | None = None) -> str:
-    """A query explained in words and numbers, and what every subject says of it.
-
-    :param query: its name, such as ``"lattice:1:4711"``, or the query as a line of JSON.
-    :param method: a method to ask besides, as :func:`certify` takes it.
-    :raises ValueError: if there is no such query.
-
-    >>> print(explain("lattice:1:4711").splitlines()[0])
-    lattice:1:4711
-    """
-    name = getattr(method, "__name__", "method")
-    return _tunnelproof.explain(query, None if method is None else (name, _checked(method)))
-
-
-def _checked(method: Method) -> Callable[..., tuple[Bools, Floats] | None]:
-    """The method, its answers converted, with an error for other shapes."""
-
-    def call(kind: Kind, points: Floats, radii: Floats) -> tuple[Bools, Floats] | None:
-        answer = method(kind, points, radii)
-        if answer is None:
-            return None
-        hit = np.asarray(answer[0], dtype=np.bool_)
-        toi = np.asarray(answer[1], dtype=np.float64)
-        if hit.shape != (len(points),) or toi.shape != hit.shape:
-            raise ValueError(
-                f"hit and toi have the shapes {hit.shape} and {toi.shape}, not ({len(points)},)"
-            )
-        return hit, toi
-
-    return call
 
 
 def merge(parts: Iterable[str]) -> Certificate:

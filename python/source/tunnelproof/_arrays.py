@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 Kind = Literal["edge-edge", "vertex-face"]
+TurningKind = Literal["edge-turning-edge", "vertex-turning-face"]
 Floats = npt.NDArray[np.float64]
 Bools = npt.NDArray[np.bool_]
 Codes = npt.NDArray[np.int8]
@@ -19,8 +20,12 @@ def query_arrays(points: npt.ArrayLike, radius: npt.ArrayLike) -> tuple[Floats, 
     of_points = np.asarray(points, dtype=np.float64)
     if of_points.ndim != 3 or of_points.shape[1:] != (8, 3):
         raise ValueError(f"points have the shape {of_points.shape}, not (n, 8, 3)")
+    return of_points, radius_array(radius, len(of_points))
+
+
+def radius_array(radius: npt.ArrayLike, count: int) -> Floats:
+    """Two numbers for each of so many queries, whose sum is their radius."""
     of_radii = np.asarray(radius, dtype=np.float64)
-    count = len(of_points)
     if of_radii.shape not in [(), (count,), (count, 2)]:
         raise ValueError(
             f"radius has the shape {of_radii.shape}, not (), ({count},) or ({count}, 2)"
@@ -28,7 +33,7 @@ def query_arrays(points: npt.ArrayLike, radius: npt.ArrayLike) -> tuple[Floats, 
     if of_radii.ndim < 2:
         single = np.broadcast_to(of_radii, (count,))
         of_radii = np.stack([single, np.zeros(count)], axis=1)
-    return of_points, of_radii
+    return of_radii
 
 
 def position_array(name: str, positions: npt.ArrayLike) -> Floats:

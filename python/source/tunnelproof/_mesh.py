@@ -11,6 +11,16 @@ import numpy.typing as npt
 
 from . import _tunnelproof
 from ._arrays import Codes, Floats, Indices, index_array, position_array
+from ._html import table
+from ._kinds import Blocked, ContactKind, Feature
+
+
+_SHOWN = 20
+"""Rows of a table in a notebook."""
+
+
+def _counted(pairs: int) -> str:
+    return "1 pair" if pairs == 1 else f"{pairs} pairs"
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +45,26 @@ class Pairs:
     def __len__(self) -> int:
         return len(self.first)
 
+    def _columns(self) -> dict[str, list[str]]:
+        """What a notebook shows of each pair beside its two sides."""
+        return {}
+
+    def _table(self, caption: str) -> str:
+        features, indices = (self.first_feature, self.second_feature), (self.first, self.second)
+        sides = [
+            [f"{Feature(feature).name.lower()} {index}" for feature, index in zip(*side)]
+            for side in zip(features, indices)
+        ]
+        more = self._columns()
+        corners = [" ".join(map(str, row)) for row in self.vertices.tolist()]
+        rows = list(zip(*sides, corners, *more.values()))
+        shown, left = rows[:_SHOWN], len(rows) - _SHOWN
+        caption += f"; {left} more are not shown" if left > 0 else ""
+        return table(["first", "second", "vertices A B C D", *more], shown, caption)
+
+    def _repr_html_(self) -> str:
+        return self._table(_counted(len(self)))
+
 
 @dataclass(frozen=True, eq=False)
 class MeshContacts(Pairs):
@@ -57,6 +87,10 @@ class MeshContacts(Pairs):
     """The unit vector along which they touch, from the first side to the second, float64 of shape
     ``(n, 3)``; 0 where there is none."""
 
+    def _columns(self) -> dict[str, list[str]]:
+        kinds = [ContactKind(kind).name.lower() for kind in self.kind]
+        return {"toi": [f"{toi:.6g}" for toi in self.toi], "kind": kinds}
+
 
 @dataclass(frozen=True, eq=False)
 class MeshLimits(Pairs):
@@ -64,6 +98,9 @@ class MeshLimits(Pairs):
 
     blocked: Codes
     """Why they do: values of :class:`Blocked`, int8 of shape ``(n,)``."""
+
+    def _columns(self) -> dict[str, list[str]]:
+        return {"blocked": [Blocked(code).name.lower() for code in self.blocked]}
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +110,9 @@ class NearPairs(Pairs):
     kept: Floats
     """They keep a distance above this, in metres: the exact sum of two numbers, float64 of shape
     ``(n, 2)``."""
+
+    def _columns(self) -> dict[str, list[str]]:
+        return {"kept, m": [f"{sum(kept):.6g}" for kept in self.kept.tolist()]}
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +131,16 @@ class MeshStep:
     candidates: tuple[int, int]
     """How many pairs of edges or points, and of a vertex and a face, had swept boxes so near that
     they were looked at."""
+
+    def _repr_html_(self) -> str:
+        made = "A whole step." if self.step == 1 else f"{self.step:.6g} of the step."
+        looked = " and ".join(map(str, self.candidates))
+        parts = [f"<p>{made} {looked} pairs of edges and of vertex and face were looked at.</p>"]
+        if len(self.limits):
+            parts.append(self.limits._table(f"{_counted(len(self.limits))} that end it"))
+        if len(self.near):
+            parts.append(self.near._table(f"{_counted(len(self.near))} that start nearer"))
+        return "".join(parts)
 
 
 class Mesh:

@@ -8,6 +8,8 @@ import numpy.typing as npt
 
 from . import _tunnelproof
 from ._arrays import Codes, Floats, Kind, query_arrays
+from ._html import table
+from ._kinds import Blocked
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,6 +28,11 @@ class Advances:
     proved, so that the points stay."""
     blocked: Codes
     """Values of :class:`Blocked`, int8 of shape ``(n,)``; 0 where the step is a whole one."""
+
+    def _repr_html_(self) -> str:
+        names = [Blocked(code).name.lower() for code in self.blocked]
+        rows = zip(range(len(names)), (f"{step:.6g}" for step in self.step), names)
+        return table(["query", "step", "blocked"], list(rows)[:20], f"{len(names)} queries")
 
 
 def advance(

@@ -1,7 +1,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from ._arrays import Floats, Indices, Kind
+from ._arrays import Floats, Indices, Kind, TurningKind
 
 VERSION: str
 
@@ -63,5 +63,37 @@ def certify(
     seed: int,
     shard: tuple[int, int],
 ) -> tuple[str, str, str, str]: ...
-def explain(query: str, method: tuple[str, Callable[..., Any]] | None) -> str: ...
 def merge(parts: list[str]) -> tuple[str, str, str, str]: ...
+def decide_rigid(
+    kind: TurningKind, points: Floats, local: Floats, poses: Floats, radii: Floats
+) -> dict[str, Any]: ...
+def draw(title: str, kind: Kind, points: Floats, radii: Floats) -> str: ...
+def explain(
+    kind: Kind, points: Floats, radii: Floats, method: tuple[str, Callable[..., Any]] | None
+) -> str: ...
+def gap(kind: Kind, points: Floats, radii: Floats, width: float) -> Floats: ...
+def locate(text: str) -> tuple[str, Kind, tuple[Floats, Floats]]: ...
+def shrink(
+    call: Callable[..., Any],
+    near: float,
+    late: float,
+    kind: Kind,
+    points: Floats,
+    radii: Floats,
+    calls: int,
+) -> tuple[str, tuple[Floats, Floats], int, bool] | None: ...
+class Seen:
+    def page(self) -> str: ...
+    def frames(self) -> int: ...
+    def frame(self, index: int) -> str: ...
+
+def scenes() -> list[str]: ...
+def simulate(
+    scene: str,
+    narrow: str,
+    mode: str,
+    step: float | None,
+    duration: float | None,
+    audit: bool,
+    beside: str | None,
+) -> dict[str, Any]: ...
