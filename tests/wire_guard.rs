@@ -290,6 +290,13 @@ struct Careless {
     hits: AtomicU64,
 }
 
+impl Careless {
+    fn new(every: u64) -> Self {
+        let hits = AtomicU64::new(0);
+        Careless { every, hits }
+    }
+}
+
 impl NarrowPhase for Careless {
     fn name(&self) -> &str {
         "careless"
@@ -307,30 +314,15 @@ impl NarrowPhase for Careless {
     }
 }
 
-/// Twenty scenes in guard mode behind a narrow phase that misses every so many hits.
-fn carelessly(every: u64) -> Tally {
-    let narrow = Careless {
-        every,
-        hits: AtomicU64::new(0),
-    };
+/// No time passes in them, so the narrow phase has no say.
+#[test]
+fn changes_of_resolution_do_not_cross_whatever_narrow_phase_motions_have() {
+    let narrow = Careless::new(1);
     let mut tally = Tally::default();
     for seed in 0..20 {
         let mut collisions = Collisions::new(Mode::Guard, Method::default(), &narrow);
         tally.scene(scene(seed), &mut collisions);
     }
-    tally
-}
-
-#[test]
-fn soak_finds_a_narrow_phase_that_misses() {
-    let tally = carelessly(20);
-    assert!(tally.met > 0, "{tally:?}");
-}
-
-/// No time passes in them, so the narrow phase has no say.
-#[test]
-fn changes_of_resolution_do_not_cross_whatever_narrow_phase_motions_have() {
-    let tally = carelessly(1);
     assert!(tally.met > 0 && tally.refused > 0, "{tally:?}");
     assert_eq!(tally.met_remeshing, 0, "{tally:?}");
 }
@@ -364,5 +356,19 @@ fn soak_finds_a_broad_phase_that_drops_a_pair() {
         assert!(asked.into_inner() > 0, "{tally:?}");
         assert_eq!(tally.met > 0, !is_kept, "{tally:?}");
         assert_eq!(tally.prevented > 0, is_kept, "{tally:?}");
+    }
+}
+
+#[test]
+fn soak_finds_a_narrow_phase_that_misses() {
+    for (every, is_missed) in [(1, true), (1000, false)] {
+        let narrow = Careless::new(every);
+        let mut tally = Tally::default();
+        let mut collisions = Collisions::new(Mode::Guard, Method::default(), &narrow);
+        tally.scene(one_pair(), &mut collisions);
+        assert_eq!(tally.steps, STEPS, "{tally:?}");
+        assert!(narrow.hits.into_inner() > 0, "{tally:?}");
+        assert_eq!(tally.met > 0, is_missed, "{tally:?}");
+        assert_eq!(tally.prevented > 0, !is_missed, "{tally:?}");
     }
 }

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use super::table::Mutant;
 
 /// What the program needs to be built.
-const SOURCES: [&str; 11] = [
+const SOURCES: [&str; 12] = [
     "Cargo.toml",
     "Cargo.lock",
     "src",
@@ -20,6 +20,7 @@ const SOURCES: [&str; 11] = [
     "hosts",
     "cli",
     "c",
+    "web",
 ];
 
 /// A copy of the sources. It stays, with what is built from it, so that every mutant and every
