@@ -299,6 +299,13 @@ test("numbers of any size have an answer, and are scaled no farther than they ar
   await closed(page);
 });
 
+test("a low window cuts off no text", async () => {
+  const page = await opened({ width: 1100, height: 420 });
+  await settled(page);
+  assert.equal(await page.value("document.querySelector('#banner').scrollHeight - document.querySelector('#banner').clientHeight"), 0);
+  await closed(page);
+});
+
 test("the button to copy a link keeps its name", async () => {
   const page = await opened();
   await page.value("prompt = () => null; Object.defineProperty(navigator, 'clipboard', { value: { writeText: async () => {} } })");
