@@ -359,8 +359,9 @@ fn browser_plays_the_page_of_the_longest_run() {
     let page = folder.path().join("run.html");
     simulate(&["pulling-anchor"], &page);
     for said in assert_plays(browser, &page, 1) {
-        // The boxes start at the ends of the wire, and the cylinder hangs between them.
-        assert_eq!(texts(&said, "names"), ["cylinder", "near box", "far box"]);
+        // Of bodies and of wires, whatever the wires are coloured by.
+        let names = ["cylinder", "near box", "far box", "hanging", "pulled"];
+        assert_eq!(texts(&said, "names"), names);
     }
 }
 
@@ -400,6 +401,11 @@ fn browser_colours_wires_that_are_called_after_a_colour() {
     let (said, console) = drawn(browser, &page, PLAY, 1400, false);
     assert_eq!(console, "");
     assert_eq!(said["tone"], "name", "{said:#}");
+    // What does not move is in the picture too, if it is small.
+    for name in ["brown box", "blue box"] {
+        let names = texts(&said, "names");
+        assert!(names.iter().any(|shown| shown == name), "{said:#}");
+    }
     let legend = texts(&said, "legend");
     assert!(legend.iter().any(|words| words == "brown"), "{said:#}");
 }

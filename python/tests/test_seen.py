@@ -77,6 +77,25 @@ def test_what_ends_a_program_is_no_answer_of_a_method():
         tunnelproof.certify(interrupted, families=["uniform"], count=5)
 
 
+@pytest.mark.parametrize("method", [3, "blind", []])
+def test_what_cannot_be_called_is_no_method(method):
+    query = tunnelproof.Query("edge-edge", FALLING)
+    for ask in (tunnelproof.explain, tunnelproof.shrink):
+        with pytest.raises(TypeError, match="cannot be called"):
+            ask(query, method)
+    with pytest.raises(TypeError, match="cannot be called"):
+        tunnelproof.certify(method, families=["uniform"], count=5)
+
+
+def test_mistakes_are_named():
+    with pytest.raises(TypeError, match='families is "uniform", not a list'):
+        tunnelproof.certify(blind, families="uniform", count=5)
+    with pytest.raises(ValueError, match="no parts are given"):
+        tunnelproof.merge([])
+    with pytest.raises(TypeError, match="the query is 3, neither a Query nor a name"):
+        tunnelproof.explain(3)
+
+
 def test_the_smallest_query_shows_the_same_fault():
     shrunk = tunnelproof.shrink(tunnelproof.Query("edge-edge", FALLING), blind)
     assert shrunk.fault == "tunnel" and shrunk.is_minimal

@@ -117,7 +117,7 @@ function charts() {
   }
   const text = f ? `f = 2^${f.exponent} (${f.integers.map((integer, k) => [integer, k]).filter(([integer]) => integer !== "0").map(([integer, k]) => `${integer}${["", " t", " t²", " t³"][k]}`).join(" + ").replaceAll("+ -", "− ")})` : "";
   byId("f-text").textContent = [shortened(text), said.heading, ...times.map(when => `t = ${when.exactly}: ${when.words}`)].filter(Boolean).join("\n");
-  const values = distances(state, frame, count), radius = (state.radius[0] + state.radius[1]) / frame.unit;
+  const values = distances(state, frame, count), radius = Math.min(1e300, state.radius[0] + state.radius[1]) / frame.unit;
   const most = Math.max(...values.filter(Number.isFinite), radius) || 1;
   const touch = said.impact ? [{ time: said.impact.below, value: radius, filled: true, missed: isMissed(), title: "first contact" }] : [];
   byId("d-chart").dataset.label = "The distance over the step";

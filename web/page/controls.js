@@ -27,7 +27,7 @@ function fields(selected = view.selected) {
   if (!state) return;
   for (const input of document.querySelectorAll("#points input")) {
     const [point, axis] = input.dataset.at.split(" ").map(Number);
-    if (input !== document.activeElement || input.dataset.is !== "typed") input.value = written(state.points[point][axis]);
+    if (input !== document.activeElement || input.dataset.is !== "typed") input.value = input.title = written(state.points[point][axis]);
     input.closest("tr").className = point === selected ? "selected" : "";
   }
   for (const input of document.querySelectorAll("#thresholds input")) {
@@ -46,10 +46,10 @@ function exactField() {
   byId("exact").textContent = `${nameOf(point)} ${COORDINATES[axis]} = ${hexadecimal(value)}\nexactly ${shortened(exactDecimal(value), 120)}`;
 }
 
-function typed(input, apply) {
-  const value = read(input.value);
-  input.setAttribute("aria-invalid", !Number.isFinite(value));
-  if (Number.isFinite(value)) apply(value);
+function typed(input, apply, isGood = () => true) {
+  const value = read(input.value), isTaken = Number.isFinite(value) && isGood(value);
+  input.setAttribute("aria-invalid", !isTaken);
+  if (isTaken) apply(value);
 }
 
 /* Searching */
@@ -127,7 +127,7 @@ function listen() {
   thresholdFields();
   addEventListener("keydown", keys);
   addEventListener("resize", draw);
-  addEventListener("hashchange", () => open(location.hash));
+  addEventListener("hashchange", () => open(location.hash) || notice(BROKEN_LINK));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
 }
 
@@ -162,15 +162,14 @@ function thresholdFields() {
   box.addEventListener("change", ({ target }) => {
     if (target.type === "range") return;
     target.dataset.is = "";
-    typed(target, value => value >= 0 && put(target, value));
+    typed(target, value => put(target, value), value => value >= 0);
   });
 }
 
 function scale(factor) {
-  edit(next => {
-    next.points = next.points.map(point => point.map(x => x * factor));
-    next.radius = next.radius.map(x => x * factor);
-  }, { fit: true });
+  const points = state.points.map(point => scaled(point, factor)), radius = scaled(state.radius, factor);
+  if (!radius || points.includes(null)) return notice("A coordinate or the radius has no exact f64 there, so nothing is scaled.");
+  edit(next => { Object.assign(next, { points, radius }); }, { fit: true });
 }
 
 function keys(event) {
@@ -198,7 +197,7 @@ function keys(event) {
 }
 
 async function copy(button, text) {
-  const label = button.textContent;
+  const label = button.dataset.label ??= button.textContent;
   try {
     await navigator.clipboard.writeText(text);
     button.textContent = "Copied";

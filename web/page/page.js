@@ -25,8 +25,15 @@ function set(next, { remember = true, fit = false } = {}) {
     future = [];
   }
   state = next;
+  notice("");
   if (fit || !frame) refit();
   changed();
+}
+
+/* What else is to be known. */
+function notice(text) {
+  byId("notice").textContent = text;
+  byId("notice").hidden = !text;
 }
 
 function edit(change, options) {
@@ -56,6 +63,7 @@ function isAstray() {
   return sizes.some(size => !(size < 1.5)) || Math.max(...sizes) < 0.1;
 }
 
+const BROKEN_LINK = "The link is incomplete or damaged, so nothing of it is shown.";
 let isWaiting = false;
 function changed() {
   if (!view.dragged && isAstray()) refit();
@@ -167,7 +175,7 @@ function tick(now) {
 function open(hash) {
   const linked = readLink(hash);
   if (!linked) return false;
-  if (linked.view) [view.camera.yaw, view.camera.pitch, view.camera.zoom] = linked.view;
+  if (linked.view) view.look(...linked.view);
   time = Math.max(0, Math.min(1, linked.time));
   frame = null;
   set(linked.state, { fit: true });
@@ -184,7 +192,10 @@ async function main() {
     return headline("bad", "This browser cannot run the judge.", error.message);
   }
   listen();
-  if (!open(location.hash)) load(gallery[0].entries[0].query);
+  if (!open(location.hash)) {
+    load(gallery[0].entries[0].query);
+    if (location.hash.length > 1) notice(BROKEN_LINK);
+  }
   document.documentElement.dataset.ready = Math.round(performance.now());
 }
 

@@ -83,6 +83,12 @@ function queryOf(state, id = "playground") {
   return { id, kind: state.kind, points: state.points.map(point => point.map(number)), radius };
 }
 
+/* The numbers times 2 or 1/2; null if one of them would be rounded or no number. */
+function scaled(numbers, factor) {
+  const all = numbers.map(x => x * factor);
+  return all.every((x, k) => Number.isFinite(x) && x / factor === numbers[k]) ? all : null;
+}
+
 /* The whole state as the text after the # of a link. */
 function linkOf(state, more) {
   const list = numbers => numbers.map(written).join(",");
@@ -93,20 +99,30 @@ function linkOf(state, more) {
   return "#" + parts.join("&");
 }
 
+/* A text of a link without its escapes; as it is if they are none. */
+function unescaped(text) {
+  try { return decodeURIComponent(text); } catch { return text; }
+}
+
 /* What such a text says; null if it is none. */
 function readLink(text) {
   const fields = new Map(text.replace(/^#/, "").split("&").map(part => {
     const [name, value = ""] = part.split("=");
-    return [name, decodeURIComponent(value)];
+    return [name, unescaped(value)];
   }));
   const list = (name, count) => {
     const numbers = (fields.get(name) ?? "").split(",").map(read);
     return numbers.length === count && numbers.every(Number.isFinite) ? numbers : null;
   };
+  const sizes = (name, count, otherwise) => {
+    const numbers = fields.has(name) ? list(name, count) : otherwise;
+    return numbers?.every(number => number >= 0) ? numbers : null;
+  };
   const points = list("points", 24), kind = fields.get("kind");
-  if (!points || !["edge-edge", "vertex-face"].includes(kind)) return null;
+  const radius = sizes("radius", 2, [0, 0]), thresholds = sizes("thresholds", 5, [...PUBLISHED]);
+  if (!points || !radius || !thresholds || !["edge-edge", "vertex-face"].includes(kind)) return null;
   const state = {
-    kind, radius: list("radius", 2) ?? [0, 0], thresholds: list("thresholds", 5) ?? [...PUBLISHED],
+    kind, radius, thresholds,
     points: Array.from({ length: 8 }, (_, k) => points.slice(3 * k, 3 * k + 3)),
   };
   return { state, time: list("t", 1)?.[0] ?? 0, view: list("view", 3) };

@@ -298,6 +298,11 @@ class View {
     this.on.turn();
   }
 
+  /* The camera of a link, which may say anything. */
+  look(yaw, pitch, zoom) {
+    this.camera = { yaw: yaw % (2 * Math.PI), pitch: Math.max(-1.55, Math.min(1.55, pitch)), zoom: Math.max(0.2, Math.min(20, zoom)) };
+  }
+
   /* The point in metres that is at a place of the canvas and so near. */
   unproject([x, y], depth) {
     const [right, up, back] = this.axes, scale = this.scale();

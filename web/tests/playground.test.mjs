@@ -258,6 +258,65 @@ test("a link holds the state, bit for bit", async () => {
   await closed(page);
 });
 
+test("a link that is damaged opens the page all the same, and it says so", async () => {
+  const numbers = Array.from({ length: 24 }, (_, k) => k % 5).join();
+  const good = `#kind=edge-edge&points=${numbers}`;
+  for (const hash of ["#kind=edge-edge&points=%", "#state", `${good},1`, `${good}&radius=-1,0`, `${good}&radius=1`, `${good}&thresholds=-1,0,0,0,0`]) {
+    const page = await opened({}, hash);
+    assert.match(await text(page, "#notice"), /damaged/, hash);
+    assert.match(await text(page, "#headline"), /^Tunnel/, hash);
+    await choose(page, "rods");
+    assert.equal(await page.value("document.querySelector('#notice').hidden"), true);
+    await closed(page);
+  }
+  const page = await opened({}, `${good}&view=1e300,1e300,0&t=7`);
+  assert.equal(await page.value("document.querySelector('#notice').hidden"), true);
+  const { yaw, pitch, zoom } = await page.value("view.camera");
+  assert.ok(Math.abs(yaw) < 6.3 && Math.abs(pitch) < 1.6 && zoom === 0.2);
+  await page.value("location.hash = '#kind=edge-edge&points=1'");
+  await page.until("!document.querySelector('#notice').hidden");
+  await closed(page);
+});
+
+test("numbers of any size have an answer, and are scaled no farther than they are exact", async () => {
+  const page = await opened();
+  for (const [button, power] of [["larger", 1018], ["smaller", -1068]]) {
+    await choose(page, "rods");
+    await page.value(`edit(next => { next.points = next.points.map(point => point.map(x => x * 2 ** ${power})); }, { fit: true })`);
+    const count = await page.value(`(() => { let k = 0; for (; k < 20 && document.querySelector("#notice").hidden; k++) document.querySelector("#${button}").click(); return k; })()`);
+    assert.ok(count > 1 && count < 20, `${count}`);
+    await settled(page);
+    assert.equal(await chip(page, "certified"), "right");
+    assert.equal(await text(page, "[data-what=toi]"), "3/5");
+  }
+  await page.type("#points input[data-at='0 0']", "1.7976931348623157e308");
+  await page.type("#points input[data-at='4 0']", "-1.7976931348623157e308");
+  await page.type("#radius", "1e308 + 1e308");
+  await settled(page);
+  assert.equal(await chip(page, "certified"), "right");
+  await page.type("#thresholds input[data-threshold='0']:not([type=range])", "-1");
+  assert.equal(await page.value("document.querySelector(`#thresholds input[data-threshold='0']:not([type=range])`).getAttribute('aria-invalid')"), "true");
+  await closed(page);
+});
+
+test("a low window cuts off no text", async () => {
+  const page = await opened({ width: 1100, height: 420 });
+  await settled(page);
+  assert.equal(await page.value("document.querySelector('#banner').scrollHeight - document.querySelector('#banner').clientHeight"), 0);
+  await closed(page);
+});
+
+test("the button to copy a link keeps its name", async () => {
+  const page = await opened();
+  await page.value("prompt = () => null; Object.defineProperty(navigator, 'clipboard', { value: { writeText: async () => {} } })");
+  await page.click("#link");
+  await page.until("document.querySelector('#link').textContent === 'Copied'");
+  await page.click("#link");
+  await new Promise(resolve => setTimeout(resolve, 2600));
+  assert.equal(await text(page, "#link"), "Copy link");
+  await closed(page);
+});
+
 test("a search finds a tunnel and makes it small, and can be stopped", async () => {
   const page = await opened();
   await page.click("#find");

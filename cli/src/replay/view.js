@@ -69,21 +69,23 @@ function bodyOf({ shape, dynamic }, named) {
   return group;
 }
 
-/* The points that are to be seen: wires, and bodies that move, in some sixty frames. What falls away far from where
+/* The points that are to be seen: wires, and bodies that move or are small beside the wires, in some sixty frames. What falls away far from where
    all was at the start is left out. */
 function pointsOf(run) {
   const { frames } = run, every = Math.ceil(frames.length / 60), points = [];
   const moves = k => frames.some(frame => frame.bodies[k].some((x, axis) => Math.abs(x - frames[0].bodies[k][axis]) > 1e-3));
-  const moving = run.header.bodies.map((_, k) => k).filter(k => run.header.bodies[k].shape !== "Plane" && moves(k));
   const radii = run.header.bodies.map(({ shape }) => {
     const geometry = shapeOf(shape);
     geometry?.computeBoundingSphere();
     return geometry?.boundingSphere.radius ?? 0;
   });
+  const nodes = frames[0].wires.flatMap(wire => wire.filter((_, i) => i % 3 === 0).map((x, k) => new lib.Vector3(x, wire[3 * k + 1], wire[3 * k + 2])));
+  const isSmall = k => nodes.length > 0 && radii[k] < extent(nodes) / 4;
+  const shownWhole = run.header.bodies.map((_, k) => k).filter(k => run.header.bodies[k].shape !== "Plane" && (moves(k) || isSmall(k)));
   frames.forEach((frame, k) => {
     if (k % every && k !== frames.length - 1) return;
     for (const wire of frame.wires) for (let i = 0; i < wire.length; i += 3) points.push(new lib.Vector3(wire[i], wire[i + 1], wire[i + 2]));
-    for (const body of moving) for (let corner = 0; corner < 8; corner++) {
+    for (const body of shownWhole) for (let corner = 0; corner < 8; corner++) {
       const way = axis => (corner >> axis & 1 ? 1 : -1) * radii[body] * 0.58;
       points.push(new lib.Vector3(...frame.bodies[body].slice(0, 3).map((x, axis) => x + way(axis))));
     }
@@ -322,7 +324,6 @@ function overlay(box) {
       // A plane is everywhere.
       if (spot && run.header.bodies[k].shape !== "Plane") label(run.names.bodies[k], spot, taken);
     });
-    if (shown.tone !== "name") return;
     run.frames[at].wires.forEach((wire, w) => {
       const middle = 3 * Math.floor(wire.length / 6);
       const spot = onPicture(new lib.Vector3(...wire.slice(middle, middle + 3)));

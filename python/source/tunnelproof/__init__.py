@@ -250,6 +250,8 @@ def certify(
     ['blind: 19 tunnels']
     """
 
+    if isinstance(families, str):
+        raise TypeError(f'families is "{families}", not a list of names')
     rows = [
         (key, kind, *query_arrays(points, radius)) for key, (kind, points, radius) in (own or {}).items()
     ]
@@ -275,4 +277,7 @@ def merge(parts: Iterable[str]) -> Certificate:
 
     :raises ValueError: if a part is of another certification, given twice, or missing.
     """
-    return Certificate(*_tunnelproof.merge(list(parts)))
+    texts = list(parts)
+    if not texts:
+        raise ValueError("no parts are given")
+    return Certificate(*_tunnelproof.merge(texts))

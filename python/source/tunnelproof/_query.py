@@ -18,6 +18,8 @@ Method = Callable[[Kind, Floats, Floats], "tuple[npt.ArrayLike, npt.ArrayLike] |
 
 def checked(method: Method) -> Callable[..., tuple[Bools, Floats] | None]:
     """The method, its answers converted, with an error for other shapes."""
+    if not callable(method):
+        raise TypeError(f"the method is {method!r}, which cannot be called")
 
     def call(kind: Kind, points: Floats, radii: Floats) -> tuple[Bools, Floats] | None:
         answer = method(kind, points, radii)
@@ -105,7 +107,11 @@ def query(text: str) -> Query:
 
 
 def _one(of: Query | str) -> Query:
-    return query(of) if isinstance(of, str) else of
+    if isinstance(of, str):
+        return query(of)
+    if not isinstance(of, Query):
+        raise TypeError(f"the query is {of!r}, neither a Query nor a name")
+    return of
 
 
 @dataclass(frozen=True, eq=False)
