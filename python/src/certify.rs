@@ -88,9 +88,11 @@ pub(crate) fn certify(
     let mut blocks = Vec::new();
     for source in &sources {
         let run = || panel.run_shard(source, shard, |_| {});
-        let block = py.detach(|| with_default(run));
+        let block = subject.watched(py, run);
+        if let Some(error) = subject.ending(py) {
+            return Err(error);
+        }
         blocks.push(block.map_err(|error| PyValueError::new_err(error.to_string()))?);
-        py.check_signals()?;
     }
     let settings = Settings {
         command,

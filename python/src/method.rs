@@ -1,13 +1,15 @@
 //! A method in Python as a subject.
 
 use std::sync::OnceLock;
+use std::thread;
+use std::time::Duration;
 
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::exceptions::{PyException, PyValueError};
 use pyo3::prelude::*;
 use tunnelproof::narrow::{Tolerance, Unsupported};
 use tunnelproof::query::{Query, QueryKind};
-use tunnelproof_float_env::with_restored;
+use tunnelproof_float_env::{with_default, with_restored};
 use tunnelproof_reference::answer::Enclosure;
 use tunnelproof_reference::subject::{Answer, Lapse, LapseKind, NoAnswer, Said, Subject};
 
@@ -78,6 +80,34 @@ impl Method {
             tolerance,
             ending: OnceLock::new(),
         }
+    }
+
+    /// What `work` gives, which asks this method, in a thread of its own: so signals such as Ctrl-C
+    /// are noticed while it runs. Then the method is asked no more, and the work ends soon.
+    pub(crate) fn watched<T: Send>(&self, py: Python<'_>, work: impl FnOnce() -> T + Send) -> T {
+        let waiting = thread::current();
+        thread::scope(|scope| {
+            let working = scope.spawn(move || {
+                let result = with_default(work);
+                waiting.unpark();
+                result
+            });
+            while !working.is_finished() {
+                py.detach(|| thread::park_timeout(Duration::from_millis(50)));
+                if let Err(error) = py.check_signals() {
+                    // It may have ended before.
+                    let _ = self.ending.set(error);
+                }
+            }
+            working
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        })
+    }
+
+    /// What was not for the method to raise.
+    pub(crate) fn ending(&self, py: Python<'_>) -> Option<PyErr> {
+        self.ending.get().map(|error| error.clone_ref(py))
     }
 
     /// After the last question: raises what was not for the method to raise.

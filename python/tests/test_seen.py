@@ -194,3 +194,20 @@ def test_the_extension_is_stripped():
     # It has 9 MB, with line tables 55.
     path = Path(tunnelproof._tunnelproof.__file__)
     assert path.stat().st_size < 15e6
+
+
+def test_ctrl_c_ends_a_judgement_soon():
+    import signal
+    import threading
+    import time
+
+    def slow(kind, points, radii):
+        time.sleep(0.01)
+        return np.zeros(len(points), bool), np.zeros(len(points))
+
+    timer = threading.Timer(1.0, signal.raise_signal, [signal.SIGINT])
+    timer.start()
+    start = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        tunnelproof.certify(slow, name="slow", count=200_000)
+    assert time.monotonic() - start < 10.0
