@@ -5,8 +5,10 @@
 //! strays. If the two sides of the linear query of these places are farther apart than `rho` for
 //! the whole part, then the turning ones do not touch in it: a point of either side is a mean of its
 //! corners, with the same weights in both motions, so that no difference of two points is off by
-//! more than `rho`. With a radius `R` they are asked to stay farther apart than `R + rho`. A part of half the length has a quarter of the stray. What stays open is
-//! decided in integers (`exact::rigid`), so that no answer depends on `rho` being small.
+//! more than `rho`. With a radius `R` they are asked to stay farther apart than `R + rho`. A part of
+//! half the length has a quarter of the stray. Ordinary contacts are certified from there
+//! ([`contact`]), and what stays open is decided in integers (`exact::rigid`), so that no answer
+//! depends on `rho` being small.
 //!
 //! # The stray
 //!
@@ -50,7 +52,7 @@ use wide::f64x2;
 use super::ends::{Ends, larger};
 use super::exact::{self, Passage};
 use super::kind::{Sealed, Stages};
-use super::motion::Vector;
+use super::motion::{Vector, largest};
 use super::stage::Finding;
 use super::thick;
 use crate::contact::{EdgePlace, FacePlace, Hit, Place};
@@ -260,10 +262,10 @@ impl<'a, const WORLD: usize, const LOCAL: usize> Moving<'a, WORLD, LOCAL> {
         let reach = reach.fold(0.0, larger).sqrt() * UP + LEAST;
         let mut far = 0.0;
         for point in start.iter().chain(end) {
-            far = larger(far, largest(&plain(point)));
+            far = larger(far, largest(&plain(point).map(f64::abs)));
         }
         for centre in &centres {
-            far = larger(far, largest(centre));
+            far = larger(far, largest(&centre.map(f64::abs)));
         }
         let bend = bend(&quaternions)? * reach;
         // Not below the sum of both numbers.
@@ -333,12 +335,6 @@ impl<'a, const WORLD: usize, const LOCAL: usize> Moving<'a, WORLD, LOCAL> {
             }
         })
     }
-}
-
-/// The largest magnitude of a component.
-#[inline(always)]
-fn largest([x, y, z]: &Vector) -> f64 {
-    larger(larger(x.abs(), y.abs()), z.abs())
 }
 
 #[inline(always)]

@@ -1,6 +1,6 @@
 //! The contact of two sides of which one turns, certified in double-double arithmetic.
 //!
-//! [`Moving::is_apart`] has proved that they are apart up to some time. From there a guess of the
+//! [`Moving::apart_until`] has proved that they are apart up to some time. From there a guess of the
 //! contact in `f64` tells which two [`Features`] are nearest then. If the conditions hold, with
 //! certainty, under which these are the nearest from that time on, and the excess of their squared
 //! distance passes 0 once ([`root_after`]), then that is the first contact. A part on which this is

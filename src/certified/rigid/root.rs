@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use super::ball::{Ball, UP};
 use super::rough::Rough;
 use super::series::Series;
+use crate::certified::separate::U;
 
 /// A time at which a polynomial passes 0, the only one from some time on.
 pub(super) struct Root {
@@ -19,9 +20,6 @@ pub(super) struct Root {
 /// Steps of Newton's method from a guess, in `f64` and then with precise values.
 const STEPS: usize = 3;
 const PRECISE_STEPS: usize = 3;
-
-/// `2^-53`.
-const U: f64 = f64::EPSILON / 2.0;
 
 /// The root of a series around `middle` that is near a guess, if it is certain that there is none
 /// from `from` to there, and that it is not a number in `f64`. `precise` is the value of the

@@ -3,6 +3,7 @@
 use std::cmp::Ordering;
 
 use super::ball::{Ball, LEAST, UP};
+use crate::certified::separate::U;
 
 /// A number that is known up to an error: the exact one is within `error` of `value`. The same as a
 /// [`Ball`], at a part of its cost.
@@ -11,9 +12,6 @@ pub(super) struct Rough {
     value: f64,
     error: f64,
 }
-
-/// `2^-53`: the relative error of one operation.
-const U: f64 = f64::EPSILON / 2.0;
 
 impl Rough {
     pub(super) const ZERO: Rough = Rough::new(0.0, 0.0);
