@@ -1,9 +1,10 @@
 //! Bodies that turn: the certified path gives the oracle's answer on every family.
 
-use tunnelproof::certified::{RigidKind, decide_rigid, decide_rigid_exactly};
+use tunnelproof::certified::{decide_rigid, decide_rigid_exactly};
 use tunnelproof::contact::{Case, EdgePlace, Hit, Place};
 use tunnelproof::nalgebra::Quaternion;
-use tunnelproof::rigid::{EdgeTurningEdge, Pose, RigidMotion, RigidQuery};
+use tunnelproof::query::QueryKind;
+use tunnelproof::rigid::{EdgeTurningEdge, Pose, RigidMotion, RigidQuery, Side};
 use tunnelproof::{EdgeEdge, Point, VertexFace, classify, decide};
 use tunnelproof_reference::answer::ExactAnswer;
 use tunnelproof_reference::certify::verdict::{Verdict, judge};
@@ -14,7 +15,7 @@ use tunnelproof_reference::subject::Answer;
 /// How many queries of each family are judged; `TUNNELPROOF_RIGID_COUNT` asks for more.
 fn count() -> u64 {
     let asked = std::env::var("TUNNELPROOF_RIGID_COUNT").ok();
-    let usual = if cfg!(debug_assertions) { 100 } else { 3000 };
+    let usual = if cfg!(debug_assertions) { 60 } else { 1500 };
     asked.map_or(usual, |text| text.parse().expect("a number"))
 }
 
@@ -34,18 +35,10 @@ fn seed() -> u64 {
     asked.map_or(SEED, |text| text.parse().expect("a number"))
 }
 
-fn answered<K: RigidKind>(query: &K, in_integers: bool) -> Option<Hit<Place>> {
-    let hit = match in_integers {
+fn answer(query: &RigidQuery, in_integers: bool) -> Option<Hit<Place>> {
+    match in_integers {
         true => decide_rigid_exactly(query),
         false => decide_rigid(query),
-    };
-    hit.map(|hit| hit.map_place(Into::into))
-}
-
-fn answer(query: &RigidQuery, in_integers: bool) -> Option<Hit<Place>> {
-    match query {
-        RigidQuery::EdgeTurningEdge(query) => answered(query, in_integers),
-        RigidQuery::VertexTurningFace(query) => answered(query, in_integers),
     }
 }
 
@@ -99,13 +92,13 @@ fn rigid_certified_is_the_oracle_on_every_family() {
 /// The answer of the linear query of the same points, and its case.
 fn linear(query: &RigidQuery) -> (Option<Hit<Place>>, Case) {
     let (start, end, radius) = (query.positions(0.0), query.positions(1.0), query.radius());
-    match query {
-        RigidQuery::EdgeTurningEdge(_) => {
+    match query.linear_kind() {
+        QueryKind::EdgeEdge => {
             let query = EdgeEdge::new(start, end, radius).expect("finite");
             let hit = decide(&query).map(|hit| hit.map_place(Place::from));
             (hit, classify(&query))
         }
-        RigidQuery::VertexTurningFace(_) => {
+        QueryKind::VertexFace => {
             let query = VertexFace::new(start, end, radius).expect("finite");
             let hit = decide(&query).map(|hit| hit.map_place(Place::from));
             (hit, classify(&query))
@@ -122,10 +115,6 @@ fn rigid_translation_is_the_linear_query_bit_for_bit() {
             let query = family.query(SEED, index);
             let own = answer(&query, false);
             let (linear, case) = linear(&query);
-            let bits = |hit: &Hit<Place>| {
-                let toi = [hit.toi.to_bits(), hit.toi_above.to_bits()];
-                (toi, hit.kind, hit.side, hit.case, hit.flags)
-            };
             assert_eq!(
                 own.as_ref().map(bits),
                 linear.as_ref().map(bits),
@@ -135,6 +124,62 @@ fn rigid_translation_is_the_linear_query_bit_for_bit() {
             hits += usize::from(own.is_some());
         }
         assert!(hits > 60, "{name}: {hits}");
+    }
+}
+
+/// What a hit says but for its place, bit for bit.
+fn bits(hit: &Hit<Place>) -> impl PartialEq + std::fmt::Debug {
+    let toi = [hit.toi.to_bits(), hit.toi_above.to_bits()];
+    (toi, hit.kind, hit.side, hit.case, hit.flags)
+}
+
+/// A body that does not turn, in numbers that are exact, moves its points on lines.
+#[test]
+fn rigid_body_without_a_turn_is_as_points_that_move_on_lines() {
+    for name in ["turning_bodies_still", "turning_bodies_thick_still"] {
+        let family = rigid_by_name(name).expect("a family");
+        let mut hits = 0;
+        for index in 0..2000 {
+            let query = family.query(SEED, index);
+            let [first, second] = query.sides();
+            let count = first.number_of_points();
+            let [start, end] = [0.0, 1.0].map(|t| query.positions(t));
+            let straight = Side::Straight {
+                start: &start[..count],
+                end: &end[..count],
+            };
+            let other = RigidQuery::new([straight, second], query.radius()).expect("finite");
+            let (own, other) = (answer(&query, false), answer(&other, false));
+            assert_eq!(
+                own.as_ref().map(bits),
+                other.as_ref().map(bits),
+                "{query:?}"
+            );
+            hits += usize::from(own.is_some());
+        }
+        assert!(hits > 100, "{name}: {hits}");
+    }
+}
+
+/// Two edges in the other order, and both bodies turned and moved alike: the same times.
+#[test]
+fn rigid_bodies_meet_at_the_same_time_in_either_order() {
+    for name in ["turning_bodies_uniform", "turning_bodies_thick_uniform"] {
+        let family = rigid_by_name(name).expect("a family");
+        let mut hits = 0;
+        for index in 0..1000 {
+            let query = family.query(SEED, index);
+            if query.linear_kind() == QueryKind::VertexFace {
+                continue;
+            }
+            let [first, second] = query.sides();
+            let other = RigidQuery::new([second, first], query.radius()).expect("finite");
+            let (own, other) = (answer(&query, false), answer(&other, false));
+            let times = |hit: &Hit<Place>| ([hit.toi, hit.toi_above], hit.kind);
+            assert_eq!(own.as_ref().map(times), other.as_ref().map(times));
+            hits += usize::from(own.is_some());
+        }
+        assert!(hits > 50, "{name}: {hits}");
     }
 }
 

@@ -4,7 +4,6 @@ use std::sync::LazyLock;
 
 use tunnelproof::additive::Additive;
 use tunnelproof::certified::decide_rigid;
-use tunnelproof::contact::{Hit, Place};
 use tunnelproof::query::Query;
 use tunnelproof::rigid::RigidQuery;
 use tunnelproof::thesis::{Erratum, Repairs, Thesis};
@@ -94,18 +93,9 @@ pub fn turning_subjects() -> [TurningSubject; 3] {
         },
         TurningSubject {
             name: "certified",
-            answer: |query| {
-                Answer::Certified(match query {
-                    RigidQuery::EdgeTurningEdge(query) => decide_rigid(query).map(any_place),
-                    RigidQuery::VertexTurningFace(query) => decide_rigid(query).map(any_place),
-                })
-            },
+            answer: |query| Answer::Certified(decide_rigid(query)),
         },
     ]
-}
-
-fn any_place<P: Into<Place>>(hit: Hit<P>) -> Hit<Place> {
-    hit.map_place(Into::into)
 }
 
 /// Who can be taken for the truth, by the name of the subject.

@@ -4,7 +4,7 @@
 //! Every predicate of contact is homogeneous, so its sign is the same for the scaled points.
 
 use tunnelproof::query::{Point, Query};
-use tunnelproof::rigid::RigidQuery;
+use tunnelproof::rigid::{RigidQuery, Side};
 
 use crate::algebraic::decompose;
 use crate::field::Integer;
@@ -39,40 +39,84 @@ impl<Z: Integer> Scaled<Z> {
     }
 }
 
-/// The numbers of a query of a body that turns.
+/// The numbers of a query of bodies that turn.
 #[derive(Clone, Debug)]
 pub struct ScaledRigid<Z> {
-    /// The points in space at `t = 0` and at `t = 1`, scaled by one power of two.
-    pub world: Vec<[[Z; 3]; 2]>,
-    /// The points in the body's frame, scaled by the same.
+    /// Both sides; the second one turns.
+    pub first: ScaledSide<Z>,
+    /// The body of the second side.
+    pub second: ScaledBody<Z>,
+    /// A coordinate of a point is its integer times `2^exponent` metres.
+    pub exponent: i64,
+}
+
+/// The first side of a query.
+#[derive(Clone, Debug)]
+pub enum ScaledSide<Z> {
+    /// Points in space at `t = 0` and at `t = 1`.
+    Straight(Vec<[[Z; 3]; 2]>),
+    /// Points of a body.
+    Turning(ScaledBody<Z>),
+}
+
+/// A body that turns. All lengths are scaled by one power of two.
+#[derive(Clone, Debug)]
+pub struct ScaledBody<Z> {
+    /// The points in the body's frame.
     pub local: Vec<[Z; 3]>,
-    /// The centre at `t = 0` and at `t = 1`, scaled by the same.
+    /// The centre at `t = 0` and at `t = 1`.
     pub centres: [[Z; 3]; 2],
     /// w, x, y and z of the quaternions, the nearer one at the end, scaled by a power of their own.
     pub quaternions: [[Z; 4]; 2],
-    /// A coordinate of a point is its integer times `2^exponent` metres.
-    pub exponent: i64,
 }
 
 impl<Z: Integer> ScaledRigid<Z> {
     /// The numbers of a query, exactly.
     pub fn new(query: &RigidQuery) -> Self {
-        let motion = query.motion();
-        let centres = [motion.start(), motion.end()].map(|pose| pose.centre);
-        let points = query.start().iter().chain(query.end()).chain(query.local());
-        let exponent = common_exponent(points.chain(&centres).flat_map(|point| point.iter()));
-        let point = |point: &Point| [point.x, point.y, point.z].map(|x| integer(x, exponent));
-        let quaternions = motion.quaternions();
-        let own = common_exponent(quaternions.iter().flatten());
-        let both = query.start().iter().zip(query.end());
+        let sides = query.sides();
+        let lengths: Vec<Point> = sides.iter().flat_map(lengths).collect();
+        let exponent = common_exponent(lengths.iter().flat_map(|point| point.iter()));
+        let [first, second] = sides.map(|side| ScaledSide::new(&side, exponent));
+        let ScaledSide::Turning(second) = second else {
+            unreachable!("the second side of a query turns");
+        };
         ScaledRigid {
-            world: both
-                .map(|(start, end)| [point(start), point(end)])
-                .collect(),
-            local: query.local().iter().map(point).collect(),
-            centres: centres.each_ref().map(point),
-            quaternions: quaternions.map(|q| q.map(|x| integer(x, own))),
+            first,
+            second,
             exponent,
+        }
+    }
+}
+
+/// Every point of a side, and the centres of its body.
+fn lengths(side: &Side<'_>) -> Vec<Point> {
+    match *side {
+        Side::Straight { start, end } => [start, end].concat(),
+        Side::Turning { local, motion } => {
+            let centres = [motion.start().centre, motion.end().centre];
+            [local, &centres].concat()
+        }
+    }
+}
+
+impl<Z: Integer> ScaledSide<Z> {
+    fn new(side: &Side<'_>, exponent: i64) -> Self {
+        let point = |point: &Point| [point.x, point.y, point.z].map(|x| integer(x, exponent));
+        match *side {
+            Side::Straight { start, end } => {
+                let both = start.iter().zip(end);
+                ScaledSide::Straight(both.map(|(a, b)| [point(a), point(b)]).collect())
+            }
+            Side::Turning { local, motion } => {
+                let quaternions = motion.quaternions();
+                let own = common_exponent(quaternions.iter().flatten());
+                let centres = [motion.start(), motion.end()].map(|pose| point(&pose.centre));
+                ScaledSide::Turning(ScaledBody {
+                    local: local.iter().map(point).collect(),
+                    centres,
+                    quaternions: quaternions.map(|q| q.map(|x| integer(x, own))),
+                })
+            }
         }
     }
 }

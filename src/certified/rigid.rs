@@ -1,8 +1,9 @@
-//! Bodies that turn: an edge or a vertex against a body's edge or face, certified.
+//! Bodies that turn: an edge or a vertex, of space or of another body, against a body's edge or face,
+//! certified.
 //!
-//! The path for linear motion is the filter. On a part of the step each point of the body stays
+//! The path for linear motion is the filter. On a part of the step each point of a body stays
 //! near its chord, the linear motion between its places at both ends: let `rho` bound how far it
-//! strays. If the two sides of the linear query of these places are farther apart than `rho` for
+//! strays, or the sum of both bounds if both sides turn. If the two sides of the linear query of these places are farther apart than `rho` for
 //! the whole part, then the turning ones do not touch in it: a point of either side is a mean of its
 //! corners, with the same weights in both motions, so that no difference of two points is off by
 //! more than `rho`. With a radius `R` they are asked to stay farther apart than `R + rho`. A part of
@@ -32,8 +33,9 @@
 //! most `1.09 |q(t)|`. So `q(t)` is computed with an error below `5 u |q|`, which turns a point
 //! by less than `10 u p`. [`turned`] adds a vector made of products of size up to `2.42 p`, with
 //! fewer than 30 roundings: less than `75 u p`. The centre and the points in space have less than
-//! `8 u` times their largest coordinate, and the sum less than `2 u` of both. [`ROUNDING`] is
-//! `256 u`, times all of these. Bounds themselves are computed with a few roundings, which [`UP`]
+//! `8 u` times their largest coordinate, and the sum less than `2 u` of both. So a side is off by less
+//! than `10 u` times its largest coordinates and `87 u p`. [`ROUNDING`] is `256 u`, times the largest
+//! coordinates of both sides and the sum of both `p`. Bounds themselves are computed with a few roundings, which [`UP`]
 //! outweighs.
 
 mod ball;
@@ -46,6 +48,7 @@ mod root;
 mod rough;
 mod series;
 mod term;
+mod turning;
 
 use wide::f64x2;
 
@@ -58,10 +61,15 @@ use super::thick;
 use crate::contact::{EdgePlace, FacePlace, Hit, Place};
 use crate::environment;
 use crate::query::{EdgeEdge, Point, Radius, VertexFace};
-use crate::rigid::{EdgeTurningEdge, RigidMotion, VertexTurningFace};
+use crate::rigid::{
+    EdgeTurningEdge, RigidQuery, TurningEdgeTurningEdge, TurningVertexTurningFace,
+    VertexTurningFace,
+};
 use contact::{APART, CROSSING, touch};
+pub(super) use turning::{Body, First, Turning};
 
-/// A kind of query about a body that turns: [`EdgeTurningEdge`] or [`VertexTurningFace`].
+/// A kind of query about bodies that turn: [`EdgeTurningEdge`], [`VertexTurningFace`],
+/// [`TurningEdgeTurningEdge`], [`TurningVertexTurningFace`], or any of them as a [`RigidQuery`].
 ///
 /// The trait is sealed: no other type can be one.
 pub trait RigidKind: Sealed + Copy + Send + Sync + 'static {
@@ -74,12 +82,16 @@ pub trait RigidKind: Sealed + Copy + Send + Sync + 'static {
 
     #[doc(hidden)]
     fn decide_in_integers(&self) -> Option<Hit<Self::Place>>;
+
+    /// The point in space of the first side with these weights of A, B, C and D, at a time in
+    /// `[0, 1]`, rounded.
+    fn point(&self, weights: &[f64; 4], t: f64) -> Point;
 }
 
-/// Whether and when an edge or a vertex touches an edge or a face of a body that turns: certified,
-/// without thresholds.
+/// Whether and when an edge or a vertex, of space or of another body, touches an edge or a face of a
+/// body that turns: certified, without thresholds.
 ///
-/// The query is an [`EdgeTurningEdge`] or a [`VertexTurningFace`]. The answer is as that of
+/// The query is of any [`RigidKind`]. The answer is as that of
 /// [`decide`](crate::decide): no hit is false, no contact is missed, [`toi`](Hit::toi) is the exact
 /// time of impact rounded down, and the place has an error of at most `2^-50`.
 ///
@@ -100,73 +112,91 @@ pub fn decide_rigid_exactly<K: RigidKind>(query: &K) -> Option<Hit<K::Place>> {
     query.decide_in_integers()
 }
 
-impl Sealed for EdgeTurningEdge {}
+macro_rules! kind {
+    ($kind:ident, $linear:ident, $place:ident, $decide:ident, $passage:ident) => {
+        impl Sealed for $kind {}
 
-impl EdgeTurningEdge {
-    fn turning(&self) -> Turning<'_, 2, 2> {
-        Turning {
-            start: self.start(),
-            end: self.end(),
-            local: self.local(),
-            motion: self.motion(),
-            radius: self.radius(),
+        impl RigidKind for $kind {
+            type Place = $place;
+
+            #[allow(private_interfaces, reason = "only this module uses it")]
+            fn decide_in_f64(&self) -> Finding<Hit<$place>> {
+                let turning = self.turning();
+                turning.decide::<$linear>(|| exact::$passage(&turning))
+            }
+
+            fn decide_in_integers(&self) -> Option<Hit<$place>> {
+                exact::$decide(&self.turning())
+            }
+
+            fn point(&self, weights: &[f64; 4], t: f64) -> Point {
+                self.point(weights, t)
+            }
         }
-    }
+    };
 }
 
-impl RigidKind for EdgeTurningEdge {
-    type Place = EdgePlace;
+kind!(
+    EdgeTurningEdge,
+    EdgeEdge,
+    EdgePlace,
+    decide_turning_edges,
+    passage_of_turning_edges
+);
+kind!(
+    VertexTurningFace,
+    VertexFace,
+    FacePlace,
+    decide_turning_face,
+    passage_of_turning_face
+);
+kind!(
+    TurningEdgeTurningEdge,
+    EdgeEdge,
+    EdgePlace,
+    decide_turning_edges,
+    passage_of_turning_edges
+);
+kind!(
+    TurningVertexTurningFace,
+    VertexFace,
+    FacePlace,
+    decide_turning_face,
+    passage_of_turning_face
+);
+
+impl Sealed for RigidQuery {}
+
+/// Does the same for a query of any kind.
+macro_rules! of_any_kind {
+    ($query:expr, $of:ident => $answer:expr) => {
+        match $query {
+            RigidQuery::EdgeTurningEdge($of) => $answer,
+            RigidQuery::VertexTurningFace($of) => $answer,
+            RigidQuery::TurningEdgeTurningEdge($of) => $answer,
+            RigidQuery::TurningVertexTurningFace($of) => $answer,
+        }
+    };
+}
+
+impl RigidKind for RigidQuery {
+    type Place = Place;
 
     #[allow(private_interfaces, reason = "only this module uses it")]
-    fn decide_in_f64(&self) -> Finding<Hit<EdgePlace>> {
-        let passage = || exact::passage_of_turning_edges(self);
-        self.turning().decide::<EdgeEdge>(passage)
+    fn decide_in_f64(&self) -> Finding<Hit<Place>> {
+        of_any_kind!(self, query => query.decide_in_f64().map(|hit| hit.map_place(Into::into)))
     }
 
-    fn decide_in_integers(&self) -> Option<Hit<EdgePlace>> {
-        exact::decide_turning_edges(self)
+    fn decide_in_integers(&self) -> Option<Hit<Place>> {
+        of_any_kind!(self, query => query.decide_in_integers().map(|hit| hit.map_place(Into::into)))
     }
-}
 
-impl Sealed for VertexTurningFace {}
-
-impl VertexTurningFace {
-    fn turning(&self) -> Turning<'_, 1, 3> {
-        Turning {
-            start: self.start(),
-            end: self.end(),
-            local: self.local(),
-            motion: self.motion(),
-            radius: self.radius(),
-        }
+    fn point(&self, weights: &[f64; 4], t: f64) -> Point {
+        of_any_kind!(self, query => query.point(weights, t))
     }
 }
 
-impl RigidKind for VertexTurningFace {
-    type Place = FacePlace;
-
-    #[allow(private_interfaces, reason = "only this module uses it")]
-    fn decide_in_f64(&self) -> Finding<Hit<FacePlace>> {
-        let passage = || exact::passage_of_turning_face(self);
-        self.turning().decide::<VertexFace>(passage)
-    }
-
-    fn decide_in_integers(&self) -> Option<Hit<FacePlace>> {
-        exact::decide_turning_face(self)
-    }
-}
-
-/// A query of either kind.
-#[derive(Clone, Copy)]
-struct Turning<'a, const WORLD: usize, const LOCAL: usize> {
-    start: &'a [Point; WORLD],
-    end: &'a [Point; WORLD],
-    local: &'a [Point; LOCAL],
-    motion: &'a RigidMotion,
-    radius: Radius,
-}
-
-impl<const WORLD: usize, const LOCAL: usize> Turning<'_, WORLD, LOCAL> {
+impl<const FIRST: usize, const SECOND: usize> Turning<'_, FIRST, SECOND> {
     /// The answer as far as `f64` and double-double arithmetic prove it.
     fn decide<K: Stages>(&self, passage: impl FnOnce() -> Passage) -> Finding<Hit<K::Place>> {
         let Some(moving) = Moving::new(self) else {
@@ -183,11 +213,11 @@ impl<const WORLD: usize, const LOCAL: usize> Turning<'_, WORLD, LOCAL> {
     #[inline(never)]
     fn contact<K: Stages>(
         &self,
-        moving: &Moving<WORLD, LOCAL>,
+        moving: &Moving<FIRST, SECOND>,
         proved: f64,
         passage: impl FnOnce() -> Passage,
     ) -> Option<Hit<K::Place>> {
-        let touch = touch::<K, WORLD, LOCAL>(self, moving, proved)?;
+        let touch = touch::<K, FIRST, SECOND>(self, moving, proved)?;
         let passage = match self.radius.is_zero() {
             true => CROSSING,
             false => self.passage::<K>(proved).unwrap_or_else(passage),
@@ -206,7 +236,7 @@ impl<const WORLD: usize, const LOCAL: usize> Turning<'_, WORLD, LOCAL> {
         if proved == 1.0 {
             return Some(APART);
         }
-        touch::<K, WORLD, LOCAL>(&midlines, &moving, proved).map(|_| CROSSING)
+        touch::<K, FIRST, SECOND>(&midlines, &moving, proved).map(|_| CROSSING)
     }
 }
 
@@ -231,54 +261,47 @@ const SHORTEST: f64 = 1.0 / 256.0;
 const MOST_PARTS: u32 = 24;
 
 /// A query in `f64`, of numbers of ordinary size.
-struct Moving<'a, const WORLD: usize, const LOCAL: usize> {
-    start: &'a [Point; WORLD],
-    end: &'a [Point; WORLD],
-    local: &'a [Point; LOCAL],
-    centres: [Vector; 2],
-    quaternions: [[f64; 4]; 2],
-    /// At most this, times the square of its length, is the stray of a part.
-    bend: f64,
-    /// How far from the centre the points of the body are at most: no point strays by more than
-    /// twice that, as it and its chord stay within it.
-    reach: f64,
+struct Moving<'a, const FIRST: usize, const SECOND: usize> {
+    first: MovingFirst<'a, FIRST>,
+    second: MovingBody<'a, SECOND>,
     /// The radius and what rounding adds to the stray.
     rest: f64,
 }
 
-impl<'a, const WORLD: usize, const LOCAL: usize> Moving<'a, WORLD, LOCAL> {
+/// The first side.
+enum MovingFirst<'a, const N: usize> {
+    Straight {
+        start: &'a [Point; N],
+        end: &'a [Point; N],
+    },
+    Turning(MovingBody<'a, N>),
+}
+
+/// Points of a body.
+struct MovingBody<'a, const N: usize> {
+    local: &'a [Point; N],
+    centres: [Vector; 2],
+    quaternions: [[f64; 4]; 2],
+    /// At most this, times the square of its length, is the stray of a part.
+    bend: f64,
+    /// How far from the centre the points are at most: none strays by more than twice that, as it
+    /// and its chord stay within it.
+    reach: f64,
+}
+
+impl<'a, const FIRST: usize, const SECOND: usize> Moving<'a, FIRST, SECOND> {
     /// `None` where squares could over- or underflow.
-    fn new(query: &Turning<'a, WORLD, LOCAL>) -> Option<Self> {
-        let Turning {
-            start,
-            end,
-            local,
-            motion,
-            radius,
-        } = *query;
-        let quaternions = motion.quaternions();
-        let centres = [motion.start(), motion.end()].map(|pose| plain(&pose.centre));
-        let reach = local.iter().map(|p| p.coords.norm_squared());
-        let reach = reach.fold(0.0, larger).sqrt() * UP + LEAST;
-        let mut far = 0.0;
-        for point in start.iter().chain(end) {
-            far = larger(far, largest(&plain(point).map(f64::abs)));
-        }
-        for centre in &centres {
-            far = larger(far, largest(&centre.map(f64::abs)));
-        }
-        let bend = bend(&quaternions)? * reach;
+    fn new(query: &Turning<'a, FIRST, SECOND>) -> Option<Self> {
+        let first = MovingFirst::new(&query.first)?;
+        let second = MovingBody::new(&query.second)?;
+        let far = larger(first.far(), second.far());
+        let reach = first.body().map_or(0.0, |body| body.reach) + second.reach;
         // Not below the sum of both numbers.
-        let radius = radius.rounded() * UP;
+        let radius = query.radius.rounded() * UP;
         let is_ordinary = far < LARGEST && reach < LARGEST && radius < LARGEST;
         is_ordinary.then_some(Moving {
-            start,
-            end,
-            local,
-            centres,
-            quaternions,
-            bend,
-            reach,
+            first,
+            second,
             rest: radius + ROUNDING * (far + reach) + LEAST,
         })
     }
@@ -287,17 +310,13 @@ impl<'a, const WORLD: usize, const LOCAL: usize> Moving<'a, WORLD, LOCAL> {
     /// step.
     #[inline(always)]
     fn apart_until<K: Stages>(&self, mut from: f64) -> f64 {
-        let mut length = if self.bend > FAR * self.reach {
-            0.5
-        } else {
-            1.0
-        };
+        let mut length = if self.is_far() { 0.5 } else { 1.0 };
         // Ends: after so many parts.
         for _ in 0..MOST_PARTS {
             let to = f64::min(from + length, 1.0);
-            let bend = f64::min(self.bend * (to - from) * (to - from), 2.0 * self.reach);
+            let stray = self.stray(to - from);
             let part = self.places::<f64x2>(Ends::new(from, to));
-            let until = thick::apart_until::<K>(&part, Radius::from((bend + self.rest) * UP));
+            let until = thick::apart_until::<K>(&part, Radius::from((stray + self.rest) * UP));
             if until >= 1.0 {
                 if to == 1.0 {
                     return 1.0;
@@ -317,24 +336,118 @@ impl<'a, const WORLD: usize, const LOCAL: usize> Moving<'a, WORLD, LOCAL> {
         from
     }
 
+    /// Whether a body's points stray by more than [`FAR`].
+    #[inline(always)]
+    fn is_far(&self) -> bool {
+        self.second.is_far() || self.first.body().is_some_and(MovingBody::is_far)
+    }
+
+    /// A bound on how far the difference of two points strays in a part of this length.
+    #[inline(always)]
+    fn stray(&self, length: f64) -> f64 {
+        let of_first = self.first.body().map_or(0.0, |body| body.stray(length));
+        of_first + self.second.stray(length)
+    }
+
     /// The places of all points at two times.
     #[inline(always)]
     fn places<E: Ends>(&self, t: E) -> [[E; 3]; 4] {
-        let rest = E::both(1.0) - t;
-        let between = |from: f64, to: f64| rest * E::both(from) + t * E::both(to);
-        let [c0, c1] = &self.centres;
-        let [q0, q1] = &self.quaternions;
-        let q: [E; 4] = std::array::from_fn(|i| between(q0[i], q1[i]));
-        let square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
-        let factor = E::new(2.0 / square.start(), 2.0 / square.end());
-        std::array::from_fn(|i| match i < WORLD {
-            true => std::array::from_fn(|axis| between(self.start[i][axis], self.end[i][axis])),
-            false => {
-                let turned = turned(&q, factor, &self.local[i - WORLD]);
-                std::array::from_fn(|axis| between(c0[axis], c1[axis]) + turned[axis])
-            }
+        let first = match &self.first {
+            MovingFirst::Straight { start, end } => std::array::from_fn(|i| {
+                std::array::from_fn(|axis| between(t, start[i][axis], end[i][axis]))
+            }),
+            MovingFirst::Turning(body) => body.places(t),
+        };
+        let second = self.second.places(t);
+        std::array::from_fn(|i| match i < FIRST {
+            true => first[i],
+            false => second[i - FIRST],
         })
     }
+}
+
+impl<'a, const N: usize> MovingFirst<'a, N> {
+    fn new(first: &First<'a, N>) -> Option<Self> {
+        Some(match first {
+            First::Straight { start, end } => MovingFirst::Straight { start, end },
+            First::Turning(body) => MovingFirst::Turning(MovingBody::new(body)?),
+        })
+    }
+
+    fn body(&self) -> Option<&MovingBody<'a, N>> {
+        match self {
+            MovingFirst::Straight { .. } => None,
+            MovingFirst::Turning(body) => Some(body),
+        }
+    }
+
+    /// The largest coordinate of a point, or of a body's centre.
+    fn far(&self) -> f64 {
+        match self {
+            MovingFirst::Straight { start, end } => {
+                let points = start.iter().chain(*end);
+                points.fold(0.0, |far, point| {
+                    larger(far, largest(&plain(point).map(f64::abs)))
+                })
+            }
+            MovingFirst::Turning(body) => body.far(),
+        }
+    }
+}
+
+impl<'a, const N: usize> MovingBody<'a, N> {
+    /// `None` where squares of its quaternions could over- or underflow.
+    fn new(&Body { local, motion }: &Body<'a, N>) -> Option<Self> {
+        let quaternions = motion.quaternions();
+        let reach = local.iter().map(|p| p.coords.norm_squared());
+        let reach = reach.fold(0.0, larger).sqrt() * UP + LEAST;
+        Some(MovingBody {
+            local,
+            centres: [motion.start(), motion.end()].map(|pose| plain(&pose.centre)),
+            bend: bend(&quaternions)? * reach,
+            quaternions,
+            reach,
+        })
+    }
+
+    /// The largest coordinate of its centre.
+    fn far(&self) -> f64 {
+        let [c0, c1] = self
+            .centres
+            .each_ref()
+            .map(|centre| largest(&centre.map(f64::abs)));
+        larger(c0, c1)
+    }
+
+    fn is_far(&self) -> bool {
+        self.bend > FAR * self.reach
+    }
+
+    /// A bound on how far its points stray in a part of this length.
+    #[inline(always)]
+    fn stray(&self, length: f64) -> f64 {
+        f64::min(self.bend * length * length, 2.0 * self.reach)
+    }
+
+    /// The places of its points at two times.
+    #[inline(always)]
+    fn places<E: Ends>(&self, t: E) -> [[E; 3]; N] {
+        let [c0, c1] = &self.centres;
+        let [q0, q1] = &self.quaternions;
+        let q: [E; 4] = std::array::from_fn(|i| between(t, q0[i], q1[i]));
+        let square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+        let factor = E::new(2.0 / square.start(), 2.0 / square.end());
+        std::array::from_fn(|i| {
+            let turned = turned(&q, factor, &self.local[i]);
+            std::array::from_fn(|axis| between(t, c0[axis], c1[axis]) + turned[axis])
+        })
+    }
+}
+
+/// What moves from one number to another, at two times.
+#[inline(always)]
+fn between<E: Ends>(t: E, from: f64, to: f64) -> E {
+    (E::both(1.0) - t) * E::both(from) + t * E::both(to)
 }
 
 #[inline(always)]

@@ -68,6 +68,11 @@ impl<H> Finding<H> {
         }
     }
 
+    /// The same with another form of the hit.
+    pub(super) fn map<T>(self, form: impl FnOnce(H) -> T) -> Finding<T> {
+        self.and_then(|hit| Finding::Hit(form(hit)))
+    }
+
     /// A hit if it is certain.
     pub(super) fn of_certain(hit: Option<H>) -> Self {
         hit.map_or(Finding::Undecided, Finding::Hit)

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::MOST_DEGREES;
+use super::motion::MOST_DEGREES;
 use crate::query::{Point, QueryError, Radius};
 
 /// Why poses or points are not a query.
@@ -59,41 +59,20 @@ pub enum RigidError {
     },
     /// A radius is NaN, infinite or negative.
     Radius(Radius),
+    /// There is no kind of query of so many points.
+    NumberOfPoints {
+        /// Those of the first side, at one time.
+        first: usize,
+        /// Those of the second side.
+        second: usize,
+    },
+    /// The second side is not one of a body: it has to be the one that turns.
+    SecondSide,
 }
 
 pub(super) fn first_not_finite(point: &Point) -> Option<(usize, f64)> {
     let axis = point.iter().position(|value| !value.is_finite())?;
     Some((axis, point[axis]))
-}
-
-pub(super) fn check(
-    start: &[Point],
-    end: &[Point],
-    local: &[Point],
-    radius: Radius,
-) -> Result<(), RigidError> {
-    for (at_end, points) in [(false, start), (true, end)] {
-        for (point, position) in points.iter().enumerate() {
-            if let Some((axis, value)) = first_not_finite(position) {
-                return Err(RigidError::World {
-                    point,
-                    at_end,
-                    axis,
-                    value,
-                });
-            }
-        }
-    }
-    for (point, position) in local.iter().enumerate() {
-        if let Some((axis, value)) = first_not_finite(position) {
-            let point = start.len() + point;
-            return Err(RigidError::Local { point, axis, value });
-        }
-    }
-    match radius.is_valid() {
-        true => Ok(()),
-        false => Err(RigidError::Radius(radius)),
-    }
 }
 
 impl fmt::Display for RigidError {
@@ -158,6 +137,11 @@ impl fmt::Display for RigidError {
                 )
             }
             RigidError::Radius(radius) => QueryError::Radius(radius).fmt(f),
+            RigidError::NumberOfPoints { first, second } => write!(
+                f,
+                "the sides have {first} and {second} points; it takes 2 and 2, or 1 and 3"
+            ),
+            RigidError::SecondSide => write!(f, "the second side has to be of a body that turns"),
         }
     }
 }

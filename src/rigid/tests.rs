@@ -1,4 +1,7 @@
+use nalgebra::{Quaternion, Vector3};
+
 use super::*;
+use crate::query::Point;
 
 fn pose(quaternion: [f64; 4]) -> Pose {
     let [w, x, y, z] = quaternion;
@@ -142,4 +145,59 @@ fn point_of_a_vertex_is_the_vertex() {
     let place: crate::contact::Place = hit.place.into();
     assert_eq!(place.weights(), ([1.0, 0.5, 0.25, 0.25], None));
     assert_eq!(query.point(&place.weights().0, hit.toi), p(1.0, 1.0, 0.0));
+}
+
+#[test]
+fn rigid_query_new_takes_sides_of_two_and_two_or_one_and_three_points() {
+    let still = pose([1.0, 0.0, 0.0, 0.0]);
+    let motion = RigidMotion::new(still, still).unwrap();
+    let points = [Point::origin(); 4];
+    let straight = |count: usize| Side::Straight {
+        start: &points[..count],
+        end: &points[..count],
+    };
+    let turning = |count: usize| Side::Turning {
+        local: &points[..count],
+        motion: &motion,
+    };
+    for (sides, kind) in [
+        ([straight(2), turning(2)], "edge-turning-edge"),
+        ([straight(1), turning(3)], "vertex-turning-face"),
+        ([turning(2), turning(2)], "turning-edge-turning-edge"),
+        ([turning(1), turning(3)], "turning-vertex-turning-face"),
+    ] {
+        let query = RigidQuery::new(sides, [0.5, 0.25]).unwrap();
+        assert_eq!(query.kind(), kind);
+        assert_eq!(query.sides(), sides);
+        assert_eq!(query.radius().parts(), [0.5, 0.25]);
+    }
+    let error = |sides| RigidQuery::new(sides, 0.0).unwrap_err().to_string();
+    for sides in [[turning(3), turning(1)], [straight(2), turning(3)]] {
+        assert!(error(sides).ends_with("it takes 2 and 2, or 1 and 3"));
+    }
+    assert_eq!(
+        error([turning(2), straight(2)]),
+        "the second side has to be of a body that turns"
+    );
+    let mut bad = [Point::origin(); 2];
+    bad[1].x = f64::NAN;
+    let second = Side::Turning {
+        local: &bad,
+        motion: &motion,
+    };
+    assert_eq!(
+        error([turning(2), second]),
+        "x of point D in the body's frame is NaN, not a finite number"
+    );
+}
+
+#[test]
+fn degrees_are_those_of_the_turn() {
+    for (size, degrees) in [(1.0, 30.0), (-2.5, 60.0), (1e300, 89.0), (1e-310, 10.0)] {
+        let (sin, cos) = f64::to_radians(degrees / 2.0).sin_cos();
+        let end = pose([cos * size, 0.0, sin * size, 0.0]);
+        let motion = RigidMotion::new(pose([1.0, 0.0, 0.0, 0.0]), end).unwrap();
+        let error = (motion.degrees() - degrees).abs();
+        assert!(error < 1e-6, "{error}");
+    }
 }

@@ -6,9 +6,7 @@
 //! and then takes ten seconds, which a fuzzer calls a hang.
 
 use arbitrary::Unstructured;
-use nalgebra::Quaternion;
-use tunnelproof::query::Point;
-use tunnelproof::rigid::{EdgeTurningEdge, Pose, RigidMotion, RigidQuery, VertexTurningFace};
+use tunnelproof::rigid::RigidQuery;
 use tunnelproof_reference::certify::verdict::judge;
 use tunnelproof_reference::corpus::jsonl::Numbers as Format;
 use tunnelproof_reference::corpus::turning::{self, Fields, TurningEntry};
@@ -82,7 +80,7 @@ fn changed(bytes: &mut Unstructured, count: u8, family: &RigidFamily) -> Option<
             _ => *numbers[from],
         };
     }
-    with_numbers(fields, query.radius().parts())
+    fields.query(query.kind(), query.radius()).ok()
 }
 
 fn of_numbers(
@@ -90,11 +88,16 @@ fn of_numbers(
     mut number: impl FnMut(&mut Unstructured) -> f64,
 ) -> Option<RigidQuery> {
     let more = byte(bytes);
-    let (points, local) = if more & 1 == 0 { (4, 2) } else { (2, 3) };
+    let (kind, [points, local, poses]) = match more & 0b1001 {
+        0 => ("edge-turning-edge", [4, 2, 2]),
+        1 => ("vertex-turning-face", [2, 3, 2]),
+        8 => ("turning-edge-turning-edge", [0, 4, 4]),
+        _ => ("turning-vertex-turning-face", [0, 4, 4]),
+    };
     let mut row = || [0; 3].map(|_| number(bytes));
     let points = (0..points).map(|_| row()).collect();
     let local = (0..local).map(|_| row()).collect();
-    let poses = [0; 2].map(|_| [0; 7].map(|_| number(bytes)));
+    let poses = (0..poses).map(|_| [0; 7].map(|_| number(bytes))).collect();
     let fields = Fields {
         points,
         local,
@@ -104,28 +107,5 @@ fn of_numbers(
         0 => 0.0,
         _ => number(bytes).abs(),
     };
-    with_numbers(fields, [radius(2), radius(4)])
-}
-
-fn with_numbers(fields: Fields, radius: [f64; 2]) -> Option<RigidQuery> {
-    let [start, end] = fields
-        .poses
-        .map(|[x, y, z, w, i, j, k]| Pose::new(Point::new(x, y, z), Quaternion::new(w, i, j, k)));
-    let motion = RigidMotion::new(start, end).ok()?;
-    let point = |p: &[f64; 3]| Point::from(*p);
-    let points: Vec<Point> = fields.points.iter().map(point).collect();
-    let local: Vec<Point> = fields.local.iter().map(point).collect();
-    match (&points[..], &local[..]) {
-        (&[a, b, a1, b1], &[c, d]) => {
-            EdgeTurningEdge::with_radius([a, b], [a1, b1], [c, d], motion, radius)
-                .ok()
-                .map(RigidQuery::EdgeTurningEdge)
-        }
-        (&[a, a1], &[b, c, d]) => {
-            VertexTurningFace::with_radius([a], [a1], [b, c, d], motion, radius)
-                .ok()
-                .map(RigidQuery::VertexTurningFace)
-        }
-        _ => None,
-    }
+    fields.query(kind, [radius(2), radius(4)].into()).ok()
 }

@@ -37,15 +37,11 @@ pub fn draw(title: &str, query: &Query, answer: &ExactAnswer) -> String {
     draw_motion(title, query.kind(), &[0.0, 1.0], &at, answer)
 }
 
-/// The same of a body that turns: its points move on arcs.
+/// The same of bodies that turn: their points move on arcs.
 pub fn draw_turning(title: &str, query: &RigidQuery, answer: &ExactAnswer) -> String {
-    let kind = match query {
-        RigidQuery::EdgeTurningEdge(_) => QueryKind::EdgeEdge,
-        RigidQuery::VertexTurningFace(_) => QueryKind::VertexFace,
-    };
     let times: Vec<_> = (0..=ARC).map(|i| f64::from(i) / f64::from(ARC)).collect();
     let at = |t: f64| query.positions(t).map(|point| point.coords);
-    draw_motion(title, kind, &times, &at, answer)
+    draw_motion(title, query.linear_kind(), &times, &at, answer)
 }
 
 /// How many chords an arc is drawn by.

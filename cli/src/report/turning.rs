@@ -1,38 +1,51 @@
-//! A query of a body that turns explained in text: its numbers, the turn, the exact answer and what
+//! A query of bodies that turn explained in text: its numbers, the turns, the exact answer and what
 //! everyone says.
 
 use std::fmt::Write as _;
 
+use tunnelproof::rigid::{RigidMotion, Side};
 use tunnelproof_reference::answer::ExactAnswer;
 use tunnelproof_reference::certify::verdict::judge;
-use tunnelproof_reference::corpus::turning::{Fields, TurningEntry};
+use tunnelproof_reference::corpus::turning::TurningEntry;
 use tunnelproof_reference::registry::turning_subjects;
 use tunnelproof_reference::report::{answer, number};
 
 /// The text for a query and its exact answer.
 pub fn explain(entry: &TurningEntry, truth: &ExactAnswer) -> String {
     let query = &entry.query;
-    let fields = Fields::of(query);
     let mut text = format!("{}\n\n  {}\n", entry.id, query.kind());
-    let first = query.start().len();
-    for (index, point) in fields.points.iter().enumerate() {
-        row(
-            &mut text,
-            &format!("{}({})", NAMES[index % first], index / first),
-            point,
-        );
-    }
-    for (index, point) in fields.local.iter().enumerate() {
-        row(&mut text, &format!("{} local", NAMES[first + index]), point);
-    }
-    for (index, pose) in fields.poses.iter().enumerate() {
-        row(&mut text, &format!("centre({index})"), &pose[..3]);
-        row(&mut text, &format!("quaternion({index})"), &pose[3..]);
+    let mut names = NAMES.iter();
+    for (side, of) in query.sides().iter().zip(["first", "second"]) {
+        let names: Vec<_> = names.by_ref().take(side.number_of_points()).collect();
+        match side {
+            Side::Straight { start, end } => {
+                for (time, points) in [start, end].iter().enumerate() {
+                    for (name, point) in names.iter().zip(**points) {
+                        row(
+                            &mut text,
+                            &format!("{name}({time})"),
+                            point.coords.as_slice(),
+                        );
+                    }
+                }
+            }
+            Side::Turning { local, motion } => {
+                for (name, point) in names.iter().zip(*local) {
+                    row(&mut text, &format!("{name} local"), point.coords.as_slice());
+                }
+                poses(&mut text, motion);
+                let _ = writeln!(
+                    text,
+                    "  The {of} side turns by {:.3} degrees.",
+                    motion.degrees()
+                );
+            }
+        }
     }
     if !query.radius().is_zero() {
         let _ = writeln!(text, "  radius  {}", query.radius());
     }
-    let _ = writeln!(text, "\nThe body turns by {:.3} degrees.", degrees(&fields));
+    text.push('\n');
     let _ = writeln!(text, "Case: {}\n", truth.case);
     for subject in turning_subjects() {
         let answer = (subject.answer)(query);
@@ -53,13 +66,14 @@ fn row(text: &mut String, name: &str, numbers: &[f64]) {
     let _ = writeln!(text, "  {name:<14}  {}", numbers.join("  "));
 }
 
-/// The angle of the turn.
-fn degrees(Fields { poses, .. }: &Fields) -> f64 {
-    let [q0, q1] = poses.map(|[_, _, _, w, x, y, z]| {
-        let largest = [w, x, y, z].iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-        [w, x, y, z].map(|component| component / largest)
-    });
-    let product = |x: [f64; 4], y: [f64; 4]| -> f64 { (0..4).map(|i| x[i] * y[i]).sum() };
-    let cosine = product(q0, q1).abs() / (product(q0, q0) * product(q1, q1)).sqrt();
-    2.0 * cosine.min(1.0).acos().to_degrees()
+fn poses(text: &mut String, motion: &RigidMotion) {
+    for (time, pose) in [motion.start(), motion.end()].iter().enumerate() {
+        let q = pose.quaternion;
+        row(
+            text,
+            &format!("centre({time})"),
+            pose.centre.coords.as_slice(),
+        );
+        row(text, &format!("quaternion({time})"), &[q.w, q.i, q.j, q.k]);
+    }
 }

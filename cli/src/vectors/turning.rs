@@ -45,12 +45,15 @@ struct Vector {
     /// In metres: a number, or two whose exact sum it is.
     radius: Value,
     radius_hex: Value,
+    /// In space; two bodies have none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     points: Vec<[f64; 3]>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     points_hex: Vec<[String; 3]>,
     local: Vec<[f64; 3]>,
     local_hex: Vec<[String; 3]>,
-    poses: [[f64; 7]; 2],
-    poses_hex: [[String; 7]; 2],
+    poses: Vec<[f64; 7]>,
+    poses_hex: Vec<[String; 7]>,
     result: answer::Fields,
     /// Of the exact time of impact, if it is one.
     fraction: Option<Fraction>,
@@ -130,7 +133,10 @@ impl Vector {
             radius_hex: jsonl::radius(query.radius(), Numbers::Hexadecimal),
             points_hex: hex(&points),
             local_hex: hex(&local),
-            poses_hex: poses.map(|pose| pose.map(hexfloat::format)),
+            poses_hex: poses
+                .iter()
+                .map(|pose| pose.map(hexfloat::format))
+                .collect(),
             length: length.map(|x| x.to_string().len()).sum(),
             points,
             local,

@@ -50,7 +50,11 @@ pub enum Problem {
     #[error("kind is {}, neither edge-edge nor vertex-face", quoted(.0))]
     KindUnknown(String),
     /// The kind is none of bodies that turn.
-    #[error("kind is {}, neither edge-turning-edge nor vertex-turning-face", quoted(.0))]
+    #[error(
+        "kind is {}, not edge-turning-edge, vertex-turning-face, turning-edge-turning-edge or \
+         turning-vertex-turning-face",
+        quoted(.0)
+    )]
     TurningKindUnknown(String),
     /// The poses, the points and the radius are no query of a body that turns.
     #[error(transparent)]

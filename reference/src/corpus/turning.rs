@@ -5,11 +5,14 @@
 //!  "poses": [[0, 0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0, 0.5]], "radius": 0}
 //! ```
 //!
-//! - `kind`: `edge-turning-edge` or `vertex-turning-face`.
-//! - `points`: the points in space, at `t = 0` and then at `t = 1`: A, B, A, B, or A, A.
-//! - `local`: the points in the body's frame: C, D, or B, C, D.
+//! - `kind`: `edge-turning-edge` or `vertex-turning-face`; of two bodies `turning-edge-turning-edge`
+//!   or `turning-vertex-turning-face`.
+//! - `points`: the points in space, at `t = 0` and then at `t = 1`: A, B, A, B, or A, A. Two bodies
+//!   have none.
+//! - `local`: the points in the body's frame: C, D, or B, C, D. Of two bodies A, B, C, D, those of
+//!   the first side in the frame of the first body.
 //! - `poses`: of the body at `t = 0` and at `t = 1`, seven numbers each: x, y, z of the centre and
-//!   w, x, y, z of the quaternion.
+//!   w, x, y, z of the quaternion. Of two bodies four, the first body's before the second one's.
 //! - `id`, `radius`, `label` and `note`, and numbers: as in [`jsonl`].
 
 use std::fs::File;
@@ -20,7 +23,7 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::json;
 use tunnelproof::query::{Point, Radius};
-use tunnelproof::rigid::{EdgeTurningEdge, Pose, RigidMotion, RigidQuery, VertexTurningFace};
+use tunnelproof::rigid::{Pose, RigidMotion, RigidQuery, Side};
 
 use super::error::{CorpusError, Problem, shortened};
 use super::jsonl::{self, Label, Number, Numbers, Radii, given, number};
@@ -42,28 +45,100 @@ pub struct TurningEntry {
 
 /// The numbers of a query, in the order of the fields.
 pub struct Fields {
-    /// The points in space at both ends of the step.
+    /// The points in space at both ends of the step; none if both sides turn.
     pub points: Vec<[f64; 3]>,
-    /// The points in the body's frame.
+    /// The points in the frame of the body, or of the first body and then of the second one.
     pub local: Vec<[f64; 3]>,
-    /// The poses of the body.
-    pub poses: [[f64; 7]; 2],
+    /// The poses of the body, or of the first body and then of the second one.
+    pub poses: Vec<[f64; 7]>,
 }
 
 impl Fields {
     /// The numbers of a query.
     pub fn of(query: &RigidQuery) -> Self {
+        let mut fields = Fields {
+            points: Vec::new(),
+            local: Vec::new(),
+            poses: Vec::new(),
+        };
         let plain = |point: &Point| [point.x, point.y, point.z];
-        let poses = [query.motion().start(), query.motion().end()];
-        Fields {
-            points: query.start().iter().chain(query.end()).map(plain).collect(),
-            local: query.local().iter().map(plain).collect(),
-            poses: poses.map(|Pose { centre, quaternion }| {
-                let ([x, y, z], q) = (plain(centre), quaternion);
-                [x, y, z, q.w, q.i, q.j, q.k]
-            }),
+        for side in query.sides() {
+            match side {
+                Side::Straight { start, end } => {
+                    fields.points.extend(start.iter().chain(end).map(plain));
+                }
+                Side::Turning { local, motion } => {
+                    fields.local.extend(local.iter().map(plain));
+                    fields
+                        .poses
+                        .extend([motion.start(), motion.end()].map(numbers));
+                }
+            }
         }
+        fields
     }
+
+    /// The query of these numbers, if there is one of this kind.
+    ///
+    /// # Errors
+    ///
+    /// [`Problem`] says what is wrong with them.
+    pub fn query(&self, kind: &str, radius: Radius) -> Result<RigidQuery, Problem> {
+        // How many points the first side has, and whether it turns.
+        let (first, turns) = match kind {
+            "edge-turning-edge" => (2, false),
+            "vertex-turning-face" => (1, false),
+            "turning-edge-turning-edge" => (2, true),
+            "turning-vertex-turning-face" => (1, true),
+            _ => return Err(Problem::TurningKindUnknown(kind.to_owned())),
+        };
+        let straight = if turns { 0 } else { first };
+        let length = |place: &str, count, expected| match count == expected {
+            true => Ok(()),
+            false => Err(Problem::Length {
+                place: place.to_owned(),
+                count,
+                expected,
+            }),
+        };
+        length("points", self.points.len(), 2 * straight)?;
+        length("local", self.local.len(), 4 - straight)?;
+        let number_of_poses = if turns { 4 } else { 2 };
+        length("poses", self.poses.len(), number_of_poses)?;
+        let points = |rows: &[[f64; 3]]| rows.iter().copied().map(Point::from).collect::<Vec<_>>();
+        let (points, local) = (points(&self.points), points(&self.local));
+        let poses: Vec<Pose> = self.poses.iter().copied().map(pose).collect();
+        let motions = poses
+            .chunks_exact(2)
+            .map(|pair| RigidMotion::new(pair[0], pair[1]));
+        let motions: Vec<RigidMotion> = motions.collect::<Result<_, _>>()?;
+        let sides = match &motions[..] {
+            [motion] => {
+                let (start, end) = points.split_at(first);
+                let local = &local[..];
+                [
+                    Side::Straight { start, end },
+                    Side::Turning { local, motion },
+                ]
+            }
+            [own, other] => {
+                let (first, second) = local.split_at(first);
+                let side = |local, motion| Side::Turning { local, motion };
+                [side(first, own), side(second, other)]
+            }
+            _ => return Err(Problem::TurningKindUnknown(kind.to_owned())),
+        };
+        Ok(RigidQuery::new(sides, radius)?)
+    }
+}
+
+fn numbers(
+    Pose {
+        centre,
+        quaternion: q,
+    }: &Pose,
+) -> [f64; 7] {
+    [centre.x, centre.y, centre.z, q.w, q.i, q.j, q.k]
 }
 
 /// A query as a line of JSON, without the line end.
@@ -81,13 +156,19 @@ pub fn write(entry: &TurningEntry, numbers: Numbers) -> String {
         Some(label) => format!(r#","label":{label}"#),
         None => String::new(),
     };
+    let points = match points.is_empty() {
+        true => String::new(),
+        false => format!(r#""points":{},"#, json!(of_points(points))),
+    };
+    let poses = poses
+        .into_iter()
+        .map(|pose| pose.map(|x| number(x, numbers)));
     format!(
-        r#"{{"id":{},"kind":"{}","points":{},"local":{},"poses":{},"radius":{}{label}}}"#,
+        r#"{{"id":{},"kind":"{}",{points}"local":{},"poses":{},"radius":{}{label}}}"#,
         json!(entry.id),
         entry.query.kind(),
-        json!(of_points(points)),
         json!(of_points(local)),
-        json!(poses.map(|pose| pose.map(|x| number(x, numbers)))),
+        json!(poses.collect::<Vec<_>>()),
         jsonl::radius(entry.query.radius(), numbers),
     )
 }
@@ -172,6 +253,7 @@ pub fn parse(text: &str) -> Result<TurningEntry, Problem> {
 struct Record {
     id: Option<String>,
     kind: String,
+    #[serde(default)]
     points: Vec<Vec<Number>>,
     local: Vec<Vec<Number>>,
     poses: Vec<Vec<Number>>,
@@ -196,44 +278,21 @@ fn entry(line: &Line) -> Result<TurningEntry, Problem> {
     })?;
     let end = json.end();
     end.map_err(|error| jsonl::problem(String::new(), &error))?;
-    let points = rows("points", record.points)?;
-    let local = rows("local", record.local)?;
-    let [start, end] = sized("poses", rows("poses", record.poses)?)?.map(pose);
-    let motion = RigidMotion::new(start, end)?;
+    let fields = Fields {
+        points: rows("points", record.points)?,
+        local: rows("local", record.local)?,
+        poses: rows("poses", record.poses)?,
+    };
     let radius = match record.radius {
         Some(radii) => radii.sum()?,
         None => Radius::ZERO,
     };
-    let query = query(&record.kind, points, local, motion, radius)?;
+    let query = fields.query(&record.kind, radius)?;
     Ok(TurningEntry {
         id: record.id.unwrap_or_else(|| line.number.to_string()),
         query,
         label: record.label.map(|Label(hit)| hit),
     })
-}
-
-fn query(
-    kind: &str,
-    points: Vec<[f64; 3]>,
-    local: Vec<[f64; 3]>,
-    motion: RigidMotion,
-    radius: Radius,
-) -> Result<RigidQuery, Problem> {
-    match kind {
-        "edge-turning-edge" => {
-            let [a, b, a1, b1] = sized("points", points)?.map(Point::from);
-            let local = sized("local", local)?.map(Point::from);
-            let query = EdgeTurningEdge::with_radius([a, b], [a1, b1], local, motion, radius)?;
-            Ok(RigidQuery::EdgeTurningEdge(query))
-        }
-        "vertex-turning-face" => {
-            let [start, end] = sized("points", points)?.map(Point::from);
-            let local = sized("local", local)?.map(Point::from);
-            let query = VertexTurningFace::with_radius([start], [end], local, motion, radius)?;
-            Ok(RigidQuery::VertexTurningFace(query))
-        }
-        _ => Err(Problem::TurningKindUnknown(kind.to_owned())),
-    }
 }
 
 /// Rows of this many numbers.
@@ -250,10 +309,6 @@ fn rows<const N: usize>(
         array(|| format!("{field}[{index}]"), numbers?)
     };
     rows.into_iter().enumerate().map(row).collect()
-}
-
-fn sized<T, const N: usize>(field: &'static str, items: Vec<T>) -> Result<[T; N], Problem> {
-    array(|| field.to_owned(), items)
 }
 
 fn array<T, const N: usize>(place: impl Fn() -> String, items: Vec<T>) -> Result<[T; N], Problem> {

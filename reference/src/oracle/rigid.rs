@@ -6,13 +6,18 @@
 //! turned. Every predicate of the oracle is homogeneous in the differences and the same in a turned
 //! frame, and none of its reasons needs more than that the motion is continuous and polynomial. So
 //! it is the oracle for linear motion, on other polynomials. A radius `R` is `D R` there.
+//!
+//! Where the first side is of a body of its own, with the quaternion `p` and the centre `b`, its
+//! points are `q* (P (b - c) + p x p*) q`, `P = |p|^2`, and those of the second body `P D x`: then all
+//! differences have the factor `P D`.
 
+use tunnelproof::query::QueryKind;
 use tunnelproof::rigid::RigidQuery;
 
 use crate::answer::ExactAnswer;
 use crate::field::{self, Integer};
 use crate::poly::Poly;
-use crate::scaled::ScaledRigid;
+use crate::scaled::{ScaledBody, ScaledRigid, ScaledSide};
 
 use super::edges::Edges;
 use super::face::Face;
@@ -31,9 +36,9 @@ pub fn decide_rigid<Z: Integer>(query: &RigidQuery) -> Decision<Z> {
     let scaled = ScaledRigid::new(query);
     let InBody { points, size } = InBody::<Z>::new(&scaled);
     let way = |from: usize, to: usize| points[to].sub(&points[from]);
-    let motion: Box<dyn Motion<Z>> = match query {
-        RigidQuery::EdgeTurningEdge(_) => Box::new(Edges::of(way(0, 1), way(2, 3), way(0, 2))),
-        RigidQuery::VertexTurningFace(_) => Box::new(Face::of(way(1, 0), way(1, 2), way(1, 3))),
+    let motion: Box<dyn Motion<Z>> = match query.linear_kind() {
+        QueryKind::EdgeEdge => Box::new(Edges::of(way(0, 1), way(2, 3), way(0, 2))),
+        QueryKind::VertexFace => Box::new(Face::of(way(1, 0), way(1, 2), way(1, 3))),
     };
     let radius = query.radius();
     let near = (!radius.is_zero()).then(|| Near {
@@ -43,35 +48,53 @@ pub fn decide_rigid<Z: Integer>(query: &RigidQuery) -> Decision<Z> {
     Decision::of(motion, near)
 }
 
-/// The motion in the body's frame.
+/// The motion in the frame of the second side's body.
 struct InBody<Z> {
-    /// The four points, times `D`.
+    /// The four points, times `size`.
     points: Vec<Vector<Z>>,
-    /// `D`.
+    /// `D`, or `P D`.
     size: Poly<Z>,
 }
 
 impl<Z: Integer> InBody<Z> {
     fn new(points: &ScaledRigid<Z>) -> Self {
-        let [q0, q1] = &points.quaternions;
-        let q = Quaternion([0, 1, 2, 3].map(|i| Poly::line(&q0[i], &q1[i])));
-        let conjugate = q.conjugate();
-        let [size, ..] = conjugate.product(&q).0;
-        let [c0, c1] = &points.centres;
-        let world = points.world.iter().map(|[start, end]| {
-            let from_centre =
+        let body = &points.second;
+        let q = Quaternion::of(body);
+        let [c0, c1] = &body.centres;
+        let from_centre = |[start, end]: [&[Z; 3]; 2]| {
+            let difference =
                 |point: &[Z; 3], centre: &[Z; 3]| [0, 1, 2].map(|h| point[h].sub(&centre[h]));
-            let Vector([x, y, z]) = Vector::linear(&from_centre(start, c0), &from_centre(end, c1));
-            let way = Quaternion([Poly::zero(), x, y, z]);
-            let Quaternion([_, x, y, z]) = conjugate.product(&way).product(&q);
-            Vector([x, y, z])
-        });
-        let local = points.local.iter().map(|point| {
+            Vector::linear(&difference(start, c0), &difference(end, c1))
+        };
+        let into_frame = |way: Vector<Z>| q.conjugate().turned(way);
+        let mut size = q.size();
+        let first: Vec<Vector<Z>> = match &points.first {
+            ScaledSide::Straight(points) => {
+                let ways = points.iter().map(|point| from_centre(point.each_ref()));
+                ways.map(into_frame).collect()
+            }
+            ScaledSide::Turning(own) => {
+                let p = Quaternion::of(own);
+                let Vector(way) = from_centre(own.centres.each_ref());
+                let centre = Vector(way.map(|x| x.mul(&p.size())));
+                size = size.mul(&p.size());
+                let turned = |x: &[Z; 3]| {
+                    let Vector(x) = p.turned(Vector(x.clone().map(Poly::constant)));
+                    let [h, i, j] = &centre.0;
+                    let [a, b, c] = &x;
+                    into_frame(Vector([h.add(a), i.add(b), j.add(c)]))
+                };
+                own.local.iter().map(turned).collect()
+            }
+        };
+        let second = body.local.iter().map(|point| {
             let coordinate = |h: usize| size.scale(&point[h]);
             Vector([0, 1, 2].map(coordinate))
         });
-        let points = world.chain(local).collect();
-        InBody { points, size }
+        InBody {
+            points: first.into_iter().chain(second).collect(),
+            size,
+        }
     }
 }
 
@@ -79,6 +102,25 @@ impl<Z: Integer> InBody<Z> {
 struct Quaternion<Z>([Poly<Z>; 4]);
 
 impl<Z: Integer> Quaternion<Z> {
+    /// That of a body, which moves on a line.
+    fn of(body: &ScaledBody<Z>) -> Self {
+        let [q0, q1] = &body.quaternions;
+        Quaternion([0, 1, 2, 3].map(|i| Poly::line(&q0[i], &q1[i])))
+    }
+
+    /// `|q|^2`.
+    fn size(&self) -> Poly<Z> {
+        let [size, ..] = self.conjugate().product(self).0;
+        size
+    }
+
+    /// `q x q*`: turned, times the square of the length.
+    fn turned(&self, Vector([x, y, z]): Vector<Z>) -> Vector<Z> {
+        let way = Quaternion([Poly::zero(), x, y, z]);
+        let Quaternion([_, x, y, z]) = self.product(&way).product(&self.conjugate());
+        Vector([x, y, z])
+    }
+
     fn conjugate(&self) -> Self {
         let [w, x, y, z] = &self.0;
         Quaternion([w.clone(), x.neg(), y.neg(), z.neg()])

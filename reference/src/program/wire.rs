@@ -112,11 +112,7 @@ impl AskedQuery for RigidQuery {
     }
 
     fn refusal(&self) -> Unsupported {
-        let kind = match self {
-            RigidQuery::EdgeTurningEdge(_) => QueryKind::EdgeEdge,
-            RigidQuery::VertexTurningFace(_) => QueryKind::VertexFace,
-        };
-        refusal(kind, self.radius())
+        refusal(self.linear_kind(), self.radius())
     }
 }
 

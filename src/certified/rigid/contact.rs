@@ -16,9 +16,9 @@ use super::differences::Differences;
 use super::features::Features;
 use super::place::{SHARE_ERROR, place};
 use super::root::root_after;
-use super::series::{LONG, SHORT, Series};
+use super::series::{LONG, LONG_OF_TWO, SHORT, SHORT_OF_TWO, Series};
 use super::term::{Vector, cross, dot};
-use super::{Moving, Turning};
+use super::{First, Moving, Turning};
 use crate::certified::exact::Passage;
 use crate::certified::kind::Stages;
 use crate::certified::nearest::Spot;
@@ -65,40 +65,48 @@ pub(super) const APART: Passage = Passage {
 };
 
 /// The first contact, if it is certain, of what is apart up to a time.
-pub(super) fn touch<K: Stages, const WORLD: usize, const LOCAL: usize>(
-    query: &Turning<WORLD, LOCAL>,
-    moving: &Moving<WORLD, LOCAL>,
+pub(super) fn touch<K: Stages, const FIRST: usize, const SECOND: usize>(
+    query: &Turning<FIRST, SECOND>,
+    moving: &Moving<FIRST, SECOND>,
     apart_until: f64,
 ) -> Option<Touch> {
     let is_thick = !query.radius.is_zero();
     if apart_until == 0.0
         && is_thick
-        && let Some(touch) = near_start::<K, WORLD, LOCAL>(query, moving)
+        && let Some(touch) = near_start::<K, FIRST, SECOND>(query, moving)
     {
         return Some(touch);
     }
     let guess = moving.guess::<K>(query.radius, apart_until)?;
     let spot = is_thick.then(|| moving.nearest::<K>(guess).0);
-    match is_thick && K::FIRST == 2 {
-        true => touch_near::<K, LONG, WORLD, LOCAL>(query, apart_until, guess, spot.as_ref()),
-        false => touch_near::<K, SHORT, WORLD, LOCAL>(query, apart_until, guess, spot.as_ref()),
+    let (is_long, spot) = (is_thick && K::FIRST == 2, spot.as_ref());
+    let do_both_turn = matches!(query.first, First::Turning(_));
+    match (do_both_turn, is_long) {
+        (false, false) => touch_near::<K, SHORT, FIRST, SECOND>(query, apart_until, guess, spot),
+        (false, true) => touch_near::<K, LONG, FIRST, SECOND>(query, apart_until, guess, spot),
+        (true, false) => {
+            touch_near::<K, SHORT_OF_TWO, FIRST, SECOND>(query, apart_until, guess, spot)
+        }
+        (true, true) => {
+            touch_near::<K, LONG_OF_TWO, FIRST, SECOND>(query, apart_until, guess, spot)
+        }
     }
 }
 
 /// The first contact after a time, if it is certain that it is near a guess.
-fn touch_near<K: Stages, const N: usize, const WORLD: usize, const LOCAL: usize>(
-    query: &Turning<WORLD, LOCAL>,
+fn touch_near<K: Stages, const N: usize, const FIRST: usize, const SECOND: usize>(
+    query: &Turning<FIRST, SECOND>,
     mut from: f64,
     guess: f64,
     spot: Option<&Spot>,
 ) -> Option<Touch> {
     for _ in 0..HALVES {
-        let part = Part::<N>::new::<K, WORLD, LOCAL>(query, [from, guess], spot)?;
-        if let Some(touch) = part.touch::<K, WORLD, LOCAL>(query, guess, spot) {
+        let part = Part::<N>::new::<K, FIRST, SECOND>(query, [from, guess], spot)?;
+        if let Some(touch) = part.touch::<K, FIRST, SECOND>(query, guess, spot) {
             return Some(touch);
         }
         let half = [from, part.middle];
-        let part = Part::<N>::new::<K, WORLD, LOCAL>(query, half, spot)?;
+        let part = Part::<N>::new::<K, FIRST, SECOND>(query, half, spot)?;
         if !part.is_clear(half[1]) {
             return None;
         }
@@ -108,12 +116,12 @@ fn touch_near<K: Stages, const N: usize, const WORLD: usize, const LOCAL: usize>
 }
 
 /// The contact at the start, if they are certainly nearer than a radius then.
-fn near_start<K: Stages, const WORLD: usize, const LOCAL: usize>(
-    query: &Turning<WORLD, LOCAL>,
-    moving: &Moving<WORLD, LOCAL>,
+fn near_start<K: Stages, const FIRST: usize, const SECOND: usize>(
+    query: &Turning<FIRST, SECOND>,
+    moving: &Moving<FIRST, SECOND>,
 ) -> Option<Touch> {
     let (spot, _) = moving.nearest::<K>(0.0);
-    let now = Now::new::<K, WORLD, LOCAL>(query, Ball::ZERO, Some(&spot))?;
+    let now = Now::new::<K, FIRST, SECOND>(query, Ball::ZERO, Some(&spot))?;
     let is_nearest = now.features.throughout.iter().all(|c| c.sign() == ABOVE);
     let is_near = now.features.excess.sign() == Some(Ordering::Less);
     // The case is a general one.
@@ -135,13 +143,13 @@ struct Part<const N: usize> {
 
 impl<const N: usize> Part<N> {
     /// With the features that are nearest at a place, or, without a radius, both sides inside.
-    fn new<K: Stages, const WORLD: usize, const LOCAL: usize>(
-        query: &Turning<WORLD, LOCAL>,
+    fn new<K: Stages, const FIRST: usize, const SECOND: usize>(
+        query: &Turning<FIRST, SECOND>,
         [from, to]: [f64; 2],
         spot: Option<&Spot>,
     ) -> Option<Self> {
         let middle = from + 0.5 * (to - from);
-        let differences = Differences::<Series<N>>::new::<K, WORLD, LOCAL>(query, middle);
+        let differences = Differences::<Series<N>>::new::<K, FIRST, SECOND>(query, middle);
         let n = cross(&differences.k.vector, &differences.l.vector);
         Some(Part {
             from,
@@ -152,13 +160,13 @@ impl<const N: usize> Part<N> {
     }
 
     /// The first contact, if it is certain that it is near the guess.
-    fn touch<K: Stages, const WORLD: usize, const LOCAL: usize>(
+    fn touch<K: Stages, const FIRST: usize, const SECOND: usize>(
         &self,
-        query: &Turning<WORLD, LOCAL>,
+        query: &Turning<FIRST, SECOND>,
         guess: f64,
         spot: Option<&Spot>,
     ) -> Option<Touch> {
-        let now = |time: Ball| Now::new::<K, WORLD, LOCAL>(query, time, spot);
+        let now = |time: Ball| Now::new::<K, FIRST, SECOND>(query, time, spot);
         let excess = |time: Ball| now(time).map_or(Ball::UNKNOWN, |now| now.features.excess);
         let root = root_after(&self.features.excess, self.middle, self.from, guess, excess)?;
         // Before it they are apart: with a radius, farther than that.
@@ -203,12 +211,12 @@ struct Now {
 }
 
 impl Now {
-    fn new<K: Stages, const WORLD: usize, const LOCAL: usize>(
-        query: &Turning<WORLD, LOCAL>,
+    fn new<K: Stages, const FIRST: usize, const SECOND: usize>(
+        query: &Turning<FIRST, SECOND>,
         time: Ball,
         spot: Option<&Spot>,
     ) -> Option<Self> {
-        let differences = Differences::<Ball>::new::<K, WORLD, LOCAL>(query, time);
+        let differences = Differences::<Ball>::new::<K, FIRST, SECOND>(query, time);
         let n = cross(&differences.k.vector, &differences.l.vector);
         Some(Now {
             features: Features::new(&differences, &n, spot, query.radius)?,

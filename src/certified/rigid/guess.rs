@@ -9,12 +9,12 @@ use crate::certified::nearest::{Gram, Spot};
 use crate::query::Radius;
 
 /// The first step in which a change of sign is looked for, as a part of the time step.
-const FIRST: f64 = 1.0 / 1024.0;
+const FIRST_STEP: f64 = 1.0 / 1024.0;
 
 /// The most steps of the secant method.
 const STEPS: usize = 60;
 
-impl<const WORLD: usize, const LOCAL: usize> Moving<'_, WORLD, LOCAL> {
+impl<const FIRST: usize, const SECOND: usize> Moving<'_, FIRST, SECOND> {
     /// The places of all points at a time.
     pub(super) fn places_at(&self, t: f64) -> [Vector; 4] {
         let both = self.places(Plain::both(t));
@@ -50,7 +50,7 @@ impl<const WORLD: usize, const LOCAL: usize> Moving<'_, WORLD, LOCAL> {
         let first = excess(from);
         let sign = first.signum();
         let (mut low, mut at_low) = (from, sign * first);
-        let mut length = FIRST;
+        let mut length = FIRST_STEP;
         let (mut high, mut at_high) = loop {
             let t = f64::min(low + length, 1.0);
             let value = sign * excess(t);

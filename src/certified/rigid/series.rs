@@ -19,6 +19,13 @@ pub(super) const SHORT: usize = 7;
 /// For a degree up to 12: the squared distance of two edges.
 pub(super) const LONG: usize = 13;
 
+/// The same where both sides turn: `f` of two edges has the degree 9, the squared distance of a
+/// vertex and a face 10.
+pub(super) const SHORT_OF_TWO: usize = 11;
+
+/// The squared distance of two edges that both turn: 18.
+pub(super) const LONG_OF_TWO: usize = 19;
+
 impl<const N: usize> Series<N> {
     /// The polynomial with these coefficients, in ascending order of powers.
     fn of(numbers: &[Rough]) -> Self {

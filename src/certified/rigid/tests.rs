@@ -2,6 +2,7 @@ use nalgebra::Quaternion;
 
 use super::*;
 use crate::rigid::Pose;
+use crate::rigid::RigidMotion;
 
 /// A rod of length 2 about its middle, which turns by so many degrees about z while it moves by
 /// `away` along x, and a wire along z at `(x, y)`.
@@ -57,7 +58,7 @@ fn stray_is_bounded() {
             };
             let moving = Moving::new(&query.turning()).unwrap();
             for (from, to) in [(0.0, 1.0), (0.0, 0.25), (0.75, 1.0), (0.5, 0.625)] {
-                let bound = moving.bend * (to - from) * (to - from) + moving.rest;
+                let bound = moving.stray(to - from) + moving.rest;
                 let [start, end] = [from, to].map(|t| moving.places_at(t)[3]);
                 for i in 0..=16 {
                     let share = f64::from(i) / 16.0;

@@ -8,28 +8,30 @@
 //! exact: the body comes as near as the radius at a fraction, and goes again.
 
 use rand::{Rng, RngExt};
-use tunnelproof::query::{Query, QueryKind, Radius};
-use tunnelproof::rigid::RigidQuery;
+use tunnelproof::query::{Query, Radius};
+use tunnelproof::rigid::{RigidQuery, Side};
 
 use super::super::thick::{nudged, of_lines, of_vertices, parts};
-use super::{RigidFamily, at_a_fraction, edges, face, first};
+use super::draft::first;
+use super::one::at_a_fraction;
+use super::{RigidFamily, bodies, one};
 
 pub(super) const UNIFORM: RigidFamily = RigidFamily {
     name: "turning_thick_uniform",
     description: "with a radius: random poses, random points",
-    draw: |rng| thick(rng, super::uniform),
+    draw: |rng| thick(rng, one::uniform),
 };
 
 pub(super) const LATTICE: RigidFamily = RigidFamily {
     name: "turning_thick_lattice",
     description: "with a radius: small integers",
-    draw: |rng| thick(rng, super::lattice),
+    draw: |rng| thick(rng, one::lattice),
 };
 
 pub(super) const CONFINED: RigidFamily = RigidFamily {
     name: "turning_thick_confined",
     description: "with a radius: in a plane, on a line or parallel for the whole step",
-    draw: |rng| thick(rng, super::confined),
+    draw: |rng| thick(rng, one::confined),
 };
 
 pub(super) const TANGENT: RigidFamily = RigidFamily {
@@ -41,19 +43,37 @@ pub(super) const TANGENT: RigidFamily = RigidFamily {
 pub(super) const STILL: RigidFamily = RigidFamily {
     name: "turning_thick_still",
     description: "with a radius: no turn, in coordinates in which the linear query is exact",
-    draw: |rng| thick(rng, super::translation),
+    draw: |rng| thick(rng, one::translation),
 };
 
 pub(super) const PLATES: RigidFamily = RigidFamily {
     name: "turning_thick_plates",
     description: "with a radius: thin plates and rods that turn fast",
-    draw: |rng| thick(rng, super::plates),
+    draw: |rng| thick(rng, one::plates),
 };
 
 pub(super) const SCALES: RigidFamily = RigidFamily {
     name: "turning_thick_scales",
     description: "with a radius: lengths from 1e-6 to 1e6, quaternions of any length",
-    draw: |rng| thick(rng, super::scales),
+    draw: |rng| thick(rng, one::scales),
+};
+
+pub(super) const BODIES_UNIFORM: RigidFamily = RigidFamily {
+    name: "turning_bodies_thick_uniform",
+    description: "two bodies with a radius: random poses, random points",
+    draw: |rng| thick(rng, bodies::uniform),
+};
+
+pub(super) const BODIES_LATTICE: RigidFamily = RigidFamily {
+    name: "turning_bodies_thick_lattice",
+    description: "two bodies with a radius: small integers",
+    draw: |rng| thick(rng, bodies::lattice),
+};
+
+pub(super) const BODIES_STILL: RigidFamily = RigidFamily {
+    name: "turning_bodies_thick_still",
+    description: "two bodies with a radius: the first one does not turn, in exact coordinates",
+    draw: |rng| thick(rng, bodies::still),
 };
 
 /// In one of four an ulp less than the distance, so that they just do not touch.
@@ -69,8 +89,14 @@ fn tangent(rng: &mut dyn Rng) -> RigidQuery {
 fn thick(rng: &mut dyn Rng, draw: fn(&mut dyn Rng) -> RigidQuery) -> RigidQuery {
     let query = draw(rng);
     let size = |query: &RigidQuery| {
-        let points = query.start().iter().chain(query.end());
-        points.fold(0.0, |size: f64, point| size.max(point.coords.amax()))
+        let [first, _] = query.sides();
+        let points = match first {
+            Side::Straight { start, end } => [start, end].concat(),
+            Side::Turning { .. } => [query.positions(0.0), query.positions(1.0)].concat(),
+        };
+        points
+            .iter()
+            .fold(0.0, |size: f64, point| size.max(point.coords.amax()))
     };
     let radius = match rng.random_range(0..16) {
         0..5 => {
@@ -100,21 +126,10 @@ fn at_some_time(rng: &mut dyn Rng, query: &RigidQuery) -> Query {
         1 => 1.0,
         _ => rng.random_range(0.0..1.0),
     };
-    let kind = match query {
-        RigidQuery::EdgeTurningEdge(_) => QueryKind::EdgeEdge,
-        RigidQuery::VertexTurningFace(_) => QueryKind::VertexFace,
-    };
     let points = query.positions(t);
-    Query::new(kind, points, points, 0.0).expect("positions are finite")
+    Query::new(query.linear_kind(), points, points, 0.0).expect("positions are finite")
 }
 
 fn with_radius(query: &RigidQuery, radius: Radius) -> Option<RigidQuery> {
-    match query {
-        RigidQuery::EdgeTurningEdge(q) => {
-            edges((*q.start(), *q.end(), *q.local()), *q.motion(), radius)
-        }
-        RigidQuery::VertexTurningFace(q) => {
-            face((*q.start(), *q.end(), *q.local()), *q.motion(), radius)
-        }
-    }
+    RigidQuery::new(query.sides(), radius).ok()
 }

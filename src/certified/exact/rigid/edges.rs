@@ -1,5 +1,5 @@
 //! An edge AB and an edge CD of a turning body, in the body's frame and times `D`: `K = B - A`,
-//! `M = C - A`, `D L` with `L = D - C` at rest, and `N = K x L`, of degree 3.
+//! `M = C - A`, `D L` with `L = D - C` at rest, and `N = K x L`, of degree 3, or 4 if both turn.
 
 use std::cmp::Ordering;
 
@@ -8,9 +8,9 @@ use super::motion::InBody;
 use super::{Locus, Sides, is_between};
 use crate::certified::exact::thick::vector::{Vector, add, cross, dot, is_zero, sub};
 use crate::certified::exact::thick::{self, Place, Poly, Reach, Share, Time};
+use crate::certified::rigid::Turning;
 use crate::contact::{Case, Flags};
 use crate::query::Radius;
-use crate::rigid::EdgeTurningEdge;
 
 #[derive(Clone)]
 pub(super) struct Edges {
@@ -26,13 +26,13 @@ pub(super) struct Edges {
 }
 
 impl Edges {
-    pub(super) fn new(query: &EdgeTurningEdge) -> Self {
+    pub(super) fn new(query: &Turning<'_, 2, 2>) -> Self {
         let InBody {
-            world: [a, b],
-            local: [c, end],
+            first: [a, b],
+            second: [c, end],
             d,
             unit,
-        } = InBody::new(query.start(), query.end(), query.local(), query.motion());
+        } = InBody::new(query);
         let times_d = |v: &Vector| -> Vector { v.each_ref().map(|x| Poly::product(x, &d)) };
         let (k, l, m) = (sub(&b, &a), sub(&end, &c), sub(&times_d(&c), &a));
         let n = cross(&k, &l);

@@ -8,9 +8,9 @@ use super::motion::InBody;
 use super::{Locus, Sides, is_between};
 use crate::certified::exact::thick::vector::{Vector, cross, dot, is_zero, sub};
 use crate::certified::exact::thick::{self, Place, Poly, Reach, Share, Time};
+use crate::certified::rigid::Turning;
 use crate::contact::{Case, Flags};
 use crate::query::Radius;
-use crate::rigid::VertexTurningFace;
 
 #[derive(Clone)]
 pub(super) struct Face {
@@ -25,13 +25,13 @@ pub(super) struct Face {
 }
 
 impl Face {
-    pub(super) fn new(query: &VertexTurningFace) -> Self {
+    pub(super) fn new(query: &Turning<'_, 1, 3>) -> Self {
         let InBody {
-            world: [a],
-            local: [b, c, last],
+            first: [a],
+            second: [b, c, last],
             d,
             unit,
-        } = InBody::new(query.start(), query.end(), query.local(), query.motion());
+        } = InBody::new(query);
         let (e1, e2) = (sub(&c, &b), sub(&last, &b));
         let n = cross(&e1, &e2);
         let ways = [&b, &c, &last].map(|corner| {

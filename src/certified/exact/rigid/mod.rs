@@ -3,7 +3,9 @@
 //! With `D = |q|^2` and the entries of `M(q)`, which are quadratic in `t`, `R = M / D` turns the
 //! body's frame into space. A point `A` that moves on a line is `M^T (A - c) / D` in the body's
 //! frame, and a point of the body stays there. All differences of the four points, taken there and
-//! times `D`, are polynomials of degree 3 ([`motion`]). `D` is above 0: the two quaternions are at
+//! times `D`, are polynomials of degree 3 ([`motion`]). The first side may be of a body of its own,
+//! which turns by `M1 / D1`: then `A` is `M^T (D1 (c1 - c) + M1 x) / D1 D` in the second body's frame,
+//! `D` below stands for `D1 D`, and the differences have the degree 5. `D` is above 0: the two quaternions are at
 //! less than a right angle, so that no sum of shares of them is 0. So the signs of all predicates
 //! that are homogeneous in the differences are those of polynomials with integer coefficients.
 //!
@@ -11,13 +13,13 @@
 //! points move continuously:
 //!
 //! 1. What touches is coplanar: a contact time is a root of `f`, of degree 3 for a face, which stands
-//!    still in this frame, and 6 for edges ([`decide`]).
+//!    still in this frame, and 6 for edges; 5 and 9 if both turn ([`decide`]).
 //! 2. If `f` is identically 0, let the first contact be at `s > 0`, and suppose that then no vertex is
 //!    on an edge of the other side. Then two edges meet at an angle and inside both, or the vertex is
 //!    strictly inside a face with an area. Their parameters are continuous and the points coplanar
 //!    throughout, so that the same is so shortly before `s`: a contradiction. So the first contact is
 //!    at 0 or at a time at which a vertex comes onto an edge ([`confined`]).
-//! 3. Multiple roots may have any order up to 6. A vertex passes through the line of an edge where the
+//! 3. Multiple roots may have any order up to the degree. A vertex passes through the line of an edge where the
 //!    least order of the components of `G = (Y - X) x (Z - X)` is odd: with `m` that order,
 //!    `G / (t - s)^m` is continuous and not 0 at `s`.
 
@@ -25,7 +27,7 @@
 //! A radius `R` is `D R` there. The squared distances of two features are those of linear motion
 //! with other vectors ([`thick`](super::thick)), so that the excess of a pair is
 //! `numerator - D^2 R^2 denominator`: of degree 6 for a vertex of either side and a vertex, an edge or
-//! a face of the body, 12 for an edge and a vertex or an edge of the body.
+//! a face of the body, 12 for an edge and a vertex or an edge of the body; 10 and 18 if both turn.
 
 mod confined;
 mod edges;
@@ -38,18 +40,18 @@ use super::PLACE_ERROR;
 use super::dyadic::Dyadic;
 use super::passage::Passage;
 use super::thick::{Place, Poly, Roots, Time, decide_near_edges, decide_near_face};
+use crate::certified::rigid::Turning;
 use crate::contact::{Case, ContactKind, EdgePlace, EdgePoint, FacePlace, Flags, Hit};
-use crate::rigid::{EdgeTurningEdge, VertexTurningFace};
 use confined::End;
 use edges::Edges;
 use face::Face;
 
 /// The first contact of an edge with an edge of a turning body.
 pub(in crate::certified) fn decide_turning_edges(
-    query: &EdgeTurningEdge,
+    query: &Turning<'_, 2, 2>,
 ) -> Option<Hit<EdgePlace>> {
     let edges = Edges::new(query);
-    let radius = query.radius();
+    let radius = query.radius;
     if !radius.is_zero() {
         let (thick, reach) = edges.thick(radius);
         return decide_near_edges(&thick, &reach, || passage(&edges));
@@ -65,10 +67,10 @@ pub(in crate::certified) fn decide_turning_edges(
 
 /// The first contact of a vertex with a face of a turning body.
 pub(in crate::certified) fn decide_turning_face(
-    query: &VertexTurningFace,
+    query: &Turning<'_, 1, 3>,
 ) -> Option<Hit<FacePlace>> {
     let face = Face::new(query);
-    let radius = query.radius();
+    let radius = query.radius;
     if !radius.is_zero() {
         let (thick, reach) = face.thick(radius);
         return decide_near_face(&thick, &reach, || passage(&face));
@@ -81,12 +83,12 @@ pub(in crate::certified) fn decide_turning_face(
 }
 
 /// What the midlines of two edges do to each other, one of a turning body.
-pub(in crate::certified) fn passage_of_turning_edges(query: &EdgeTurningEdge) -> Passage {
+pub(in crate::certified) fn passage_of_turning_edges(query: &Turning<'_, 2, 2>) -> Passage {
     passage(&Edges::new(query))
 }
 
 /// What a vertex and a face of a turning body do to each other without their radius.
-pub(in crate::certified) fn passage_of_turning_face(query: &VertexTurningFace) -> Passage {
+pub(in crate::certified) fn passage_of_turning_face(query: &Turning<'_, 1, 3>) -> Passage {
     passage(&Face::new(query))
 }
 

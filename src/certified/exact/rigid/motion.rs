@@ -1,60 +1,112 @@
-//! The motion of a query in the body's frame, as polynomials with integer coefficients.
+//! The motion of a query in the frame of the second side's body, as polynomials with integer coefficients.
 
 use crate::certified::exact::integer::Integer;
 use crate::certified::exact::near::{in_unit, integer, unit};
 use crate::certified::exact::thick::Poly;
-use crate::certified::exact::thick::vector::Vector;
+use crate::certified::exact::thick::vector::{Vector, add};
+use crate::certified::rigid::{First, Turning};
 use crate::query::Point;
 use crate::rigid::RigidMotion;
 
-/// The world's points and the body's, in the body's frame.
-pub(super) struct InBody<const WORLD: usize, const LOCAL: usize> {
-    /// `D (A - c)` there: `M^T (A - c)`, of degree 3.
-    pub(super) world: [Vector; WORLD],
-    /// The points of the body, constant, without the factor `D`.
-    pub(super) local: [Vector; LOCAL],
-    /// `D = |q|^2`, which is above 0.
+/// The points of both sides, in the frame of the second one's body.
+pub(super) struct InBody<const FIRST: usize, const SECOND: usize> {
+    /// Times `D`: `M^T (A - c)`, of degree 3; of a body that turns by `M1 / D1`, whose centre is `c1`,
+    /// `M^T (D1 (c1 - c) + M1 x)`, of degree 5.
+    pub(super) first: [Vector; FIRST],
+    /// Constant, without the factor `D`.
+    pub(super) second: [Vector; SECOND],
+    /// `|q|^2`, or `D1 |q|^2`, which is above 0.
     pub(super) d: Poly,
     /// Lengths are in multiples of `2^unit` metres, by `D` where they have this factor.
     pub(super) unit: i32,
 }
 
-impl<const WORLD: usize, const LOCAL: usize> InBody<WORLD, LOCAL> {
-    pub(super) fn new(
-        start: &[Point; WORLD],
-        end: &[Point; WORLD],
-        local: &[Point; LOCAL],
-        motion: &RigidMotion,
-    ) -> Self {
-        let centres = [motion.start().centre, motion.end().centre];
-        let plain = |p: &Point| [p.x, p.y, p.z];
-        let points = start.iter().chain(end).chain(local).chain(&centres);
-        let lengths: Vec<[f64; 3]> = points.clone().map(plain).collect();
-        let own = unit(lengths.iter().flatten());
-        let scaled = |p: &Point| -> [Integer; 3] {
-            let [point] = in_unit(&[plain(p)], own);
-            point
-        };
-        let [c0, c1] = centres.each_ref().map(scaled);
-        let (q, d) = quaternion(motion);
+impl<const FIRST: usize, const SECOND: usize> InBody<FIRST, SECOND> {
+    pub(super) fn new(query: &Turning<'_, FIRST, SECOND>) -> Self {
+        let Turning { first, second, .. } = query;
+        let unit = Unit::of(query);
+        let (q, d) = quaternion(second.motion);
         let rows = transposed(&q);
-        let world = std::array::from_fn(|i| {
-            let (from, to) = (scaled(&start[i]), scaled(&end[i]));
-            let way: Vector = [0, 1, 2].map(|axis: usize| {
-                let at_start = Integer::difference(&from[axis], &c0[axis]);
-                let at_end = Integer::difference(&to[axis], &c1[axis]);
-                line(at_start, &at_end)
-            });
-            times(&rows, &way)
-        });
-        let constant = |p: &Point| scaled(p).map(|x| Poly::new(&[x]));
+        let [c0, c1] = unit.centres(second.motion);
+        let constant = |p: &Point| unit.integers(p).map(|x| Poly::new(&[x]));
+        let (first, d) = match first {
+            First::Straight { start, end } => {
+                let turned = std::array::from_fn(|i| {
+                    let (from, to) = (unit.integers(&start[i]), unit.integers(&end[i]));
+                    times(&rows, &way([&c0, &c1], [&from, &to]))
+                });
+                (turned, d)
+            }
+            First::Turning(body) => {
+                let (own, own_d) = quaternion(body.motion);
+                // The conjugate turns the other way.
+                let [w, x, y, z] = own;
+                let own_rows = transposed(&[w, negative(&x), negative(&y), negative(&z)]);
+                let [from, to] = unit.centres(body.motion);
+                let centre = way([&c0, &c1], [&from, &to]).map(|x| Poly::product(&x, &own_d));
+                let turned = body.local.each_ref().map(|p| {
+                    let point = add(&centre, &times(&own_rows, &constant(p)));
+                    times(&rows, &point)
+                });
+                (turned, Poly::product(&d, &own_d))
+            }
+        };
         InBody {
-            world,
-            local: local.each_ref().map(constant),
+            first,
+            second: second.local.each_ref().map(constant),
             d,
-            unit: own,
+            unit: unit.0,
         }
     }
+}
+
+/// The power of two of which all lengths are multiples.
+struct Unit(i32);
+
+impl Unit {
+    fn of<const FIRST: usize, const SECOND: usize>(query: &Turning<'_, FIRST, SECOND>) -> Self {
+        let mut points: Vec<Point> = query.second.local.to_vec();
+        let mut motions = vec![query.second.motion];
+        match &query.first {
+            First::Straight { start, end } => points.extend(start.iter().chain(*end)),
+            First::Turning(body) => {
+                points.extend(body.local);
+                motions.push(body.motion);
+            }
+        }
+        for motion in motions {
+            points.extend([motion.start().centre, motion.end().centre]);
+        }
+        let numbers: Vec<[f64; 3]> = points.iter().map(plain).collect();
+        Unit(unit(numbers.iter().flatten()))
+    }
+
+    fn integers(&self, p: &Point) -> [Integer; 3] {
+        let [point] = in_unit(&[plain(p)], self.0);
+        point
+    }
+
+    /// Where the body's centre is at the start and at the end.
+    fn centres(&self, motion: &RigidMotion) -> [[Integer; 3]; 2] {
+        [motion.start(), motion.end()].map(|pose| self.integers(&pose.centre))
+    }
+}
+
+fn plain(p: &Point) -> [f64; 3] {
+    [p.x, p.y, p.z]
+}
+
+/// The way from what moves between two places to what moves between two other ones.
+fn way(from: [&[Integer; 3]; 2], to: [&[Integer; 3]; 2]) -> Vector {
+    [0, 1, 2].map(|axis: usize| {
+        let at_start = Integer::difference(&to[0][axis], &from[0][axis]);
+        let at_end = Integer::difference(&to[1][axis], &from[1][axis]);
+        line(at_start, &at_end)
+    })
+}
+
+fn negative(x: &Poly) -> Poly {
+    Poly::difference(&Poly::default(), x)
 }
 
 /// From `start` at `t = 0` to `end` at `t = 1`.
