@@ -178,6 +178,24 @@ int64_t tunnelproof_decide_vertex_turning_face_batch(const double *points, const
                                                      size_t count, int32_t *verdicts,
                                                      tunnelproof_hit *hits);
 
+/* Two bodies that both turn: an edge AB or a vertex A of the first one, an edge CD or a face BCD of the
+ * second one. `local` are 12 numbers: A, B, C and D, each in the frame of its own body. `poses` are 28
+ * numbers: the 14 of the first body, then those of the second one. The rest is as above. */
+int32_t tunnelproof_decide_turning_edge_turning_edge(const double *local, const double *poses,
+                                                     const double *radii, tunnelproof_hit *hit);
+int32_t tunnelproof_decide_turning_vertex_turning_face(const double *local, const double *poses,
+                                                       const double *radii, tunnelproof_hit *hit);
+int64_t tunnelproof_decide_turning_edge_turning_edge_batch(const double *local,
+                                                           const double *poses,
+                                                           const double *radii, size_t count,
+                                                           int32_t *verdicts,
+                                                           tunnelproof_hit *hits);
+int64_t tunnelproof_decide_turning_vertex_turning_face_batch(const double *local,
+                                                             const double *poses,
+                                                             const double *radii, size_t count,
+                                                             int32_t *verdicts,
+                                                             tunnelproof_hit *hits);
+
 /* Why a step is not a whole one. */
 enum tunnelproof_blocked {
   /* A larger step would bring the two sides nearer than is kept, or a rounding error of that. */

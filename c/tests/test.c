@@ -205,6 +205,50 @@ static void turning_in_batch(void) {
                                                    NULL) == 2);
 }
 
+/* The same rod; the wire is of a body at rest, and then of one that turns with the rod. */
+static void two_bodies(void) {
+  double local[12], poses[28], many_local[24], many_poses[56];
+  int32_t verdicts[2];
+  tunnelproof_hit hit, other, hits[2];
+  memcpy(local, wire, 6 * sizeof *local);
+  memcpy(local + 6, rod, sizeof rod);
+  memcpy(poses, quarter, 7 * sizeof *poses);
+  memcpy(poses + 7, quarter, 7 * sizeof *poses);
+  memcpy(poses + 14, quarter, sizeof quarter);
+  CHECK(tunnelproof_decide_turning_edge_turning_edge(local, poses, NULL, &hit) == TUNNELPROOF_HIT);
+  CHECK(tunnelproof_decide_edge_turning_edge(wire, rod, quarter, NULL, &other) == TUNNELPROOF_HIT);
+  CHECK(hit.toi == other.toi && hit.toi_above == other.toi_above && hit.side == other.side);
+  CHECK(is_near(hit.first.point, 1, 1, 0, 1e-15));
+  memcpy(many_local, local, sizeof local);
+  memcpy(many_local + 12, local, sizeof local);
+  memcpy(many_poses, poses, sizeof poses);
+  memcpy(many_poses + 28, quarter, sizeof quarter);
+  memcpy(many_poses + 42, quarter, sizeof quarter);
+  CHECK(tunnelproof_decide_turning_edge_turning_edge_batch(many_local, many_poses, NULL, 2,
+                                                           verdicts, hits) == 1);
+  CHECK(verdicts[0] == TUNNELPROOF_HIT && verdicts[1] == TUNNELPROOF_MISS);
+  CHECK(hits[0].toi == hit.toi);
+  poses[17] = 0;
+  CHECK(tunnelproof_decide_turning_edge_turning_edge(local, poses, NULL, NULL) ==
+        TUNNELPROOF_NO_ORIENTATION);
+  CHECK(tunnelproof_decide_turning_edge_turning_edge(NULL, poses, NULL, NULL) == TUNNELPROOF_NULL);
+  CHECK(tunnelproof_decide_turning_vertex_turning_face(local, NULL, NULL, NULL) ==
+        TUNNELPROOF_NULL);
+  CHECK(tunnelproof_decide_turning_vertex_turning_face_batch(NULL, NULL, NULL, 0, NULL, NULL) == 0);
+}
+
+/* A vertex of a body that falls by 2 onto a face that rises by 2: they meet at the half. */
+static void turning_vertex(void) {
+  static const double local[12] = {0.25, 0.25, 1, 0, 0, -1, 1, 0, -1, 0, 1, -1};
+  static const double poses[28] = {0, 0, 0, 1, 0, 0, 0, 0, 0, -2, 1, 0, 0, 0,
+                                   0, 0, 0, 2, 0, 0, 0, 0, 0, 2,  2, 0, 0, 0};
+  tunnelproof_hit hit;
+  CHECK(tunnelproof_decide_turning_vertex_turning_face(local, poses, NULL, &hit) ==
+        TUNNELPROOF_HIT);
+  CHECK(hit.toi == 0.5 && hit.toi_above == 0.5);
+  CHECK(is_near(hit.first.point, 0.25, 0.25, 0, 0));
+}
+
 enum { COUNT = 10000 };
 static double many[24 * COUNT];
 static double radii[2 * COUNT];
@@ -420,6 +464,8 @@ int main(void) {
   turning();
   turning_refused();
   turning_in_batch();
+  two_bodies();
+  turning_vertex();
   for (i = 0; i < 24 * COUNT; i++) many[i] = drawn();
   for (i = 0; i < 2 * COUNT; i++) radii[i] = fabs(drawn()) / 16;
   for (i = 0; i < 2; i++) {

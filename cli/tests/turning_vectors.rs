@@ -55,7 +55,7 @@ fn turning_vectors_fulfil_the_schema() {
     let text = fs::read_to_string(folder().join("turning/schema.json")).unwrap();
     let schema = jsonschema::validator_for(&serde_json::from_str(&text).unwrap()).unwrap();
     let documents = documents();
-    assert!(documents.len() >= 15);
+    assert!(documents.len() >= 26);
     for (name, document) in &documents {
         let first = schema.iter_errors(document).next();
         let first = first.map(|error| format!("{}: {error}", error.instance_path()));
@@ -77,9 +77,12 @@ fn turning_vectors_fulfil_the_schema() {
 
 /// The query of a vector, of the fields with this ending.
 fn query(vector: &Value, suffix: &str) -> Result<RigidQuery, String> {
-    let field = |name: &str| (name.to_owned(), vector[format!("{name}{suffix}")].clone());
-    let fields = ["points", "local", "poses", "radius"].map(field);
-    let mut query: serde_json::Map<String, Value> = fields.into_iter().collect();
+    let field = |name: &str| {
+        let value = vector.get(format!("{name}{suffix}"))?;
+        Some((name.to_owned(), value.clone()))
+    };
+    let fields = ["points", "local", "poses", "radius"].into_iter();
+    let mut query: serde_json::Map<String, Value> = fields.filter_map(field).collect();
     query.insert("kind".to_owned(), vector["kind"].clone());
     let entry = turning::parse(&Value::Object(query).to_string());
     entry
@@ -105,8 +108,7 @@ fn distance(vector: &Value, time: &BigRational) -> Ordering {
     let parts = parts.unwrap_or_else(|| vec![vector["radius"].clone()]);
     let radius = parts.iter().map(|part| number(part.as_f64().unwrap()));
     let radius: BigRational = radius.sum();
-    let is_of_edges = vector["kind"] == "edge-turning-edge";
-    let square = rational::distance_squared(is_of_edges, &positions(vector, time));
+    let square = rational::distance_squared(is_of_edges(vector), &positions(vector, time));
     square.cmp(&(&radius * &radius))
 }
 
@@ -149,19 +151,39 @@ fn positions(vector: &Value, time: &BigRational) -> [Vector3; 4] {
     let mean = |a: &[BigRational], b: &[BigRational]| -> Vec<BigRational> {
         a.iter().zip(b).map(|(a, b)| &rest * a + time * b).collect()
     };
-    let points = rows("points");
-    let (start, end) = points.split_at(points.len() / 2);
-    let [first, mut last] = <[_; 2]>::try_from(rows("poses")).unwrap();
-    let along: BigRational = (3..7).map(|i| &first[i] * &last[i]).sum();
-    if along < BigRational::zero() {
-        last[3..].iter_mut().for_each(|x| *x = -x.clone());
-    }
-    let pose = mean(&first, &last);
-    let world = start.iter().zip(end).map(|(a, b)| mean(a, b));
+    let poses = rows("poses");
+    let pose = |pair: &[Vec<BigRational>]| {
+        let (first, mut last) = (&pair[0], pair[1].clone());
+        let along: BigRational = (3..7).map(|i| &first[i] * &last[i]).sum();
+        if along < BigRational::zero() {
+            last[3..].iter_mut().for_each(|x| *x = -x.clone());
+        }
+        mean(first, &last)
+    };
+    let poses: Vec<Vec<BigRational>> = poses.chunks(2).map(pose).collect();
     let local = rows("local");
-    let body = local.iter().map(|x| turned(&pose, x));
-    let all: Vec<Vector3> = world.map(|p| p.try_into().unwrap()).chain(body).collect();
+    let all: Vec<Vector3> = if let [of_first, of_second] = &poses[..] {
+        let first = if is_of_edges(vector) { 2 } else { 1 };
+        let (first, second) = local.split_at(first);
+        let first = first.iter().map(|x| turned(of_first, x));
+        first
+            .chain(second.iter().map(|x| turned(of_second, x)))
+            .collect()
+    } else {
+        let points = rows("points");
+        let (start, end) = points.split_at(points.len() / 2);
+        let in_space = start.iter().zip(end).map(|(a, b)| mean(a, b));
+        let body = local.iter().map(|x| turned(&poses[0], x));
+        in_space
+            .map(|p| p.try_into().unwrap())
+            .chain(body)
+            .collect()
+    };
     all.try_into().unwrap()
+}
+
+fn is_of_edges(vector: &Value) -> bool {
+    vector["kind"].as_str().unwrap().ends_with("edge")
 }
 
 /// `c + q x q* / |q|^2`.
@@ -236,7 +258,8 @@ fn turning_vectors_have_ids_that_are_unique_and_are_as_many_as_the_page_says() {
         .collect();
     assert_eq!(ids.len(), vectors.len());
     let page = fs::read_to_string(folder().join("README.md")).unwrap();
-    let count = format!("and {} of [bodies that turn]", vectors.len());
+    let (thousands, rest) = (vectors.len() / 1000, vectors.len() % 1000);
+    let count = format!("and {thousands},{rest:03} of [bodies that turn]");
     assert!(page.contains(&count), "the page does not say {count}");
 }
 

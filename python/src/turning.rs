@@ -6,10 +6,11 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
-use tunnelproof::certified::RigidKind;
+use tunnelproof::certified::RigidKind as _;
 use tunnelproof::contact::Place;
 use tunnelproof::nalgebra::Quaternion;
-use tunnelproof::rigid::{EdgeTurningEdge, Pose, RigidError, RigidMotion, VertexTurningFace};
+use tunnelproof::query::QueryKind;
+use tunnelproof::rigid::{Pose, RigidQuery};
 use tunnelproof::{Hit, Point, Radius};
 use tunnelproof_float_env::with_default;
 
@@ -32,17 +33,13 @@ pub(crate) fn decide_rigid<'py>(
         poses: poses.as_array(),
         radii: radii.as_array(),
     };
-    with_default(|| match kind {
-        "edge-turning-edge" => written::<EdgeTurningEdge>(py, &arrays),
-        "vertex-turning-face" => written::<VertexTurningFace>(py, &arrays),
-        _ => Err(PyValueError::new_err(format!(
-            "kind is {kind:?}, neither \"edge-turning-edge\" nor \"vertex-turning-face\""
-        ))),
-    })
+    let form = Form::of(kind)?;
+    with_default(|| written(py, form, &arrays))
 }
 
-/// Points of shape `(n, 2 a, 3)`, with `a` points in space, points of the body of shape `(n, 4 - a, 3)`, poses of shape
-/// `(n, 2, 7)` and radii of shape `(n, 2)`.
+/// Of one body: points of shape `(n, 2 a, 3)`, with `a` points in space, points of the body of shape
+/// `(n, 4 - a, 3)` and poses of shape `(n, 2, 7)`. Of two: no points in space, points of the bodies of shape
+/// `(n, 4, 3)` and poses of shape `(n, 4, 7)`. Radii of shape `(n, 2)`.
 struct Arrays<'a> {
     points: ArrayView3<'a, f64>,
     local: ArrayView3<'a, f64>,
@@ -50,66 +47,46 @@ struct Arrays<'a> {
     radii: ArrayView2<'a, f64>,
 }
 
-/// A kind of query about a body that turns.
-trait Turning: RigidKind {
-    /// How many of the four points are in space.
-    const WORLD: usize;
-
-    fn new(
-        points: &[Point],
-        local: &[Point],
-        motion: RigidMotion,
-        radius: Radius,
-    ) -> Result<Self, RigidError>;
-
-    fn point(&self, weights: &[f64; 4], t: f64) -> Point;
+/// A kind of query.
+#[derive(Clone, Copy)]
+struct Form {
+    kind: QueryKind,
+    /// Whether the first side is of a body too.
+    both_turn: bool,
 }
 
-impl Turning for EdgeTurningEdge {
-    const WORLD: usize = 2;
-
-    fn new(
-        points: &[Point],
-        local: &[Point],
-        motion: RigidMotion,
-        radius: Radius,
-    ) -> Result<Self, RigidError> {
-        let (start, end) = ([points[0], points[1]], [points[2], points[3]]);
-        EdgeTurningEdge::with_radius(start, end, [local[0], local[1]], motion, radius)
+impl Form {
+    fn of(kind: &str) -> PyResult<Self> {
+        let (kind, both_turn) = match kind {
+            "edge-turning-edge" => (QueryKind::EdgeEdge, false),
+            "vertex-turning-face" => (QueryKind::VertexFace, false),
+            "turning-edge-turning-edge" => (QueryKind::EdgeEdge, true),
+            "turning-vertex-turning-face" => (QueryKind::VertexFace, true),
+            _ => {
+                return Err(PyValueError::new_err(format!(
+                    "kind is {kind:?}, which is no kind of query of bodies that turn"
+                )));
+            }
+        };
+        Ok(Form { kind, both_turn })
     }
 
-    fn point(&self, weights: &[f64; 4], t: f64) -> Point {
-        self.point(weights, t)
-    }
-}
-
-impl Turning for VertexTurningFace {
-    const WORLD: usize = 1;
-
-    fn new(
-        points: &[Point],
-        local: &[Point],
-        motion: RigidMotion,
-        radius: Radius,
-    ) -> Result<Self, RigidError> {
-        let corners = [local[0], local[1], local[2]];
-        VertexTurningFace::with_radius([points[0]], [points[1]], corners, motion, radius)
-    }
-
-    fn point(&self, weights: &[f64; 4], t: f64) -> Point {
-        self.point(weights, t)
+    /// The shapes of so many queries: points in space, points of bodies, poses.
+    fn shapes(self, count: usize) -> [[usize; 3]; 3] {
+        let (points, local, poses) = match (self.both_turn, self.kind) {
+            (true, _) => (0, 4, 4),
+            (false, QueryKind::EdgeEdge) => (4, 2, 2),
+            (false, QueryKind::VertexFace) => (2, 3, 2),
+        };
+        [[count, points, 3], [count, local, 3], [count, poses, 7]]
     }
 }
 
 impl Arrays<'_> {
     /// How many queries there are.
-    fn count<K: Turning>(&self) -> PyResult<usize> {
-        let count = self.points.shape()[0];
-        let expected = [
-            [count, 2 * K::WORLD, 3],
-            [count, 4 - K::WORLD, 3],
-            [count, 2, 7],
-        ];
+    fn count(&self, form: Form) -> PyResult<usize> {
+        let count = self.local.shape()[0];
+        let expected = form.shapes(count);
         let shapes = [&self.points, &self.local, &self.poses].map(|array| array.shape());
         match shapes == expected && self.radii.shape() == [count, 2] {
             true => Ok(count),
@@ -119,7 +96,7 @@ impl Arrays<'_> {
         }
     }
 
-    fn query<K: Turning>(&self, index: usize) -> Result<K, Refused> {
+    fn query(&self, form: Form, index: usize) -> Result<RigidQuery, Refused> {
         let points = |array: &ArrayView3<'_, f64>| -> Vec<Point> {
             let rows = array.index_axis(numpy::ndarray::Axis(0), index);
             rows.outer_iter().map(|row| point(&row)).collect()
@@ -132,9 +109,10 @@ impl Arrays<'_> {
                 Quaternion::new(number(3), number(4), number(5), number(6)),
             )
         };
+        let poses: Vec<Pose> = (0..self.poses.shape()[1]).map(pose).collect();
         let radius = Radius::from([self.radii[[index, 0]], self.radii[[index, 1]]]);
-        RigidMotion::new(pose(0), pose(1))
-            .and_then(|motion| K::new(&points(&self.points), &points(&self.local), motion, radius))
+        let (points, local) = (points(&self.points), points(&self.local));
+        RigidQuery::from_lists(form.kind, &points, &local, &poses, radius)
             .map_err(|error| Refused::new(&format!("query {index}: {error}")))
     }
 }
@@ -143,19 +121,19 @@ fn point(row: &ArrayView1<'_, f64>) -> Point {
     Point::new(row[0], row[1], row[2])
 }
 
-fn written<'py, K: Turning>(py: Python<'py>, arrays: &Arrays<'_>) -> PyResult<Bound<'py, PyDict>> {
-    let indices = 0..arrays.count::<K>()?;
+fn written<'py>(py: Python<'py>, form: Form, arrays: &Arrays<'_>) -> PyResult<Bound<'py, PyDict>> {
+    let indices = 0..arrays.count(form)?;
     // Copied out of NumPy, so that Python can run while they are decided.
-    let queries: Result<Vec<K>, Refused> = indices.map(|index| arrays.query(index)).collect();
+    let queries: Result<Vec<RigidQuery>, Refused> =
+        indices.map(|index| arrays.query(form, index)).collect();
     let queries = queries?;
-    let row = |query: &K| Some(row(query, tunnelproof::decide_rigid(query)?));
+    let row = |query: &RigidQuery| Some(row(query, tunnelproof::decide_rigid(query)?));
     let rows: Vec<_> = py.detach(|| queries.par_iter().map(row).collect());
     columns(py, &rows)
 }
 
 /// A hit with its points in space. There is no normal.
-fn row<K: Turning>(query: &K, hit: Hit<K::Place>) -> Row {
-    let hit: Hit<Place> = hit.map_place(Into::into);
+fn row(query: &RigidQuery, hit: Hit<Place>) -> Row {
     let contact = |weights| (weights, query.point(&weights, hit.toi));
     let (first, second) = hit.place.weights();
     Row {

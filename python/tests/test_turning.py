@@ -134,7 +134,7 @@ def test_without_a_turn_the_answer_is_that_of_the_linear_query():
 @pytest.mark.parametrize(
     "change, message",
     [
-        ({"kind": "edge-edge"}, 'kind is "edge-edge", neither "edge-turning-edge"'),
+        ({"kind": "edge-edge"}, 'kind is "edge-edge", not "edge-turning-edge"'),
         ({"kind": "vertex-turning-face"}, r"points have the shape \(1, 4, 3\), not \(n, 2, 3\)"),
         ({"local": [ROD, ROD]}, r"local have the shape \(2, 2, 3\), not \(1, 2, 3\)"),
         ({"poses": [STILL]}, r"poses have the shape \(1, 7\), not \(1, 2, 7\)"),
@@ -169,3 +169,27 @@ def test_the_query_that_is_refused_is_named():
         "edge-turning-edge", np.zeros((0, 4, 3)), np.zeros((0, 2, 3)), QUARTER
     )
     assert none.hit.shape == (0,)
+
+
+def test_two_bodies_meet_where_one_of_them_rests_as_a_wire():
+    poses = [STILL, STILL, *QUARTER]
+    hits = tunnelproof.decide_rigid("turning-edge-turning-edge", None, [WIRE + ROD], poses)
+    other = tunnelproof.decide_rigid("edge-turning-edge", [WIRE + WIRE], [ROD], QUARTER)
+    assert hits.hit.tolist() == [True] and hits.toi[0] == other.toi[0]
+    assert np.allclose(hits.first.point, [[1, 1, 0]], atol=1e-15)
+    # Both turn alike: they rest against each other.
+    alike = tunnelproof.decide_rigid(
+        "turning-edge-turning-edge", None, [WIRE + ROD], QUARTER + QUARTER
+    )
+    assert not alike.hit.any()
+
+
+def test_two_bodies_have_no_points_in_space():
+    with pytest.raises(ValueError, match="has none in space"):
+        tunnelproof.decide_rigid(
+            "turning-edge-turning-edge", [WIRE + WIRE], [WIRE + ROD], QUARTER + QUARTER
+        )
+    with pytest.raises(ValueError, match=r"local have the shape"):
+        tunnelproof.decide_rigid("turning-vertex-turning-face", None, [ROD], QUARTER + QUARTER)
+    with pytest.raises(ValueError, match="turning-vertex-turning-face"):
+        tunnelproof.decide_rigid("edge-edge", None, [ROD], QUARTER)

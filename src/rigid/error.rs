@@ -61,10 +61,15 @@ pub enum RigidError {
     Radius(Radius),
     /// There is no kind of query of so many points.
     NumberOfPoints {
-        /// Those of the first side, at one time.
+        /// Those of the first side, or those in space.
         first: usize,
-        /// Those of the second side.
+        /// Those of the second side, or those of bodies.
         second: usize,
+    },
+    /// A query has two poses for each body: two or four.
+    NumberOfPoses {
+        /// How many there are.
+        count: usize,
     },
     /// The second side is not one of a body: it has to be the one that turns.
     SecondSide,
@@ -139,7 +144,12 @@ impl fmt::Display for RigidError {
             RigidError::Radius(radius) => QueryError::Radius(radius).fmt(f),
             RigidError::NumberOfPoints { first, second } => write!(
                 f,
-                "the sides have {first} and {second} points; it takes 2 and 2, or 1 and 3"
+                "there is no query of {first} and {second} points; two edges have 2 and 2, a vertex and a \
+                 face 1 and 3"
+            ),
+            RigidError::NumberOfPoses { count } => write!(
+                f,
+                "there are {count} poses; it takes 2 of one body, or 4 of two"
             ),
             RigidError::SecondSide => write!(f, "the second side has to be of a body that turns"),
         }

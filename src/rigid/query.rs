@@ -1,7 +1,7 @@
 //! The kinds of queries.
 
 use super::error::RigidError;
-use super::motion::RigidMotion;
+use super::motion::{Pose, RigidMotion};
 use super::side::Side;
 use crate::query::{Point, QueryKind, Radius};
 
@@ -343,6 +343,53 @@ impl RigidQuery {
                 _ => Err(no_kind),
             },
         }
+    }
+
+    /// The query of lists of points and poses, as files and arrays have them: of two edges, or a vertex
+    /// and a face.
+    ///
+    /// With two poses, those of the body at the start and at the end, `points` are in space, all at
+    /// the start and then all at the end, and `local` in the body's frame. With four poses, those of
+    /// the first body and then of the second one, `points` is empty and `local` has the points of the
+    /// first body, then those of the second one.
+    ///
+    /// # Errors
+    ///
+    /// [`RigidError`] if there are not so many points or poses, or as [`RigidMotion::new`] and the
+    /// kind's own `with_radius`.
+    pub fn from_lists(
+        kind: QueryKind,
+        points: &[Point],
+        local: &[Point],
+        poses: &[Pose],
+        radius: impl Into<Radius>,
+    ) -> Result<Self, RigidError> {
+        let first = match kind {
+            QueryKind::EdgeEdge => 2,
+            QueryKind::VertexFace => 1,
+        };
+        let (in_space, of_bodies) = match poses.len() {
+            2 => (2 * first, 4 - first),
+            4 => (0, 4),
+            count => return Err(RigidError::NumberOfPoses { count }),
+        };
+        if points.len() != in_space || local.len() != of_bodies {
+            return Err(RigidError::NumberOfPoints {
+                first: points.len(),
+                second: local.len(),
+            });
+        }
+        let motion = |at: usize| RigidMotion::new(poses[at], poses[at + 1]);
+        let (own, last) = (motion(0)?, motion(poses.len() - 2)?);
+        if poses.len() == 2 {
+            let (start, end) = points.split_at(first);
+            return Self::new(
+                [Side::Straight { start, end }, turning(local, &own)],
+                radius,
+            );
+        }
+        let (of_first, of_second) = local.split_at(first);
+        Self::new([turning(of_first, &own), turning(of_second, &last)], radius)
     }
 
     /// The name of its kind.

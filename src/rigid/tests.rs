@@ -1,7 +1,7 @@
 use nalgebra::{Quaternion, Vector3};
 
 use super::*;
-use crate::query::Point;
+use crate::query::{Point, QueryKind};
 
 fn pose(quaternion: [f64; 4]) -> Pose {
     let [w, x, y, z] = quaternion;
@@ -173,7 +173,7 @@ fn rigid_query_new_takes_sides_of_two_and_two_or_one_and_three_points() {
     }
     let error = |sides| RigidQuery::new(sides, 0.0).unwrap_err().to_string();
     for sides in [[turning(3), turning(1)], [straight(2), turning(3)]] {
-        assert!(error(sides).ends_with("it takes 2 and 2, or 1 and 3"));
+        assert!(error(sides).ends_with("two edges have 2 and 2, a vertex and a face 1 and 3"));
     }
     assert_eq!(
         error([turning(2), straight(2)]),
@@ -189,6 +189,34 @@ fn rigid_query_new_takes_sides_of_two_and_two_or_one_and_three_points() {
         error([turning(2), second]),
         "x of point D in the body's frame is NaN, not a finite number"
     );
+}
+
+#[test]
+fn rigid_query_from_lists_takes_one_body_or_two() {
+    let pose = pose([1.0, 0.0, 0.0, 0.0]);
+    let points = [Point::origin(); 4];
+    let of = |kind, in_space: usize, local: usize, poses: usize| {
+        let (in_space, local) = (&points[..in_space], &points[..local]);
+        RigidQuery::from_lists(kind, in_space, local, &[pose; 6][..poses], 0.0)
+    };
+    for (kind, in_space, local, poses, name) in [
+        (QueryKind::EdgeEdge, 4, 2, 2, "edge-turning-edge"),
+        (QueryKind::VertexFace, 2, 3, 2, "vertex-turning-face"),
+        (QueryKind::EdgeEdge, 0, 4, 4, "turning-edge-turning-edge"),
+        (
+            QueryKind::VertexFace,
+            0,
+            4,
+            4,
+            "turning-vertex-turning-face",
+        ),
+    ] {
+        let query = of(kind, in_space, local, poses).unwrap();
+        assert_eq!((query.kind(), query.linear_kind()), (name, kind));
+    }
+    for (in_space, local, poses) in [(4, 3, 2), (2, 2, 2), (4, 4, 4), (0, 3, 4), (4, 2, 3)] {
+        assert!(of(QueryKind::EdgeEdge, in_space, local, poses).is_err());
+    }
 }
 
 #[test]

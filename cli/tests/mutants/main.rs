@@ -58,7 +58,8 @@ const CERTIFY_TURNING: &[&str] = &[
     "oracle,certified",
     "--family",
     "turning_uniform,turning_lattice,turning_confined,turning_grazing,turning_plates,\
-     turning_scales,turning_thick_uniform,turning_thick_lattice,turning_thick_confined,\
+     turning_scales,turning_thick_brief,turning_thick_beside,turning_bodies_uniform,\
+     turning_thick_uniform,turning_thick_lattice,turning_thick_confined,\
      turning_thick_tangent,turning_thick_scales",
     "--count",
     "1000",

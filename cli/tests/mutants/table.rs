@@ -254,9 +254,9 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     Mutant {
         culprit: Culprit::Turning,
         file: "src/certified/rigid/root.rs",
-        text: "Ordering::Less => [nearest.next_down(), nearest],\n        _ => [nearest, nearest.next_up()],",
-        replacement: "_ => [nearest, nearest.next_up()],",
-        fault: "bodies that turn: a root below the nearest number is not found",
+        text: "        _ => [nearest, nearest.next_up()],",
+        replacement: "        _ => [nearest.next_down(), nearest.next_up()],",
+        fault: "bodies that turn: the time is rounded down by one too many",
     },
     Mutant {
         culprit: Culprit::Turning,

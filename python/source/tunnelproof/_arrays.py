@@ -8,7 +8,12 @@ import numpy as np
 import numpy.typing as npt
 
 Kind = Literal["edge-edge", "vertex-face"]
-TurningKind = Literal["edge-turning-edge", "vertex-turning-face"]
+TurningKind = Literal[
+    "edge-turning-edge",
+    "vertex-turning-face",
+    "turning-edge-turning-edge",
+    "turning-vertex-turning-face",
+]
 Floats = npt.NDArray[np.float64]
 Bools = npt.NDArray[np.bool_]
 Codes = npt.NDArray[np.int8]

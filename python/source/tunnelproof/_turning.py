@@ -9,19 +9,24 @@ from . import _tunnelproof
 from ._arrays import Floats, TurningKind, radius_array
 from ._hits import Hits
 
-_WORLD = {"edge-turning-edge": 2, "vertex-turning-face": 1}
-"""How many of the four points are in space."""
+_SHAPES = {
+    "edge-turning-edge": (4, 2, 2),
+    "vertex-turning-face": (2, 3, 2),
+    "turning-edge-turning-edge": (0, 4, 4),
+    "turning-vertex-turning-face": (0, 4, 4),
+}
+"""How many points there are in space, at both ends of the step, how many of bodies, and how many poses."""
 
 
 def decide_rigid(
     kind: TurningKind,
-    points: npt.ArrayLike,
+    points: npt.ArrayLike | None,
     local: npt.ArrayLike,
     poses: npt.ArrayLike,
     radius: npt.ArrayLike = 0.0,
 ) -> Hits:
     """Whether and when an edge or a vertex touches an edge or a face of a rigid body that turns, by
-    the certified path.
+    the certified path. It may be of another body that turns.
 
     A point p of the body's frame is at ``c + R(q) p``. Within the step the centre c and the
     quaternion q both change at constant rates, so that the body passes through both poses exactly
@@ -31,12 +36,14 @@ def decide_rigid(
     :param kind: ``"edge-turning-edge"``: the edge AB moves on straight lines, the edge CD is one of
         the body. ``"vertex-turning-face"``: the vertex A moves on a straight line, the face BCD is
         one of the body.
+        ``"turning-edge-turning-edge"`` and ``"turning-vertex-turning-face"``: AB or A is of a body too.
     :param points: those in space at the start, then at the end, in metres: shape ``(n, 4, 3)``, A, B,
-        A, B; or ``(n, 2, 3)``, A, A.
+        A, B; or ``(n, 2, 3)``, A, A. Of two bodies ``None``.
     :param local: those in the body's frame, in metres: shape ``(n, 2, 3)``, C and D; or
-        ``(n, 3, 3)``, B, C and D.
+        ``(n, 3, 3)``, B, C and D. Of two bodies ``(n, 4, 3)``, each in the frame of its own.
     :param poses: shape ``(n, 2, 7)``, or ``(2, 7)`` for one body of all queries: at the start, then at
-        the end, x, y, z of the centre in metres and w, x, y, z of the quaternion.
+        the end, x, y, z of the centre in metres and w, x, y, z of the quaternion. Of two bodies
+        ``(n, 4, 7)`` or ``(4, 7)``: those of the first one, then those of the second one.
     :param radius: a number, shape ``(n,)``, or shape ``(n, 2)`` for exact sums of two, in metres.
     :returns: as :func:`decide`, but for the normal, which is not computed, and 0. The error of a
         place is at most ``2**-50``.
@@ -54,16 +61,24 @@ def decide_rigid(
     >>> float(hits.toi[0])      # the square root of 2, less 1, rounded down
     0.41421356237309503
     """
-    if kind not in _WORLD:
-        names = " nor ".join(f'"{name}"' for name in _WORLD)
-        raise ValueError(f'kind is "{kind}", neither {names}')
-    of_points = _array("points", points, (2 * _WORLD[kind], 3))
-    count = len(of_points)
-    of_local = _array("local", local, (4 - _WORLD[kind], 3), count)
+    if kind not in _SHAPES:
+        *names, last = (f'"{name}"' for name in _SHAPES)
+        raise ValueError(f'kind is "{kind}", not {", ".join(names)} or {last}')
+    in_space, of_bodies, number_of_poses = _SHAPES[kind]
+    if in_space == 0:
+        if points is not None:
+            raise ValueError(f"points are given, but {kind} has none in space: give None")
+        of_local = _array("local", local, (of_bodies, 3))
+        count = len(of_local)
+        of_points = np.empty((count, 0, 3))
+    else:
+        of_points = _array("points", points, (in_space, 3))
+        count = len(of_points)
+        of_local = _array("local", local, (of_bodies, 3), count)
     of_poses = np.asarray(poses, dtype=np.float64)
-    if of_poses.shape == (2, 7):
-        of_poses = np.broadcast_to(of_poses, (count, 2, 7))
-    of_poses = _array("poses", of_poses, (2, 7), count)
+    if of_poses.shape == (number_of_poses, 7):
+        of_poses = np.broadcast_to(of_poses, (count, number_of_poses, 7))
+    of_poses = _array("poses", of_poses, (number_of_poses, 7), count)
     radii = radius_array(radius, count)
     return Hits._of(_tunnelproof.decide_rigid(kind, of_points, of_local, of_poses, radii))
 

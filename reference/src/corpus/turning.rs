@@ -22,8 +22,8 @@ use nalgebra::Quaternion;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::json;
-use tunnelproof::query::{Point, Radius};
-use tunnelproof::rigid::{Pose, RigidMotion, RigidQuery, Side};
+use tunnelproof::query::{Point, QueryKind, Radius};
+use tunnelproof::rigid::{Pose, RigidQuery, Side};
 
 use super::error::{CorpusError, Problem, shortened};
 use super::jsonl::{self, Label, Number, Numbers, Radii, given, number};
@@ -84,15 +84,14 @@ impl Fields {
     ///
     /// [`Problem`] says what is wrong with them.
     pub fn query(&self, kind: &str, radius: Radius) -> Result<RigidQuery, Problem> {
-        // How many points the first side has, and whether it turns.
-        let (first, turns) = match kind {
-            "edge-turning-edge" => (2, false),
-            "vertex-turning-face" => (1, false),
-            "turning-edge-turning-edge" => (2, true),
-            "turning-vertex-turning-face" => (1, true),
+        // The linear kind, how many points of it are in space, and how many poses there are.
+        let (linear, straight, number_of_poses) = match kind {
+            "edge-turning-edge" => (QueryKind::EdgeEdge, 2, 2),
+            "vertex-turning-face" => (QueryKind::VertexFace, 1, 2),
+            "turning-edge-turning-edge" => (QueryKind::EdgeEdge, 0, 4),
+            "turning-vertex-turning-face" => (QueryKind::VertexFace, 0, 4),
             _ => return Err(Problem::TurningKindUnknown(kind.to_owned())),
         };
-        let straight = if turns { 0 } else { first };
         let length = |place: &str, count, expected| match count == expected {
             true => Ok(()),
             false => Err(Problem::Length {
@@ -103,32 +102,17 @@ impl Fields {
         };
         length("points", self.points.len(), 2 * straight)?;
         length("local", self.local.len(), 4 - straight)?;
-        let number_of_poses = if turns { 4 } else { 2 };
         length("poses", self.poses.len(), number_of_poses)?;
         let points = |rows: &[[f64; 3]]| rows.iter().copied().map(Point::from).collect::<Vec<_>>();
-        let (points, local) = (points(&self.points), points(&self.local));
         let poses: Vec<Pose> = self.poses.iter().copied().map(pose).collect();
-        let motions = poses
-            .chunks_exact(2)
-            .map(|pair| RigidMotion::new(pair[0], pair[1]));
-        let motions: Vec<RigidMotion> = motions.collect::<Result<_, _>>()?;
-        let sides = match &motions[..] {
-            [motion] => {
-                let (start, end) = points.split_at(first);
-                let local = &local[..];
-                [
-                    Side::Straight { start, end },
-                    Side::Turning { local, motion },
-                ]
-            }
-            [own, other] => {
-                let (first, second) = local.split_at(first);
-                let side = |local, motion| Side::Turning { local, motion };
-                [side(first, own), side(second, other)]
-            }
-            _ => return Err(Problem::TurningKindUnknown(kind.to_owned())),
-        };
-        Ok(RigidQuery::new(sides, radius)?)
+        let query = RigidQuery::from_lists(
+            linear,
+            &points(&self.points),
+            &points(&self.local),
+            &poses,
+            radius,
+        );
+        Ok(query?)
     }
 }
 
