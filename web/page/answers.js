@@ -22,12 +22,12 @@ function about(value, { isExact = true, beside = [] } = {}) {
   let digits = 6;
   while (digits < 17 && others.some(other => at(other, digits) === at(value, digits))) digits++;
   const text = at(value, digits);
-  return `${text === value && isExact ? "=" : "≈"} ${text}`;
+  return `${text === value && isExact ? "=" : "≈"}\u00a0${text}`;
 }
 
 /* Whether a time of impact lies between two f64. */
 const isBetween = hit => hit.in_f64.startsWith("[");
-const impactAt = (hit, beside = []) => `t ${about(hit.below, { isExact: !isBetween(hit), beside })}`;
+const impactAt = (hit, beside = []) => `t\u00a0${about(hit.below, { isExact: !isBetween(hit), beside })}`;
 
 /* The fault that counts: a time of impact that is off by rounding alone is right. */
 function faultOf(subject) {
@@ -40,10 +40,10 @@ const SAYINGS = {
   tunnel: hit => `It reports no contact, and the two pass through each other: first contact at ${impactAt(hit)}.`,
   "joint tunnel": hit => `It reports no contact, and the two pass through each other: first contact at ${impactAt(hit)}.`,
   "missed graze": hit => `It reports no contact, and the two touch at ${impactAt(hit)}.`,
-  "false hit": (_, subject) => `It reports a contact at t ${about(subject.toi)}. They never touch.`,
-  "near hit": (_, subject) => `It reports a contact at t ${about(subject.toi)}. They never touch, but come within its distance threshold.`,
-  late: (hit, subject) => `It reports t ${about(subject.toi, { beside: [hit.below] })}. They touch before, at ${impactAt(hit, [subject.toi])}.`,
-  early: (hit, subject) => `It reports t ${about(subject.toi, { beside: [hit.below] })}. They touch later, at ${impactAt(hit, [subject.toi])}.`,
+  "false hit": (_, subject) => `It reports a contact at t\u00a0${about(subject.toi)}. They never touch.`,
+  "near hit": (_, subject) => `It reports a contact at t\u00a0${about(subject.toi)}. They never touch, but come within its distance threshold.`,
+  late: (hit, subject) => `It reports t\u00a0${about(subject.toi, { beside: [hit.below] })}. They touch before, at ${impactAt(hit, [subject.toi])}.`,
+  early: (hit, subject) => `It reports t\u00a0${about(subject.toi, { beside: [hit.below] })}. They touch later, at ${impactAt(hit, [subject.toi])}.`,
   "no answer": () => "It has no answer.",
 };
 const TITLES = {

@@ -147,7 +147,7 @@ function listen() {
   pointFields();
   thresholdFields();
   addEventListener("keydown", keys);
-  addEventListener("resize", draw);
+  new ResizeObserver(draw).observe(view.canvas);
   addEventListener("hashchange", () => open(location.hash));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
 }

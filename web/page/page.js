@@ -186,6 +186,8 @@ function open(hash) {
     set(linked.state, { fit: true });
   } else if (!state) {
     load(gallery[0].entries[0]);
+    chosen = null;
+    galleryLabel();
   }
   if (!linked.wrong.length) return;
   notice(`The link is damaged: ${linked.wrong.join("; ")}. ${linked.state ? "All else of it is shown." : "Nothing of it is shown."}`);
