@@ -41,13 +41,7 @@ pub fn page(runs: &[Replay]) -> serde_json::Result<String> {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { (title) }
-                link rel="icon" href="data:,";
-                style { (PreEscaped(include_str!("uplot.min.css"))) (PreEscaped(include_str!("style.css"))) }
-            }
+            (head(title))
             body {
                 header {
                     h1 { (title) }
@@ -77,18 +71,24 @@ pub fn page(runs: &[Replay]) -> serde_json::Result<String> {
     Ok(page.into_string() + "\n")
 }
 
+fn head(title: &str) -> Markup {
+    html! {
+        head {
+            meta charset="utf-8";
+            meta name="viewport" content="width=device-width, initial-scale=1";
+            title { (title) }
+            link rel="icon" href="data:,";
+            style { (PreEscaped(include_str!("uplot.min.css"))) (PreEscaped(include_str!("style.css"))) }
+        }
+    }
+}
+
 /// The page of a recording that ends before its first step.
 fn nothing(title: &str) -> Markup {
     html! {
         (DOCTYPE)
         html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { (title) }
-                link rel="icon" href="data:,";
-                style { (PreEscaped(include_str!("style.css"))) }
-            }
+            (head(title))
             body {
                 header {
                     h1 { (title) }
