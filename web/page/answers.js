@@ -27,7 +27,9 @@ function about(value, { isExact = true, beside = [] } = {}) {
 
 /* Whether a time of impact lies between two f64. */
 const isBetween = hit => hit.in_f64.startsWith("[");
-const impactAt = (hit, beside = []) => `t\u00a0${about(hit.below, { isExact: !isBetween(hit), beside })}`;
+// Digits that are all there are.
+const isShort = decimals => /^\d(\.\d{1,6})?$/.test(decimals);
+const impactAt = (hit, beside = []) => `t\u00a0${isShort(hit.decimals) ? `=\u00a0${hit.decimals}` : about(hit.below, { isExact: !isBetween(hit), beside })}`;
 
 /* The fault that counts: a time of impact that is off by rounding alone is right. */
 function faultOf(subject) {

@@ -428,6 +428,8 @@ test("a time near an end of the step is not rounded to it", async () => {
     await falls(from, to);
     assert.match(`${await text(page, "#headline")} ${await text(page, "#sentence")}`, words);
   }
+  await choose(page, "rods");
+  assert.match(await text(page, "#headline"), /t.=.0\.6\./);
   assert.equal(await page.value("about(0.5, { beside: [0.50000001] }) !== about(0.50000001, { beside: [0.5] })"), true);
   await closed(page);
 });
