@@ -21,6 +21,11 @@ const MEASURE: &str = r#"<script>
 addEventListener("load", () => {
   const box = e => { const r = e.getBoundingClientRect(); return [r.width, r.height]; };
   const all = (selector) => [...document.querySelectorAll(selector)];
+  const paperOf = picture => {
+    const pen = document.createElement("canvas").getContext("2d");
+    pen.drawImage(picture, 0, 0);
+    return `rgb(${[...pen.getImageData(5, 5, 1, 1).data].slice(0, 3).join(", ")})`;
+  };
   parent.postMessage(JSON.stringify({
     width: innerWidth,
     overflow: document.documentElement.scrollWidth - document.documentElement.clientWidth,
@@ -37,7 +42,7 @@ addEventListener("load", () => {
       return text.left < chart.left || text.right > chart.right || text.top < chart.top || text.bottom > chart.bottom;
     }).map(e => e.textContent),
     numbers: all("figure > svg").map(e => [...e.querySelectorAll("text")].filter(e => e.textContent.trim() && !isNaN(e.textContent)).length),
-    pictures: all("figure > img").map(e => [e.complete, e.naturalWidth]),
+    pictures: all("figure > img").map(e => [e.complete, e.naturalWidth, paperOf(e)]),
   }), "*");
 });
 </script></body>"#;
@@ -175,6 +180,7 @@ fn assert_is_drawn(browser: &str, page: &Path, charts: &[&str], pictures: usize)
         for picture in drawn {
             assert_eq!(picture[0], true, "{at}");
             assert!(picture[1].as_f64().unwrap() > 0.0, "{at}");
+            assert_eq!(brightness(&picture[2]) < 128.0, is_dark, "{at}");
         }
     }
 }
@@ -335,6 +341,7 @@ fn assert_plays(browser: &str, page: &Path, views: usize) -> Vec<Value> {
             assert_eq!(view["moved"], true, "{at}");
         }
         assert!(number(&said["played"]) >= 1.0, "{at}");
+        assert_eq!(said["covered"], 0, "{at}");
         let charts = list("charts");
         assert!(charts.len() >= 3, "{at}");
         assert!(
@@ -389,6 +396,61 @@ fn browser_plays_the_page_of_two_runs_on_one_clock() {
         ] {
             assert!(legend.contains(words), "{words}: {said:#}");
         }
+    }
+}
+
+/// A wire that is too fast for `f64`.
+const TOO_FAST: &str = r#"
+title = "too fast"
+duration = 1
+[[wires]]
+name = "chain"
+material = { radius = 0.02, bend_modulus = 0 }
+resolution = 3
+adaptive = false
+velocity = [0, 0, -1e308]
+route = [{ pinned = [0, 0, 0] }, { pinned = [2, 0, 0] }, { free = [2, 1, 0.2] }]
+"#;
+
+/// What the page of a run without a step says of itself.
+const STAND: &str = r#"<script>
+addEventListener("load", () => setTimeout(() => {
+  byId("play").click();
+  byId("on").click();
+  const text = selector => document.querySelector(selector).textContent;
+  parent.postMessage(JSON.stringify({
+    head: text(".head"), alone: text(".alone"), clock: byId("clock").textContent, nodes: runs[0].frames[0].wires[0].length / 3,
+    names: [...document.querySelectorAll(".over .name")].map(one => one.textContent),
+    overflow: document.documentElement.scrollWidth - document.documentElement.clientWidth,
+  }), "*");
+}, 100));
+</script></body>"#;
+
+#[test]
+fn browser_shows_the_start_of_a_run_whose_first_step_fails() {
+    let Some(browser) = browser() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let (page, scene) = (
+        folder.path().join("run.html"),
+        folder.path().join("fast.toml"),
+    );
+    fs::write(&scene, TOO_FAST).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_tunnelproof"))
+        .arg("simulate")
+        .args([scene.as_path(), Path::new("--replay"), page.as_path()])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    for width in [390, 1400] {
+        let (said, console) = drawn(browser, &page, STAND, width, false);
+        assert_eq!(console, "", "{said:#}");
+        let text = |name: &str| said[name].as_str().unwrap();
+        assert!(text("head").contains("stopped: step 0"), "{said:#}");
+        assert!(text("alone").contains("no step was made"), "{said:#}");
+        assert_eq!(text("clock"), "0.000 s");
+        assert_eq!(said["names"], serde_json::json!(["chain"]), "{said:#}");
+        assert!(said["nodes"].as_f64() >= Some(3.0), "{said:#}");
+        assert_eq!(said["overflow"], 0, "{said:#}");
     }
 }
 

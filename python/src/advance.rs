@@ -4,11 +4,11 @@ use numpy::{PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rayon::prelude::*;
 use tunnelproof::{Advance, Blocked, Clearance, Query};
 use tunnelproof_float_env::with_default;
 
 use crate::columns::Columns;
+use crate::interrupt::each;
 use crate::queries::{self, Refused, Rows};
 
 /// The columns of `Advances`.
@@ -37,12 +37,10 @@ fn advanced<'py>(
         Query::EdgeEdge(query) => tunnelproof::advance(query, clearance),
         Query::VertexFace(query) => tunnelproof::advance(query, clearance),
     };
-    let advances = py.detach(|| {
-        let queries = rows.queries(kind)?;
-        let advances = queries.par_iter().map(|query| advanced(query).map(Some));
-        let advances: Result<Vec<_>, _> = advances.collect();
-        advances.map_err(|error| Refused::new(&error))
-    })?;
+    let queries = py.detach(|| rows.queries(kind))?;
+    let advances = each(py, &queries, advanced)?.into_iter();
+    let advances: Result<Vec<_>, _> = advances.map(|advance| advance.map(Some)).collect();
+    let advances = advances.map_err(|error| Refused::new(&error))?;
     let mut columns = Columns::new(py, &advances);
     columns.numbers("step", |advance: &Advance| [advance.step])?;
     columns.numbers("points", |advance| {

@@ -3,7 +3,6 @@
 use numpy::{PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rayon::prelude::*;
 use tunnelproof::certified::Kind;
 use tunnelproof::contact::Place;
 use tunnelproof::{
@@ -12,7 +11,8 @@ use tunnelproof::{
 use tunnelproof_float_env::with_default;
 
 use crate::columns::{self, Columns};
-use crate::queries::{self, Refused, Rows};
+use crate::interrupt::each;
+use crate::queries::{self, Rows};
 
 /// The columns of `Hits`.
 #[pyfunction]
@@ -88,9 +88,14 @@ impl Row {
 }
 
 fn written<K: Side>(py: Python<'_>, rows: Rows) -> PyResult<Bound<'_, PyDict>> {
-    let rows = py.detach(|| decided::<K>(rows))?;
-    columns(py, &rows)
+    let queries = py.detach(|| rows.queries(K::KIND))?;
+    let blocks: Vec<_> = queries.chunks(BLOCK).collect();
+    let rows = each(py, &blocks, |block| decided::<K>(block))?;
+    columns(py, &rows.concat())
 }
+
+/// How many queries are decided together.
+const BLOCK: usize = 256;
 
 /// The columns of `Hits`.
 pub(crate) fn columns<'py>(py: Python<'py>, rows: &[Option<Row>]) -> PyResult<Bound<'py, PyDict>> {
@@ -117,17 +122,13 @@ pub(crate) fn columns<'py>(py: Python<'py>, rows: &[Option<Row>]) -> PyResult<Bo
 }
 
 /// What is decided of queries of a kind, each hit at the place of its query.
-fn decided<K: Side>(rows: Rows) -> Result<Vec<Option<Row>>, Refused> {
-    let queries = rows.queries(K::KIND)?;
+fn decided<K: Side>(queries: &[Query]) -> Vec<Option<Row>> {
     let queries: Vec<&K> = queries.iter().filter_map(K::of).collect();
     let mut batch = Batch::<K>::new();
     queries.iter().for_each(|&query| batch.push(query));
-    let hits = batch.par_decide().into_par_iter();
-    let hits = hits.map(|(index, hit)| (index, Row::new(queries[index], hit)));
-    let hits: Vec<_> = hits.collect();
     let mut rows = vec![None; queries.len()];
-    for (index, row) in hits {
-        rows[index] = Some(row);
+    for (index, hit) in batch.decide() {
+        rows[index] = Some(Row::new(queries[index], hit));
     }
-    Ok(rows)
+    rows
 }

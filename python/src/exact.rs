@@ -3,14 +3,14 @@
 use numpy::{PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rayon::prelude::*;
-use tunnelproof::query::QueryKind;
+use tunnelproof::query::{Query, QueryKind};
 use tunnelproof_float_env::with_default;
 use tunnelproof_reference::answer::{Enclosure, ExactHit};
 use tunnelproof_reference::{field, oracle};
 
 use crate::columns::{self, Columns};
-use crate::queries::{self, Refused, Rows};
+use crate::interrupt::each;
+use crate::queries::{self, Rows};
 
 /// The columns of `ExactHits`.
 #[pyfunction]
@@ -26,11 +26,9 @@ pub(crate) fn exact<'py>(
 }
 
 fn written(py: Python<'_>, kind: QueryKind, rows: Rows) -> PyResult<Bound<'_, PyDict>> {
-    let hits = py.detach(|| {
-        let queries = rows.queries(kind)?;
-        let exact = |query| oracle::decide::<field::Default>(query).written().hit;
-        Ok::<_, Refused>(queries.par_iter().map(exact).collect::<Vec<_>>())
-    })?;
+    let queries = py.detach(|| rows.queries(kind))?;
+    let exact = |query: &Query| oracle::decide::<field::Default>(query).written().hit;
+    let hits = each(py, &queries, exact)?;
     let ends = |x: Enclosure| [x.below, x.above];
     let mut columns = Columns::new(py, &hits);
     columns.flags("hit", |_| true)?;

@@ -12,6 +12,7 @@ mod certify;
 mod columns;
 mod exact;
 mod families;
+mod interrupt;
 mod mesh;
 mod method;
 mod queries;

@@ -1,18 +1,17 @@
 //! A method in Python as a subject.
 
 use std::sync::OnceLock;
-use std::thread;
-use std::time::Duration;
 
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::exceptions::{PyException, PyValueError};
 use pyo3::prelude::*;
 use tunnelproof::narrow::{Tolerance, Unsupported};
 use tunnelproof::query::{Query, QueryKind};
-use tunnelproof_float_env::{with_default, with_restored};
+use tunnelproof_float_env::with_restored;
 use tunnelproof_reference::answer::Enclosure;
 use tunnelproof_reference::subject::{Answer, Lapse, LapseKind, NoAnswer, Said, Subject};
 
+use crate::interrupt::watched;
 use crate::queries::row;
 
 /// A callable that is asked `(kind, points, radii)` and answers `(hit, toi)`, or `None` for what it does not take.
@@ -82,26 +81,12 @@ impl Method {
         }
     }
 
-    /// What `work` gives, which asks this method, in a thread of its own: so signals such as Ctrl-C
-    /// are noticed while it runs. Then the method is asked no more, and the work ends soon.
+    /// What `work` gives, which asks this method. After a signal such as that of Ctrl-C the method is asked no more,
+    /// and the work ends soon.
     pub(crate) fn watched<T: Send>(&self, py: Python<'_>, work: impl FnOnce() -> T + Send) -> T {
-        let waiting = thread::current();
-        thread::scope(|scope| {
-            let working = scope.spawn(move || {
-                let result = with_default(work);
-                waiting.unpark();
-                result
-            });
-            while !working.is_finished() {
-                py.detach(|| thread::park_timeout(Duration::from_millis(50)));
-                if let Err(error) = py.check_signals() {
-                    // It may have ended before.
-                    let _ = self.ending.set(error);
-                }
-            }
-            working
-                .join()
-                .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        watched(py, work, |error| {
+            // It may have ended before.
+            let _ = self.ending.set(error);
         })
     }
 

@@ -6,7 +6,6 @@ use std::io::Cursor;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use rayon::prelude::*;
 use tunnelproof::narrow::Tolerance;
 use tunnelproof::query::Query;
 use tunnelproof_cli::report::picture;
@@ -20,6 +19,7 @@ use tunnelproof_reference::report::explanation::Explanation;
 use tunnelproof_reference::shrink::Disagreement;
 use tunnelproof_reference::subject::Subject;
 
+use crate::interrupt::each;
 use crate::method::{Method, tolerance};
 use crate::queries::{self, Rows, row};
 
@@ -108,11 +108,10 @@ pub(crate) fn gap<'py>(
         let gap = least_gap_to(query, width);
         [gap.below, gap.above]
     };
-    let gaps = || {
-        let queries = rows.queries(kind)?;
-        Ok::<Vec<_>, queries::Refused>(queries.par_iter().map(ends).collect())
-    };
-    let gaps = py.detach(|| with_default(gaps))?;
+    let gaps = with_default(|| {
+        let queries = py.detach(|| rows.queries(kind))?;
+        each(py, &queries, ends)
+    })?;
     let count = gaps.len();
     PyArray1::from_vec(py, gaps.into_flattened()).reshape([count, 2])
 }
@@ -166,7 +165,7 @@ pub(crate) fn shrink<'py>(
         let fault = disagreement.fault(&query).ok().flatten()?;
         Some((fault, disagreement.shrink(&query, fault, calls)))
     };
-    let shrunk = py.detach(|| with_default(shrunk));
+    let shrunk = method.watched(py, shrunk);
     method.finish()?;
     let Some((fault, shrunk)) = shrunk else {
         return Ok(None);

@@ -12,6 +12,7 @@ use tunnelproof_cli::report;
 use tunnelproof_cli::scenes::{EMBEDDED, Scene, SceneError};
 use tunnelproof_cli::simulate::{Narrow, Run, Summary};
 use tunnelproof_float_env::with_default;
+use tunnelproof_reference::certify::caller::Caller;
 
 /// The names of the scenes that are built in.
 #[pyfunction]
@@ -99,6 +100,7 @@ impl Plan {
             wires.push(nodes(record));
             Python::attach(|py| py.check_signals()).map_err(NoRun)
         })?;
+        let replay = replay.ended(&world, &summary);
         let audit = audit.map(Audit::finish);
         Ok(Done {
             summary,
@@ -193,7 +195,8 @@ fn written<'py>(
     second: Option<Done>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let fields = PyDict::new(py);
-    let audited = first.audit.as_ref().map(report::audit::text);
+    let report = |audit| report::audit::text(audit, &Caller::Python);
+    let audited = first.audit.as_ref().map(report);
     let text = format!("{}{}", first.summary, audited.unwrap_or_default());
     fields.set_item("text", text)?;
     let json = serde_json::json!({

@@ -5,7 +5,6 @@ use numpy::{PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rayon::prelude::*;
 use tunnelproof::certified::RigidKind as _;
 use tunnelproof::contact::Place;
 use tunnelproof::nalgebra::Quaternion;
@@ -15,6 +14,7 @@ use tunnelproof::{Hit, Point, Radius};
 use tunnelproof_float_env::with_default;
 
 use crate::certified::{Row, columns};
+use crate::interrupt::each;
 use crate::queries::Refused;
 
 /// The columns of `Hits`, of arrays whose shapes the Python side has made sure of.
@@ -128,8 +128,7 @@ fn written<'py>(py: Python<'py>, form: Form, arrays: &Arrays<'_>) -> PyResult<Bo
         indices.map(|index| arrays.query(form, index)).collect();
     let queries = queries?;
     let row = |query: &RigidQuery| Some(row(query, tunnelproof::decide_rigid(query)?));
-    let rows: Vec<_> = py.detach(|| queries.par_iter().map(row).collect());
-    columns(py, &rows)
+    columns(py, &each(py, &queries, row)?)
 }
 
 /// A hit with its points in space. There is no normal.

@@ -88,6 +88,19 @@ def test_what_a_method_does_not_take_is_not_judged():
     assert [sort["kind"] for sort in subject["refused"]] == ["vertex-face"]
 
 
+def test_a_method_that_takes_nothing_is_told_so():
+    def silent(kind, points, radii):
+        return None
+
+    certificate = tunnelproof.certify(silent, name="silent", families=["uniform"], count=123)
+    said = "takes none of the 123 queries, so it gave no answer"
+    assert certificate.failures == [f"silent: {said}"]
+    for text in (certificate.text, certificate.details, certificate.html):
+        assert said in text
+    (row,) = [line for line in certificate.text.splitlines() if "FAILS" in line]
+    assert "0" not in row.split("(")[0] and "not asked 123" in row
+
+
 def test_families_are_those_that_a_method_takes():
     def names(method):
         return [source["name"] for source in tunnelproof.certify(method, count=2).results["sources"]]

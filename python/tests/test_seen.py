@@ -172,10 +172,15 @@ def test_a_run_in_guard_mode_is_clean_and_the_one_beside_it_is_drawn():
     assert "srcdoc" in run._repr_html_()
 
 
-def test_discrete_detection_lets_it_through_and_the_audit_says_so():
+def test_discrete_detection_lets_it_through_and_the_audit_says_so(capsys):
     run = tunnelproof.simulate("basic-collision", duration=0.1, narrow="discrete")
     assert run.is_clean is False and len(run.results["audit"]["standing"]) == 2
     assert run.wires[-1][2][:, 2].max() < 0
+    # What it says to do is said in Python.
+    assert "cargo" not in run.text and "echo" not in run.text
+    (line, *_) = [line for line in run.text.splitlines() if "explain" in line]
+    exec(line.strip(), {"tunnelproof": tunnelproof})
+    assert "0.5909187621342502" in capsys.readouterr().out
     assert tunnelproof.simulate("basic-collision", duration=0.1, audit=False).is_clean is None
 
 
@@ -184,7 +189,7 @@ def test_a_scene_is_read_from_a_file(tmp_path):
     scene.write_text('title = "none"\nduration = "long"\n')
     with pytest.raises(ValueError, match="line 2"):
         tunnelproof.simulate(scene)
-    with pytest.raises(FileNotFoundError):
+    with pytest.raises(FileNotFoundError, match="no file .*nowhere.toml.* scenes are basic-collision,"):
         tunnelproof.simulate(tmp_path / "nowhere.toml")
     with pytest.raises(ValueError, match="narrow"):
         tunnelproof.simulate("basic-collision", narrow="wide")
@@ -194,6 +199,19 @@ def test_the_extension_is_stripped():
     # It has 9 MB, with line tables 55.
     path = Path(tunnelproof._tunnelproof.__file__)
     assert path.stat().st_size < 15e6
+
+
+def test_a_run_without_a_step_shows_its_start():
+    run = tunnelproof.simulate("basic-collision", duration=1e-4)
+    assert run.results["summary"]["steps"] == 0 and run.times.shape == (0,)
+    assert run.frame_count == 1 and is_svg(run.plot()) and "falling" in run.html
+
+
+def test_events_of_an_explanation_have_names():
+    text = tunnelproof.explain(tunnelproof.Query("edge-edge", FALLING, 0.25)).text
+    times = [line for line in text.splitlines() if line.startswith("  t = ")]
+    assert times and all(": contact" not in line or line.split()[3] != ":" for line in times)
+    assert any(line.split()[3] == "contact," for line in times), times
 
 
 def test_ctrl_c_ends_a_judgement_soon():

@@ -14,10 +14,22 @@ function headline(tone, text, sentence) {
   byId("sentence").textContent = sentence;
 }
 
-const about = value => {
-  const text = Number(value.toPrecision(6));
-  return `${text === value ? "=" : "≈"} ${text}`;
-};
+/* A time in few digits, but in so many that it is not taken for another: an end of the step, or one that it is compared with. */
+function about(value, { isExact = true, beside = [] } = {}) {
+  if (value === 0 && !isExact) return "just above 0";
+  const others = [0, 1, ...beside].filter(other => other !== value);
+  const at = (number, digits) => Number(number.toPrecision(digits));
+  let digits = 6;
+  while (digits < 17 && others.some(other => at(other, digits) === at(value, digits))) digits++;
+  const text = at(value, digits);
+  return `${text === value && isExact ? "=" : "≈"}\u00a0${text}`;
+}
+
+/* Whether a time of impact lies between two f64. */
+const isBetween = hit => hit.in_f64.startsWith("[");
+// Digits that are all there are.
+const isShort = decimals => /^\d(\.\d{1,6})?$/.test(decimals);
+const impactAt = (hit, beside = []) => `t\u00a0${isShort(hit.decimals) ? `=\u00a0${hit.decimals}` : about(hit.below, { isExact: !isBetween(hit), beside })}`;
 
 /* The fault that counts: a time of impact that is off by rounding alone is right. */
 function faultOf(subject) {
@@ -27,13 +39,13 @@ function faultOf(subject) {
 }
 
 const SAYINGS = {
-  tunnel: hit => `It reports no contact, and the two pass through each other: first contact at t ${about(hit.below)}.`,
-  "joint tunnel": hit => `It reports no contact, and the two pass through each other: first contact at t ${about(hit.below)}.`,
-  "missed graze": hit => `It reports no contact, and the two touch at t ${about(hit.below)}.`,
-  "false hit": (_, subject) => `It reports a contact at t ${about(subject.toi)}. They never touch.`,
-  "near hit": (_, subject) => `It reports a contact at t ${about(subject.toi)}. They never touch, but come within its distance threshold.`,
-  late: (hit, subject) => `It reports t ${about(subject.toi)}. They touch before, at t ${about(hit.below)}.`,
-  early: (hit, subject) => `It reports t ${about(subject.toi)}. They touch later, at t ${about(hit.below)}.`,
+  tunnel: hit => `It reports no contact, and the two pass through each other: first contact at ${impactAt(hit)}.`,
+  "joint tunnel": hit => `It reports no contact, and the two pass through each other: first contact at ${impactAt(hit)}.`,
+  "missed graze": hit => `It reports no contact, and the two touch at ${impactAt(hit)}.`,
+  "false hit": (_, subject) => `It reports a contact at t\u00a0${about(subject.toi)}. They never touch.`,
+  "near hit": (_, subject) => `It reports a contact at t\u00a0${about(subject.toi)}. They never touch, but come within its distance threshold.`,
+  late: (hit, subject) => `It reports t\u00a0${about(subject.toi, { beside: [hit.below] })}. They touch before, at ${impactAt(hit, [subject.toi])}.`,
+  early: (hit, subject) => `It reports t\u00a0${about(subject.toi, { beside: [hit.below] })}. They touch later, at ${impactAt(hit, [subject.toi])}.`,
   "no answer": () => "It has no answer.",
 };
 const TITLES = {
@@ -45,7 +57,7 @@ function tell() {
   const [certified, , thesis, additive] = said.subjects;
   const { impact } = said, fault = thesis.is_asked ? faultOf(thesis) : undefined, other = additive.is_asked ? faultOf(additive) : undefined;
   const isThick = state.radius.some(Boolean);
-  const truth = impact && isThick ? `They come as near as the radius, first at t ${about(impact.below)}.` : impact ? `${impact.kind === "crossing" ? "They pass through each other" : impact.crosses ? "They touch, and pass through each other" : "They touch"}, first at t ${about(impact.below)}.` : "They never touch.";
+  const truth = impact && isThick ? `They come as near as the radius, first at ${impactAt(impact)}.` : impact ? `${impact.kind === "crossing" ? "They pass through each other" : impact.crosses ? "They touch, and pass through each other" : "They touch"}, first at ${impactAt(impact)}.` : "They never touch.";
   if (certified.faults.length) headline("bad", "tunnelproof is wrong!", "Please report this query: copy the link.");
   else if (fault) headline(fault === "early" || fault === "near hit" ? "warn" : "bad", `${TITLES[fault]}: the thesis' method is wrong.`, SAYINGS[fault](impact, thesis));
   else if (!thesis.is_asked) headline("good", truth, other && other !== "early" ? `Additive CCD: ${TITLES[other].toLowerCase()}.` : `The thesis' method does not take ${state.kind === "vertex-face" ? "faces" : "a radius"}.`);
@@ -59,6 +71,16 @@ function tell() {
   draw();
 }
 
+/* Nothing is known of the query: of the one before nothing stays. */
+function silence(why) {
+  headline("bad", "No answer.", why);
+  byId("verdicts").tBodies[0].replaceChildren();
+  byId("answer").replaceChildren(element("dt", { textContent: "No answer" }), element("dd", { textContent: why }));
+  byId("f-title").textContent = "f(t)";
+  byId("f-text").textContent = "";
+  for (const id of ["f-chart", "d-chart", "marks"]) byId(id).replaceChildren();
+}
+
 function verdicts() {
   const rows = said.subjects.map(subject => {
     const [name, about] = METHODS[subject.name], fault = subject.is_asked ? faultOf(subject) : undefined;
@@ -67,8 +89,8 @@ function verdicts() {
     const chip = !subject.is_asked ? "not asked" : fault ? TITLES[fault] : "right";
     const sentence = fault ? (SAYINGS[fault] ?? (() => ""))(said.impact, subject) : !subject.is_asked ? "It does not take such queries." : "";
     // Those that say between which two f64 it is.
-    const isBetween = ["certified", "oracle"].includes(subject.name) && said.impact?.in_f64.startsWith("[");
-    const claim = !subject.is_asked ? "–" : subject.toi !== null ? `contact at t = ${subject.toi}${isBetween ? "…" : ""}` : subject.claim.startsWith("miss") ? "no contact" : subject.claim;
+    const isRounded = ["certified", "oracle"].includes(subject.name) && said.impact && isBetween(said.impact);
+    const claim = !subject.is_asked ? "–" : subject.toi !== null ? `contact at t = ${subject.toi}${isRounded ? "…" : ""}` : subject.claim.startsWith("miss") ? "no contact" : subject.claim;
     const motion = subject.faults.includes("wrong case") ? `It takes the motion for ${subject.case}.` : subject.case && !fault ? `${subject.case} motion` : "";
     const row = element("tr", {},
       element("th", { scope: "row" }, name, element("small", { textContent: about })),
@@ -117,11 +139,18 @@ function charts() {
   }
   const text = f ? `f = 2^${f.exponent} (${f.integers.map((integer, k) => [integer, k]).filter(([integer]) => integer !== "0").map(([integer, k]) => `${integer}${["", " t", " t²", " t³"][k]}`).join(" + ").replaceAll("+ -", "− ")})` : "";
   byId("f-text").textContent = [shortened(text), said.heading, ...times.map(when => `t = ${when.exactly}: ${when.words}`)].filter(Boolean).join("\n");
-  const values = distances(state, frame, count), radius = Math.min(1e300, state.radius[0] + state.radius[1]) / frame.unit;
-  const most = Math.max(...values.filter(Number.isFinite), radius) || 1;
-  const touch = said.impact ? [{ time: said.impact.below, value: radius, filled: true, missed: isMissed(), title: "first contact" }] : [];
+  distanceChart(count);
+}
+
+function distanceChart(count) {
+  const values = distances(state, frame, count), radius = frame.radius(state.radius), farthest = Math.max(...values);
+  const most = Math.max(farthest, radius) || 1;
+  // Of the most, which may be infinite.
+  const share = value => value === most ? 1 : value / most;
+  const label = radius > farthest ? shortProduct([state.radius[0] / 2 + state.radius[1] / 2, 2]) : shortProduct([most, ...frame.factors]);
+  const touch = said.impact ? [{ time: said.impact.below, value: share(radius), filled: true, missed: isMissed(), title: "first contact" }] : [];
   byId("d-chart").dataset.label = "The distance over the step";
-  chart(byId("d-chart"), { values: values.map(value => Number.isFinite(value) ? value : 0), low: 0, high: 1.1 * most, labels: [[0, "0"], [most, `${short(most * frame.unit)} m`]], marks: touch, line: radius || undefined, now: time });
+  chart(byId("d-chart"), { values: values.map(share), low: 0, high: 1.1, labels: [[0, "0"], [1, `${label} m`]], marks: touch, line: radius ? share(radius) : undefined, now: time });
 }
 
 /* What each method reports, on the time line. */

@@ -33,6 +33,14 @@ function distances(state, frame, count = 240) {
 
 const short = value => written(Number(value.toPrecision(2))).replaceAll("-", "−");
 
+/* The same of a product of numbers above 0, which may be beyond f64. */
+function shortProduct(factors) {
+  const product = factors.reduce((a, b) => a * b), power = factors.reduce((sum, factor) => sum + Math.log10(factor), 0);
+  if (Math.abs(power) < 300) return short(product);
+  const whole = Math.floor(power);
+  return `${Number((10 ** (power - whole)).toPrecision(2))}e${whole}`.replaceAll("-", "−");
+}
+
 /* Values over [0, 1] with marks: { time, filled, title, colour }. The labels of the ends are texts. */
 function chart(box, { values, low, high, labels, marks, line, now }) {
   const width = 360, height = 130, left = 58, right = 10, top = 10, bottom = 20;

@@ -23,21 +23,33 @@ function makeFields() {
   }));
 }
 
-function fields(selected = view.selected) {
+/* Every field shows the state, but for one that is being typed in. */
+function fields() {
   if (!state) return;
   for (const input of document.querySelectorAll("#points input")) {
     const [point, axis] = input.dataset.at.split(" ").map(Number);
-    if (input !== document.activeElement || input.dataset.is !== "typed") input.value = input.title = written(state.points[point][axis]);
-    input.closest("tr").className = point === selected ? "selected" : "";
+    write(input, written(state.points[point][axis]));
   }
   for (const input of document.querySelectorAll("#thresholds input")) {
-    if (input === document.activeElement && input.dataset.is === "typed") continue;
     const value = state.thresholds[Number(input.dataset.threshold)];
-    input.value = input.type === "range" ? (value > 0 ? Math.log10(value) : -18) : written(value);
+    write(input, input.type === "range" ? (value > 0 ? Math.log10(value) : -18) : written(value));
   }
-  if (document.activeElement !== byId("radius")) byId("radius").value = state.radius[1] ? state.radius.map(written).join(" + ") : written(state.radius[0]);
+  write(byId("radius"), state.radius[1] ? state.radius.map(written).join(" + ") : written(state.radius[0]));
   byId("kind").value = state.kind;
   byId("shell").textContent = `echo '${JSON.stringify(queryOf(state))}' | tunnelproof explain -`;
+  galleryLabel();
+  selection();
+}
+
+function write(input, text) {
+  if (input === document.activeElement && input.dataset.is === "typed") return;
+  input.value = input.title = text;
+  input.removeAttribute("aria-invalid");
+}
+
+/* The point that is selected, in the fields. */
+function selection() {
+  for (const row of byId("points").rows) row.className = Number(row.querySelector("input").dataset.at.split(" ")[0]) === view.selected ? "selected" : "";
   exactField();
 }
 
@@ -46,10 +58,16 @@ function exactField() {
   byId("exact").textContent = `${nameOf(point)} ${COORDINATES[axis]} = ${hexadecimal(value)}\nexactly ${shortened(exactDecimal(value), 120)}`;
 }
 
-function typed(input, apply, isGood = () => true) {
-  const value = read(input.value), isTaken = Number.isFinite(value) && isGood(value);
-  input.setAttribute("aria-invalid", !isTaken);
-  if (isTaken) apply(value);
+/* Applies the numbers that were typed, or says what is wrong with them. */
+function typed(input, apply, { isSize = false, most = 1 } = {}) {
+  input.dataset.is = "";
+  const parts = most > 1 ? input.value.split("+") : [input.value];
+  const wrong = parts.length > most ? `At most ${most} numbers are added.` : parts.map(part => refusal(part, isSize)).find(Boolean);
+  if (wrong) {
+    input.setAttribute("aria-invalid", true);
+    return notice(`${wrong} Nothing is changed.`);
+  }
+  apply(parts.map(read));
 }
 
 /* Searching */
@@ -76,8 +94,7 @@ function find() {
     const { found, smaller } = data, name = found.query.id;
     finds.entries.unshift({ id: `${name}/shrunk`, title: `${fault}, shrunk from ${name}`, query: smaller.query }, { id: name, title: `${fault}, as found: ${name}`, query: found.query });
     makeGallery();
-    byId("gallery").value = `${name}/shrunk`;
-    load(smaller.query);
+    load(finds.entries[0]);
   };
   worker.postMessage({ module: judge.module, families: FAMILIES, fault, thresholds: state.thresholds, seed });
 }
@@ -94,21 +111,28 @@ function makeGallery() {
     ...group.entries.map(entry => element("option", { value: entry.id, textContent: entry.title })))));
 }
 
+/* Which motion of the gallery is shown, and whether it was changed since. */
+function galleryLabel() {
+  const isSame = chosen?.text === JSON.stringify(queryOf(state));
+  byId("gallery").options[0].textContent = !chosen || isSame ? "Gallery…" : `Changed: ${chosen.title}`;
+  byId("gallery").value = isSame ? chosen.id : "";
+}
+
 /* What the user does */
 
 function listen() {
   const on = (id, name, to) => byId(id).addEventListener(name, to);
   on("play", "click", () => playing ? pause() : start());
-  on("time", "input", event => { pause(); time = Number(event.target.value); draw(); link(); });
+  on("time", "input", event => { pause(); time = Number(event.target.value); draw(); link(true); });
   on("undo", "click", () => step(past, future));
   on("redo", "click", () => step(future, past));
   on("find", "click", find);
   on("cancel", "click", cancel);
   on("gallery", "change", event => {
     const entry = [finds, ...gallery].flatMap(group => group.entries).find(({ id }) => id === event.target.value);
-    if (entry) { time = 0; load(entry.query); }
+    if (entry) { time = 0; load(entry); }
   });
-  on("fit", "click", () => { refit(); Object.assign(view.camera, { yaw: 0.6, pitch: 0.42, zoom: 1 }); changed(); });
+  on("fit", "click", () => { refit(); Object.assign(view.camera, { yaw: 0.6, pitch: 0.42, zoom: 1 }); changed(); link(true); });
   on("zoom-in", "click", () => view.zoom(1.25));
   on("zoom-out", "click", () => view.zoom(0.8));
   on("snap", "change", () => byId("snap").checked && edit(next => { next.points = next.points.map(point => point.map(rounded)); }));
@@ -118,28 +142,24 @@ function listen() {
   on("reset", "click", () => edit(next => { next.thresholds = [...PUBLISHED]; }));
   on("link", "click", () => copy(byId("link"), location.href.replace(/#.*/, "") + address()));
   on("copy", "click", () => copy(byId("copy"), byId("shell").textContent));
-  on("radius", "change", event => {
-    const parts = event.target.value.split("+").map(read), isGood = parts.length <= 2 && parts.every(part => Number.isFinite(part) && part >= 0);
-    event.target.setAttribute("aria-invalid", !isGood);
-    if (isGood) edit(next => { next.radius = [parts[0], parts[1] ?? 0]; });
-  });
+  on("radius", "input", event => { event.target.dataset.is = "typed"; });
+  on("radius", "change", event => typed(event.target, parts => edit(next => { next.radius = [parts[0], parts[1] ?? 0]; }), { isSize: true, most: 2 }));
   pointFields();
   thresholdFields();
   addEventListener("keydown", keys);
-  addEventListener("resize", draw);
-  addEventListener("hashchange", () => open(location.hash) || notice(BROKEN_LINK));
+  new ResizeObserver(draw).observe(view.canvas);
+  addEventListener("hashchange", () => open(location.hash));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
 }
 
 function pointFields() {
   const box = byId("points");
   const at = input => input.dataset.at.split(" ").map(Number);
-  box.addEventListener("focusin", ({ target }) => { field = target.dataset.at; view.selected = at(target)[0]; fields(); view.draw(); });
+  box.addEventListener("focusin", ({ target }) => { field = target.dataset.at; view.selected = at(target)[0]; selection(); view.draw(); });
   box.addEventListener("input", ({ target }) => { target.dataset.is = "typed"; });
   box.addEventListener("change", ({ target }) => {
-    target.dataset.is = "";
     const [point, axis] = at(target);
-    typed(target, value => edit(next => { next.points[point][axis] = value; }));
+    typed(target, ([value]) => edit(next => { next.points[point][axis] = value; }));
   });
   box.addEventListener("keydown", event => {
     const way = { ArrowUp: 1, ArrowDown: -1 }[event.key];
@@ -160,9 +180,7 @@ function thresholdFields() {
     put(target, power <= -18 ? 0 : Number((10 ** power).toPrecision(2)));
   });
   box.addEventListener("change", ({ target }) => {
-    if (target.type === "range") return;
-    target.dataset.is = "";
-    typed(target, value => put(target, value), value => value >= 0);
+    if (target.type !== "range") typed(target, ([value]) => put(target, value), { isSize: true });
   });
 }
 
@@ -184,7 +202,7 @@ function keys(event) {
   if (event.key.toLowerCase() === "n") {
     view.selected = ((view.selected ?? (event.shiftKey ? 8 : -1)) + (event.shiftKey ? 7 : 1)) % 8;
     field = null;
-    fields();
+    selection();
     return view.draw();
   }
   const ways = { ArrowRight: [0, 1], ArrowLeft: [0, -1], ArrowUp: [1, 1], ArrowDown: [1, -1], PageUp: [2, -1], PageDown: [2, 1] };

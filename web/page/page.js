@@ -13,6 +13,8 @@ const finds = { title: "Found here", entries: [] };
 
 let judge, state, frame, unit, said = null, time = 0, playing = false, before = 0, field = null, worker = null;
 let past = [], future = [];
+// What was chosen of the gallery; whether the link of the address stays, as it is damaged and nothing was changed since.
+let chosen = null, keepsLink = false;
 
 /* Changing the state */
 
@@ -27,8 +29,11 @@ function set(next, { remember = true, fit = false } = {}) {
   state = next;
   notice("");
   if (fit || !frame) refit();
+  keepsLink = false;
   changed();
 }
+
+const TOO_LARGE = "A coordinate would be beyond the largest f64, so nothing is changed.";
 
 /* What else is to be known. */
 function notice(text) {
@@ -39,14 +44,14 @@ function notice(text) {
 function edit(change, options) {
   const next = copyOf(state);
   change(next);
+  if (!next.points.flat().every(Number.isFinite)) return notice(TOO_LARGE);
   set(next, options);
 }
 
 function step(from, to) {
   if (!from.length) return;
   to.push(copyOf(state));
-  state = from.pop();
-  changed();
+  set(from.pop(), { remember: false });
 }
 
 function refit() {
@@ -59,11 +64,11 @@ function refit() {
 
 /* Whether the picture shows too little of the motion, or it too small. */
 function isAstray() {
-  const sizes = state.points.flatMap(frame.to).map(Math.abs);
-  return sizes.some(size => !(size < 1.5)) || Math.max(...sizes) < 0.1;
+  const points = state.points.map(frame.to), along = [0, 1, 2].map(axis => points.map(point => point[axis]));
+  const size = Math.max(...along.map(of => Math.max(...of) - Math.min(...of)));
+  return !points.flat().every(x => Math.abs(x) < 1.5) || size < 0.25;
 }
 
-const BROKEN_LINK = "The link is incomplete or damaged, so nothing of it is shown.";
 let isWaiting = false;
 function changed() {
   if (!view.dragged && isAstray()) refit();
@@ -83,16 +88,17 @@ function changed() {
       if (asked === state) tell();
     } catch (error) {
       said = null;
-      headline("bad", "No answer.", error.message);
+      silence(error.message);
       draw();
     }
   });
 }
 
 let linkTimer;
-function link() {
+function link(isByUser = false) {
+  if (isByUser) keepsLink = false;
   clearTimeout(linkTimer);
-  linkTimer = setTimeout(() => history.replaceState(null, "", address()), 250);
+  linkTimer = setTimeout(() => keepsLink || history.replaceState(null, "", address()), 250);
 }
 
 function address() {
@@ -100,9 +106,10 @@ function address() {
   return linkOf(state, { time, view: [yaw, pitch, zoom].map(x => Number(x.toFixed(4))) });
 }
 
-function load(query) {
+/* Shows a motion of the gallery. */
+function load({ id, title, query }) {
   const next = stateOf(query, state?.thresholds ?? PUBLISHED);
-  frame = null;
+  chosen = { id, title, text: JSON.stringify(queryOf(next)) };
   set(next, { fit: true });
   view.selected = null;
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches) start();
@@ -111,7 +118,7 @@ function load(query) {
 /* The motion */
 
 const view = new View(byId("canvas"), {
-  select: k => fields(k),
+  select: () => selection(),
   start: (k, alone) => {
     view.unmoved = copyOf(state);
     const mate = (k + 4) % 8;
@@ -119,14 +126,13 @@ const view = new View(byId("canvas"), {
     view.moved = isAtRest && byId("rest").checked && !alone ? [k, mate] : isAtRest && k < 4 ? [mate] : [k];
   },
   drag: (_, to) => {
+    const place = byId("snap").checked ? to.map(rounded) : to;
+    if (!place.every(Number.isFinite)) return notice(TOO_LARGE);
     if (view.unmoved) [past, future, view.unmoved] = [[...past, view.unmoved], [], null];
-    edit(next => {
-      const place = byId("snap").checked ? to.map(rounded) : to;
-      if (place.every(Number.isFinite)) for (const k of view.moved) next.points[k] = [...place];
-    }, { remember: false });
+    edit(next => { for (const k of view.moved) next.points[k] = [...place]; }, { remember: false });
   },
   stop: () => changed(),
-  turn: () => { view.draw(); link(); },
+  turn: () => { view.draw(); link(true); },
 });
 
 function contacts() {
@@ -141,8 +147,7 @@ const isMissed = () => !!said?.subjects.some(subject => subject.name === "thesis
 
 function draw() {
   if (!state) return;
-  const radius = state.radius[0] + state.radius[1];
-  view.show({ ...state, radius, frame, time, contacts: contacts(), toi: said?.impact?.below, missed: isMissed() });
+  view.show({ ...state, radius: frame.radius(state.radius), frame, time, contacts: contacts(), toi: said?.impact?.below, missed: isMissed() });
   byId("time").value = time;
   byId("now").textContent = `t = ${time.toFixed(3)}`;
   for (const id of ["f-chart", "d-chart"]) moveNow(byId(id), time);
@@ -171,15 +176,22 @@ function tick(now) {
   link();
 }
 
-/* Opens what a link says; whether it says something. */
+/* Opens what a link says, without one the first motion of the gallery; and says what is wrong with the link. */
 function open(hash) {
-  const linked = readLink(hash);
-  if (!linked) return false;
-  if (linked.view) view.look(...linked.view);
-  time = Math.max(0, Math.min(1, linked.time));
-  frame = null;
-  set(linked.state, { fit: true });
-  return true;
+  const linked = hash.length > 1 ? readLink(hash) : { wrong: [] };
+  if (linked.state) {
+    if (linked.view) view.look(...linked.view);
+    time = linked.time;
+    chosen = null;
+    set(linked.state, { fit: true });
+  } else if (!state) {
+    load(gallery[0].entries[0]);
+    chosen = null;
+    galleryLabel();
+  }
+  if (!linked.wrong.length) return;
+  notice(`The link is damaged: ${linked.wrong.join("; ")}. ${linked.state ? "All else of it is shown." : "Nothing of it is shown."}`);
+  keepsLink = true;
 }
 
 async function main() {
@@ -192,10 +204,7 @@ async function main() {
     return headline("bad", "This browser cannot run the judge.", error.message);
   }
   listen();
-  if (!open(location.hash)) {
-    load(gallery[0].entries[0].query);
-    if (location.hash.length > 1) notice(BROKEN_LINK);
-  }
+  open(location.hash);
   document.documentElement.dataset.ready = Math.round(performance.now());
 }
 

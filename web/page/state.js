@@ -18,8 +18,12 @@ function written(value) {
   return exponential.length < plain.length ? exponential : plain;
 }
 
+/* Whether a comma may stand between thousands or before decimals: 1,000. */
+const isAmbiguous = text => /^\s*[-+−]?[1-9]\d{0,2}(,\d{3})+\s*$/.test(text);
+
 /* The number that a text stands for: decimal, or hexadecimal as C writes it; NaN if it is none. */
 function read(text) {
+  if (isAmbiguous(text)) return NaN;
   const hex = /^\s*([-+]?)0x([0-9a-f]+)(?:\.([0-9a-f]*))?(?:p([-+]?\d+))?\s*$/i.exec(text);
   if (!hex) return text.trim() === "" ? NaN : Number(text.replace(",", ".").replace("−", "-"));
   const [, sign, whole, fraction = "", power = "0"] = hex;
@@ -30,17 +34,25 @@ function read(text) {
   return sign === "-" ? -value : value;
 }
 
+/* Why a text is not taken for a number; nothing if it is. A size is not below 0. */
+function refusal(text, isSize = false) {
+  const value = read(text), quoted = `“${text.trim()}”`;
+  if (isAmbiguous(text)) return `${quoted} can be read in two ways. Write it without a comma, or with a point before decimals.`;
+  if (Number.isNaN(value)) return `${quoted} is no number.`;
+  if (!Number.isFinite(value)) return `${quoted} is beyond the largest f64.`;
+  return isSize && value < 0 ? `${quoted} is below 0.` : "";
+}
+
 const cell = new DataView(new ArrayBuffer(8));
 function bitsOf(value) { cell.setFloat64(0, value); return cell.getBigInt64(0); }
 function ofBits(bits) { cell.setBigInt64(0, bits); return cell.getFloat64(0); }
 
-/* The number so many f64 further up; -0 and 0 are one. */
+/* The number so many f64 further up; -0 and 0 are one. No finite number if there are not so many. */
 function nudged(value, count) {
   const bits = bitsOf(value);
   const order = bits < 0n ? -(bits & 0x7fffffffffffffffn) : bits;
   const next = order + BigInt(count);
-  const moved = next < 0n ? -ofBits(-next) : ofBits(next);
-  return Number.isFinite(moved) ? moved : value;
+  return next < 0n ? -ofBits(-next) : ofBits(next);
 }
 
 /* An f64 as a hexadecimal float. */
@@ -104,26 +116,36 @@ function unescaped(text) {
   try { return decodeURIComponent(text); } catch { return text; }
 }
 
-/* What such a text says; null if it is none. */
-function readLink(text) {
-  const fields = new Map(text.replace(/^#/, "").split("&").map(part => {
+/* The fields of such a text. */
+function fieldsOf(text) {
+  return new Map(text.replace(/^#/, "").split("&").filter(Boolean).map(part => {
     const [name, value = ""] = part.split("=");
     return [name, unescaped(value)];
   }));
-  const list = (name, count) => {
-    const numbers = (fields.get(name) ?? "").split(",").map(read);
-    return numbers.length === count && numbers.every(Number.isFinite) ? numbers : null;
+}
+
+/* What such a text says and, in words, what is wrong with it. There is no state if there are no points. */
+function readLink(text) {
+  const fields = fieldsOf(text), wrong = [];
+  const list = (name, words, isGood, otherwise) => {
+    const value = fields.get(name), numbers = value?.split(",").map(read);
+    if (numbers?.every(Number.isFinite) && isGood(numbers)) return numbers;
+    if (value !== undefined) wrong.push(`${name} has to be ${words}, not “${shortened(value, 40)}”`);
+    return otherwise;
   };
-  const sizes = (name, count, otherwise) => {
-    const numbers = fields.has(name) ? list(name, count) : otherwise;
-    return numbers?.every(number => number >= 0) ? numbers : null;
-  };
-  const points = list("points", 24), kind = fields.get("kind");
-  const radius = sizes("radius", 2, [0, 0]), thresholds = sizes("thresholds", 5, [...PUBLISHED]);
-  if (!points || !radius || !thresholds || !["edge-edge", "vertex-face"].includes(kind)) return null;
-  const state = {
-    kind, radius, thresholds,
+  const areSizes = numbers => numbers.every(number => number >= 0);
+  const points = list("points", "24 numbers", ({ length }) => length === 24, null);
+  if (!points && !fields.has("points")) wrong.push("it has no points");
+  const radius = list("radius", "one or two numbers from 0", numbers => numbers.length <= 2 && areSizes(numbers), [0]);
+  const thresholds = list("thresholds", "five numbers from 0", numbers => numbers.length === 5 && areSizes(numbers), PUBLISHED);
+  const [time] = list("t", "a number from 0 to 1", ([time, ...more]) => !more.length && time >= 0 && time <= 1, [0]);
+  const view = list("view", "two angles and a zoom above 0", numbers => numbers.length === 3 && numbers[2] > 0, null);
+  const isKind = ["edge-edge", "vertex-face"].includes(fields.get("kind"));
+  if (!isKind) wrong.push(`kind has to be edge-edge or vertex-face${fields.has("kind") ? `, not “${shortened(fields.get("kind"), 40)}”` : ""}`);
+  for (const name of fields.keys()) if (!["kind", "points", "radius", "thresholds", "t", "view"].includes(name)) wrong.push(`there is no “${shortened(name, 40)}”`);
+  const state = points && {
+    kind: isKind ? fields.get("kind") : "edge-edge", radius: [radius[0], radius[1] ?? 0], thresholds: [...thresholds],
     points: Array.from({ length: 8 }, (_, k) => points.slice(3 * k, 3 * k + 3)),
   };
-  return { state, time: list("t", 1)?.[0] ?? 0, view: list("view", 3) };
+  return { state, time, view, wrong };
 }

@@ -25,8 +25,11 @@ function frameOf(points) {
   return {
     to: point => point.map((x, k) => (x / largest - centre[k]) / size),
     from: point => point.map((x, k) => (x * size + centre[k]) * largest),
-    // How long 1 is in metres.
+    // How long 1 is in metres, also as two factors, as it may be beyond f64.
     unit: size * largest,
+    factors: [size, largest],
+    // A radius of two parts, of which neither the sum nor the ratio need be in f64.
+    radius: parts => parts.reduce((sum, part) => sum + part / largest / size, 0),
     bottom: Math.min(...small.map(point => point[2] / size)) - centre[2] / size,
   };
 }
@@ -172,8 +175,8 @@ class View {
 
   /* The sides at the time of the clock; with a radius, its half on each side. */
   sides() {
-    const { time, radius, frame, kind } = this.scene;
-    const width = Math.max(4.5, Math.min(400, radius / frame.unit * this.scale()));
+    const { time, radius, kind } = this.scene;
+    const width = Math.max(4.5, Math.min(400, radius * this.scale()));
     const now = k => this.at(k, time);
     if (kind === "vertex-face") {
       const corners = [1, 2, 3].map(now).map(p => this.project(p));

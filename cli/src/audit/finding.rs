@@ -6,7 +6,7 @@ use serde::{Serialize, Serializer};
 use tunnelproof::query::{EdgeEdge, Query};
 use tunnelproof::wire::SegmentId;
 
-use tunnelproof_reference::certify::caller;
+use tunnelproof_reference::certify::caller::Caller;
 use tunnelproof_reference::corpus::Entry;
 use tunnelproof_reference::corpus::jsonl::{self, Numbers};
 
@@ -127,9 +127,9 @@ impl Finding {
             .map(|query| Entry::unlabelled(id, Query::EdgeEdge(query)))
     }
 
-    /// The command that explains the witness, ready to paste into a shell.
-    pub fn command(&self) -> Option<String> {
-        self.entry().map(|entry| caller::explain_line(&entry))
+    /// The command that explains the witness to whoever asked, ready to paste.
+    pub fn command(&self, caller: &Caller) -> Option<String> {
+        self.entry().map(|entry| caller.explain_entry(&entry))
     }
 }
 

@@ -14,6 +14,7 @@ use tunnelproof::wire::{
 };
 
 use super::*;
+use tunnelproof_reference::certify::caller::Caller;
 
 /// A chain in the form of an alpha, whose free end is thrown at the other one, which is fixed.
 const ALPHA: &str = r#"
@@ -147,7 +148,12 @@ fn audit_finds_the_passage_of_a_wire_through_itself() {
         unreachable!("one finding")
     };
     assert_eq!(finding.segments.len(), 2);
-    assert!(finding.command().unwrap().contains("explain -"));
+    assert!(
+        finding
+            .command(&Caller::Test)
+            .unwrap()
+            .contains("explain -")
+    );
 }
 
 #[test]
@@ -443,7 +449,12 @@ fn audit_finds_a_guard_of_half_the_thickness() {
     let by = Culprit::Narrow;
     let were_near = false;
     assert_eq!(finding.what, What::Nearer { by, were_near });
-    assert!(finding.command().unwrap().contains("explain -"));
+    assert!(
+        finding
+            .command(&Caller::Test)
+            .unwrap()
+            .contains("explain -")
+    );
 }
 
 /// The certified path, but a distance below the whole of what is guarded is forgotten.

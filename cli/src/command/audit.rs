@@ -12,7 +12,7 @@ use tunnelproof_cli::audit::Audit as Auditor;
 use tunnelproof_cli::replay::{self, Replay};
 use tunnelproof_cli::report::audit;
 
-use super::output::{JsonOutput, OutputFile};
+use super::output::{JsonOutput, OutputFile, shell};
 use super::{Failure, progress};
 
 /// Check a recording of a simulation for missed tunnels by the exact oracle
@@ -63,7 +63,7 @@ impl Audit {
             let runs = [replay.audited(&report)];
             page.write(&replay::page(&runs).map_err(no_json)?)?;
         }
-        json.write(|| as_json(&report), || audit::text(&report))?;
+        json.write(|| as_json(&report), || audit::text(&report, &shell()))?;
         let good = if self.exact {
             report.is_exact()
         } else {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anstream::{AutoStream, ColorChoice};
 use anstyle::{AnsiColor, Style};
 use tempfile::NamedTempFile;
-use tunnelproof_reference::certify::caller;
+use tunnelproof_reference::certify::caller::{self, Caller};
 use tunnelproof_reference::certify::table::{Paint, Shown, Tone};
 
 use super::Failure;
@@ -26,6 +26,14 @@ pub(super) fn program() -> &'static str {
     match std::env::var_os("CARGO") {
         Some(_) => caller::CHECKOUT,
         None => caller::INSTALLED,
+    }
+}
+
+/// Who asked on the command line, for commands to paste.
+pub(super) fn shell() -> Caller {
+    Caller::Shell {
+        program: program().to_owned(),
+        options: String::new(),
     }
 }
 

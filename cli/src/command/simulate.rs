@@ -16,7 +16,7 @@ use tunnelproof_cli::report;
 use tunnelproof_cli::scenes::{EMBEDDED, Scene};
 use tunnelproof_cli::simulate::{Narrow, Run, Summary};
 
-use super::output::{JsonOutput, OutputFile, print, unwritable};
+use super::output::{JsonOutput, OutputFile, print, shell, unwritable};
 use super::polygons::Polygons;
 use super::{Failure, progress};
 
@@ -130,6 +130,7 @@ impl Simulate {
         }
         let audit = watch.audit.map(Audit::finish);
         if let Some(replay) = watch.replay {
+            let replay = replay.ended(&world, &summary);
             let runs = self.shown(replay, audit.as_ref(), &scene)?;
             if let Some(page) = page {
                 page.write(&replay::page(&runs).map_err(super::audit::no_json)?)?;
@@ -144,7 +145,8 @@ impl Simulate {
             summary: &summary,
             audit: audit.as_ref(),
         };
-        let audited = || audit.as_ref().map_or(String::new(), report::audit::text);
+        let text = |audit| report::audit::text(audit, &shell());
+        let audited = || audit.as_ref().map_or(String::new(), text);
         json.write(
             || super::audit::as_json(&document),
             || format!("{summary}{}", audited()),
@@ -181,7 +183,7 @@ impl Simulate {
             narrow: &*narrow.phase(),
             mode: self.mode.into(),
         };
-        progress::working(scene.steps() as usize, "steps beside", |done| {
+        let summary = progress::working(scene.steps() as usize, "steps beside", |done| {
             run.go(|_, record| {
                 done(1);
                 replay.step(record);
@@ -191,6 +193,7 @@ impl Simulate {
                 Ok::<(), Failure>(())
             })
         })?;
+        let replay = replay.ended(&world, &summary);
         Ok(match audit.map(Audit::finish) {
             Some(report) => replay.audited(&report),
             None => replay,

@@ -25,7 +25,7 @@ function short(value) {
   return String(Number(value.toPrecision(size >= 1000 ? 4 : 3)));
 }
 
-/* What is charted: a title, and of each run the names and colours of its lines and how to get their values of a frame. */
+/* What is charted: a title, of each run the names and colours of its lines and how to get their values of a frame, and whether they are counts. */
 const quantities = [
   ["Largest tension of each wire, N", run => run.names.wires.map((name, w) => [name, wireColour(run, w), frame => largest(frame.tensions[w], 0)])],
   ["Energy, J", run => {
@@ -37,22 +37,29 @@ const quantities = [
       ["sum of the three", "#8a949e", frame => frame.energy[0] + frame.energy[1] + frame.energy[2] - potential],
     ];
   }],
-  ["Contacts", () => [["contacts", "#d6592b", frame => frame.contacts.length], ["pairs that met on the way", "#9467bd", frame => frame.met]]],
+  ["Contacts", () => [["contacts", "#d6592b", frame => frame.contacts.length], ["pairs that met on the way", "#9467bd", frame => frame.met]], true],
   ["Angular speed, rad/s", run => run.header.bodies.map(({ dynamic }, k) => dynamic && [run.names.bodies[k], run.colours.bodies[k] ?? palette[k % palette.length], frame => frame.spin[k]]).filter(Boolean)],
 ];
 
 function charts(times, seek) {
-  return quantities.map(([title, linesOf]) => {
+  if (times.length < 2) {
+    byId("charts").append(Object.assign(document.createElement("p"), { className: "alone", textContent: "There is nothing to chart: no step was made." }));
+    return [];
+  }
+  return quantities.map(([title, linesOf, isCount]) => {
     const lines = runs.flatMap((run, r) => linesOf(run).map(([name, shade, of]) => ({
       name: runs.length > 1 ? `${name}, ${run.how.split(",")[0] || r + 1}` : name,
       shade, isDashed: r > 0,
       values: times.map((_, k) => k < run.frames.length ? of(run.frames[k]) : null),
     })));
-    return lines.length ? chart(title, times, lines, seek) : null;
+    return lines.length ? chart(title, times, lines, isCount, seek) : null;
   }).filter(Boolean);
 }
 
-function chart(title, times, lines, seek) {
+/* The distances of marks where there are no fractions. */
+const whole = Array.from({ length: 10 }, (_, power) => [1, 2, 5].map(digit => digit * 10 ** power)).flat();
+
+function chart(title, times, lines, isCount, seek) {
   const box = Object.assign(document.createElement("div"), { className: "chart" });
   box.append(Object.assign(document.createElement("h2"), { textContent: title }));
   byId("charts").append(box);
@@ -75,7 +82,7 @@ function chart(title, times, lines, seek) {
     width: 300, height: 140, padding: [10, 14, 0, 0], legend: { show: false },
     cursor: { sync: { key: "clock" }, drag: { x: false, y: false } },
     scales: { x: { time: false }, y: { range: () => isWhole ? span.whole : span.usual } },
-    axes: [{ ...axis, values: (_, all) => all.map(value => `${short(value)} s`) }, { ...axis, size: 52, space: 24, values: (_, all) => all.map(short) }],
+    axes: [{ ...axis, values: (_, all) => all.map(value => `${short(value)} s`) }, { ...axis, size: 52, space: 24, values: (_, all) => all.map(short), ...(isCount ? { incrs: whole } : {}) }],
     series: [{}, ...lines.map(line => ({ label: line.name, stroke: line.shade, width: 1.5, dash: line.isDashed ? [5, 4] : [], points: { show: false } }))],
     hooks: { setCursor: [self => write(self.cursor.idx ?? at)], draw: [self => place(self)] },
   }, [times, ...lines.map(line => line.values)], box);
@@ -89,8 +96,11 @@ function chart(title, times, lines, seek) {
   }
   plot.over.append(now);
   plot.over.addEventListener("click", event => seek(plot.posToVal(event.clientX - plot.over.getBoundingClientRect().left, "x")));
+  const fit = () => plot.setSize({ width: Math.max(240, box.clientWidth - 12), height: 140 });
+  // Its box is narrower once there is so much that it is scrolled.
+  new ResizeObserver(fit).observe(box);
   return {
-    fit: () => plot.setSize({ width: Math.max(240, box.clientWidth - 12), height: 140 }),
+    fit,
     show: k => { at = k; place(plot); write(plot.cursor.idx ?? k); },
   };
 }

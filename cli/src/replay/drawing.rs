@@ -272,7 +272,16 @@ impl Panel<'_> {
             how => how,
         };
         text(svg, [left, 30.0], "font-weight=\"600\"", how);
-        let clock = format!("{:.3} s", frame.time);
+        let is_last = self
+            .run
+            .frames
+            .last()
+            .is_some_and(|last| last.step == frame.step);
+        let end = match &self.run.stopped {
+            Some(why) if is_last => format!(", {why}"),
+            _ => String::new(),
+        };
+        let clock = format!("{:.3} s{end}", frame.time);
         text(svg, [left, 54.0], "fill=\"#5b6570\"", &clock);
     }
 

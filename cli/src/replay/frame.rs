@@ -3,8 +3,8 @@
 use serde::Serialize;
 use tunnelproof::query::Point;
 use tunnelproof::wire::{
-    BodyCrossingOutcome, BodyRecord, ContactRecord, ContactSite, CrossingOutcome, NodeKind,
-    PairAnswer, PairRecord, Pose, StepRecord, Vector, WireRecord,
+    Body, BodyCrossingOutcome, BodyRecord, ContactRecord, ContactSite, CrossingOutcome, NodeKind,
+    PairAnswer, PairRecord, Pose, StepRecord, Vector, Wire, WireRecord, World,
 };
 
 /// An instant. Lengths in 0.01 mm, forces in 0.01 N, rounded.
@@ -123,6 +123,36 @@ pub(super) fn marks(record: &StepRecord) -> impl Iterator<Item = Mark> {
 }
 
 impl Frame {
+    /// Where a run starts, before any step.
+    pub(super) fn start(world: &World) -> Self {
+        let (wires, bodies) = (world.wires(), world.bodies());
+        let nodes = |wire: &Wire| -> Vec<f64> {
+            let nodes = wire.nodes().iter();
+            nodes.flat_map(|node| triple(&node.position)).collect()
+        };
+        let kinds = |wire: &Wire| wire.nodes().iter().map(|node| letter(&node.kind)).collect();
+        let rest = |body: &Body| {
+            pose(&Pose {
+                position: body.position(),
+                orientation: body.orientation(),
+            })
+        };
+        let tensions = wires.iter().map(|wire| vec![0.0; wire.segments().len()]);
+        Frame {
+            time: world.time(),
+            step: 0,
+            wires: wires.iter().map(nodes).collect(),
+            kinds: wires.iter().map(kinds).collect(),
+            tensions: tensions.collect(),
+            bodies: bodies.iter().map(rest).collect(),
+            spin: vec![0.0; bodies.len()],
+            contacts: Vec::new(),
+            energy: [0.0; 3],
+            met: 0,
+            marks: Vec::new(),
+        }
+    }
+
     /// Where a step starts.
     pub(super) fn before(record: &StepRecord, step: f64) -> Self {
         let rest = |body: &BodyRecord| BodyRecord {
@@ -188,14 +218,17 @@ pub(super) fn triple(point: &Point) -> [f64; 3] {
 }
 
 fn kinds(wire: &WireRecord) -> String {
-    let letter = |kind: &NodeKind| match kind {
+    wire.kinds.iter().map(letter).collect()
+}
+
+fn letter(kind: &NodeKind) -> char {
+    match kind {
         NodeKind::Pinned => 'p',
         NodeKind::Eye { .. } => 'e',
         NodeKind::Contact { .. } => 'c',
         // Free, or a kind that the page has no colour for.
         _ => 'f',
-    };
-    wire.kinds.iter().map(letter).collect()
+    }
 }
 
 fn pose(pose: &Pose) -> [f64; 7] {

@@ -3,9 +3,10 @@
 //! page and their licences.
 
 use crate::scenes::Scene;
+use crate::simulate::Summary;
 use serde::Serialize;
-use tunnelproof::wire::StepRecord;
 use tunnelproof::wire::recording::Header;
+use tunnelproof::wire::{StepRecord, World};
 
 use crate::audit::{Finding, Report};
 
@@ -37,6 +38,9 @@ pub struct Replay {
     /// What its audit says.
     #[serde(skip)]
     verdict: String,
+    /// Why it has fewer steps than the scene, if it has.
+    #[serde(skip)]
+    stopped: Option<String>,
     header: Header,
     names: Names,
     colours: Colours,
@@ -84,6 +88,7 @@ impl Replay {
             title: title.to_owned(),
             how: String::new(),
             verdict: "not audited".to_owned(),
+            stopped: None,
             colours: names.colours(),
             names,
             header,
@@ -121,6 +126,17 @@ impl Replay {
             let frame = Frame::after(record, self.header.settings.step, marks);
             self.frames.push(frame);
         }
+    }
+
+    /// The same after its last step; without any it shows where the world starts. Says why it stopped, if it did
+    /// before its time.
+    pub fn ended(mut self, start: &World, summary: &Summary) -> Self {
+        if self.frames.is_empty() {
+            self.frames.push(Frame::start(start));
+        }
+        let stopped = summary.stopped.as_ref();
+        self.stopped = stopped.map(|why| format!("stopped: {why}"));
+        self
     }
 
     /// The same with what its audit found marked.

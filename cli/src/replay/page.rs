@@ -35,16 +35,13 @@ pub fn page(runs: &[Replay]) -> serde_json::Result<String> {
         runs,
     })?
     .replace('<', "\\u003c");
+    if runs.iter().all(|run| run.frames.is_empty()) {
+        return Ok(nothing(title).into_string() + "\n");
+    }
     let page = html! {
         (DOCTYPE)
         html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { (title) }
-                link rel="icon" href="data:,";
-                style { (PreEscaped(include_str!("uplot.min.css"))) (PreEscaped(include_str!("style.css"))) }
-            }
+            (head(title))
             body {
                 header {
                     h1 { (title) }
@@ -53,7 +50,9 @@ pub fn page(runs: &[Replay]) -> serde_json::Result<String> {
                 main #views {
                     @for run in runs {
                         section .view {
-                            p .head { strong { (run.how) } " " span { (run.verdict) } " " span .events role="status" {} }
+                            p .head { strong { (run.how) } " " span { (run.verdict) } " "
+                                @if let Some(why) = &run.stopped { strong .red { (why) } " " }
+                                span .events role="status" {} }
                             div .canvas {}
                         }
                     }
@@ -70,6 +69,34 @@ pub fn page(runs: &[Replay]) -> serde_json::Result<String> {
         }
     };
     Ok(page.into_string() + "\n")
+}
+
+fn head(title: &str) -> Markup {
+    html! {
+        head {
+            meta charset="utf-8";
+            meta name="viewport" content="width=device-width, initial-scale=1";
+            title { (title) }
+            link rel="icon" href="data:,";
+            style { (PreEscaped(include_str!("uplot.min.css"))) (PreEscaped(include_str!("style.css"))) }
+        }
+    }
+}
+
+/// The page of a recording that ends before its first step.
+fn nothing(title: &str) -> Markup {
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            (head(title))
+            body {
+                header {
+                    h1 { (title) }
+                    p { "There is nothing to see: the recording has no step." }
+                }
+            }
+        }
+    }
 }
 
 /// What is pressed, chosen and drawn along.

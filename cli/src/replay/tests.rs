@@ -40,6 +40,33 @@ fn replay_has_a_frame_for_the_start_and_for_every_step() {
 }
 
 #[test]
+fn replay_without_a_step_shows_the_start_and_why_it_stopped() {
+    let scene = basic_collision();
+    let (header, records) = records(&scene, 1);
+    let empty = || Replay::new("empty", header.clone(), 1);
+    let nothing = page(&[empty()]).unwrap();
+    assert!(nothing.contains("the recording has no step"), "{nothing}");
+    let summary = Summary {
+        stopped: Some("step 0: too fast".to_owned()),
+        ..Summary::default()
+    };
+    let replay = empty().ended(&scene.world().unwrap(), &summary);
+    // As a run starts that goes on.
+    let mut stepped = empty();
+    stepped.step(&records[0]);
+    assert_eq!(replay.frames.len(), 1);
+    let (start, expected) = (&replay.frames[0], &stepped.frames[0]);
+    assert_eq!((start.time, start.step), (expected.time, expected.step));
+    assert_eq!(start.wires, expected.wires);
+    assert_eq!(start.kinds, expected.kinds);
+    assert_eq!(start.bodies, expected.bodies);
+    let runs = [replay];
+    let (page, drawing) = (page(&runs).unwrap(), Drawing::new(&runs));
+    let words = "stopped: step 0: too fast";
+    assert!(page.contains(words) && drawing.frame(0).contains(words));
+}
+
+#[test]
 fn replay_of_a_long_run_keeps_every_event() {
     let (header, records) = records(&basic_collision(), 4);
     let prevented: usize = records

@@ -108,7 +108,7 @@ const back = new lib.Vector3(0.55, -1.05, 0.45).normalize();
 /* Moves a camera back along a way until all points are within its picture, and no farther. */
 function fitCamera(camera, target, points, height) {
   const right = new lib.Vector3().crossVectors(camera.up, back).normalize(), top = new lib.Vector3().crossVectors(back, right);
-  const slope = Math.tan(camera.fov * Math.PI / 360) * (1 - 24 / height);
+  const slope = Math.tan(camera.fov * Math.PI / 360) * (1 - Math.min(24, height / 12) / height);
   // A point is seen if |x - middle| <= slope (distance - depth), so two sums are bounds of the distance.
   const bounds = [[right, slope * camera.aspect], [top, slope]].map(([way, slope]) => {
     const ends = [1, -1].map(sign => points.reduce((most, p) => Math.max(most, sign * p.dot(way) + slope * p.dot(back)), -Infinity));

@@ -1,13 +1,14 @@
 //! What an audit came to, as text.
 
 use crate::audit::{Penetration, Report};
+use tunnelproof_reference::certify::caller::Caller;
 use tunnelproof_reference::certify::table::grouped;
 
 /// Findings that are shown.
 const SHOWN: usize = 10;
 
-/// Counts, then the first findings with the commands that explain them.
-pub fn text(report: &Report) -> String {
+/// Counts, then the first findings with the commands that explain them to whoever asked.
+pub fn text(report: &Report, caller: &Caller) -> String {
     let [broad, exclusion, narrow] = report.missed.map(grouped);
     let worst = |(count, by): (u64, f64)| match count {
         0 => "0".to_owned(),
@@ -79,7 +80,7 @@ pub fn text(report: &Report) -> String {
         .partition(|finding| finding.is_tunnel());
     for finding in tunnels.into_iter().chain(others).take(SHOWN) {
         text += &format!("  {finding}\n");
-        if let Some(command) = finding.command() {
+        if let Some(command) = finding.command(caller) {
             text += &format!("    {command}\n");
         }
     }

@@ -61,12 +61,18 @@ fn details(answer: &ExactAnswer, hit: &ExactHit) -> String {
     parts.join(" \u{b7} ")
 }
 
-/// `= 0.5`, or `\u{2248} 0.333333` where six digits are not the whole number.
+/// `= 0.5`, or `\u{2248} 0.333333` where six digits are not the whole number. More digits where six would be an end of
+/// the step or of an edge that it is not.
 fn about(number: Enclosure) -> String {
     let value = number.below;
-    let rounded = format!("{value:.6}");
+    if value == 0.0 && !number.is_exact() {
+        return "just above 0".to_owned();
+    }
+    let mut roundings = (6..17).map(|digits| format!("{value:.digits$}"));
+    let rounded = roundings.find(|text| value == 1.0 || text.parse() != Ok(1.0));
+    let rounded = rounded.unwrap_or_else(|| value.to_string());
     let short = rounded.trim_end_matches('0').trim_end_matches('.');
-    let is_whole = number.is_exact() && short.parse() == Ok(value);
+    let is_whole = number.is_exact() && format!("{value:.6}").parse() == Ok(value);
     match (is_whole, value > 0.0 && value < 1e-4) {
         (true, _) => format!("= {short}"),
         (false, true) => format!("\u{2248} {value:.3e}"),
@@ -138,5 +144,19 @@ mod tests {
             above: (1.0f64 / 3.0).next_up(),
         };
         assert_eq!(about(third), "\u{2248} 0.333333");
+        assert_eq!(
+            about(Enclosure::exactly(0.999_999_995_2)),
+            "\u{2248} 0.999999995"
+        );
+        let last = 1.0f64.next_down();
+        assert_eq!(
+            about(Enclosure::exactly(last)),
+            "\u{2248} 0.9999999999999999"
+        );
+        let first = Enclosure {
+            below: 0.0,
+            above: 0.0f64.next_up(),
+        };
+        assert_eq!(about(first), "just above 0");
     }
 }

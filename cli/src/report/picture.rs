@@ -10,7 +10,7 @@ use tunnelproof_reference::answer::{Enclosure, ExactAnswer, ExactHit};
 
 use super::caption;
 use super::labels::Labels;
-use super::svg::{Canvas, Font, PAINTS, PAPER};
+use super::svg::{Canvas, Font, OVERLAP, PAINTS, PAPER};
 use super::view::View;
 
 const WIDTH: f64 = 960.0;
@@ -183,7 +183,7 @@ impl Scene {
     fn draw_edges(&self, canvas: &mut Canvas) {
         for when in [When::Start, When::End, When::Impact] {
             if let ([a, b], When::Impact) = (&self.contacts[..], when) {
-                canvas.line([*a, *b], "#f9b872", 13.0);
+                canvas.line([*a, *b], OVERLAP, 13.0);
             }
             for stroke in self.strokes.iter().filter(|stroke| stroke.when == when) {
                 draw_edge(canvas, stroke.ends, stroke.edge, when, 1.0);

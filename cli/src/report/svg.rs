@@ -35,6 +35,32 @@ pub(super) const PAINTS: [Paint; 2] = [
     },
 ];
 
+/// The point of an overlap.
+pub(super) const OVERLAP: &str = "#f9b872";
+
+/// Each colour on light paper, and the one in its place where the reader has chosen dark paper.
+const ON_DARK: [(&str, &str); 10] = [
+    (PAPER, "#1a2128"),
+    (INK, "#e4e9ee"),
+    (PALE_INK, "#9fb0bf"),
+    (OVERLAP, "#a9692a"),
+    (PAINTS[0].solid, "#5ba4ec"),
+    (PAINTS[0].faint, "#1d3a57"),
+    (PAINTS[0].dark, "#a9d2fb"),
+    (PAINTS[1].solid, "#55bf73"),
+    (PAINTS[1].faint, "#1c4229"),
+    (PAINTS[1].dark, "#a5e5b6"),
+];
+
+/// Rules for dark paper. Programs that do not know them draw the picture on light paper.
+fn on_dark() -> String {
+    let rule = |(light, dark): &(&str, &str)| {
+        format!(r#"[fill="{light}"]{{fill:{dark}}}[stroke="{light}"]{{stroke:{dark}}}"#)
+    };
+    let rules: String = ON_DARK.iter().map(rule).collect();
+    format!("<style>@media (prefers-color-scheme:dark){{{rules}}}</style>\n")
+}
+
 /// How a text looks.
 #[derive(Clone, Copy)]
 pub(super) struct Font {
@@ -54,13 +80,14 @@ impl Canvas {
         let title = escape(title);
         let arrows = PAINTS.each_ref().map(|paint| paint.solid);
         let arrows: String = arrows.into_iter().enumerate().map(arrow).collect();
+        let style = on_dark();
         Canvas(format!(
             r##"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" font-family="DejaVu Sans, Helvetica, Arial, sans-serif">
 <title>{title}</title>
 <defs>
 <radialGradient id="sphere" cx="0.36" cy="0.32" r="0.75"><stop offset="0" stop-color="#ffe0b0"/><stop offset="0.45" stop-color="#f79a2d"/><stop offset="1" stop-color="#d96f0b"/></radialGradient>
 {arrows}</defs>
-<rect width="{width}" height="{height}" fill="{PAPER}"/>
+{style}<rect width="{width}" height="{height}" fill="{PAPER}"/>
 "##
         ))
     }
@@ -190,6 +217,33 @@ mod tests {
     fn escape_leaves_nothing_that_xml_forbids() {
         assert_eq!(escape("a<b>&\"c\""), "a&lt;b&gt;&amp;&quot;c&quot;");
         assert_eq!(escape("\u{0}\u{1b}\u{ffff}x"), "\u{fffd}\u{fffd}\u{fffd}x");
+    }
+
+    #[test]
+    fn every_colour_has_one_for_dark_paper_and_is_the_same_without_it() {
+        let mut canvas = Canvas::new(10.0, 10.0, "colours");
+        let ends = [Vector2::zeros(), Vector2::new(5.0, 5.0)];
+        for (light, _) in ON_DARK {
+            canvas.line(ends, light, 1.0);
+        }
+        canvas.path(&ends, 0);
+        let picture = canvas.finish();
+        let document = roxmltree::Document::parse(&picture).unwrap();
+        let mut used = 0;
+        for node in document.descendants() {
+            for colour in ["fill", "stroke"]
+                .iter()
+                .filter_map(|name| node.attribute(*name))
+            {
+                let is_of_sphere = colour == "none" || colour.starts_with("url");
+                assert!(
+                    is_of_sphere || picture.contains(&format!("[fill=\"{colour}\"]")),
+                    "{colour}"
+                );
+                used += 1;
+            }
+        }
+        assert!(used > ON_DARK.len());
     }
 
     #[test]

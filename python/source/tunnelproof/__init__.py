@@ -22,8 +22,8 @@ what happens in one :class:`Query`, :func:`shrink` finds the smallest one on whi
 wrong, and :func:`gap` says how near a miss was. :func:`simulate` runs scenes of wires. Notebooks draw
 queries and results, and ``plot()`` gives the picture of what has one.
 
-All functions release the global interpreter lock and use all cores. Arrays of other types are
-converted to ``float64``. Arguments are copied, but for positions of meshes: these are read where
+All functions release the global interpreter lock and use all cores. Ctrl-C ends a call on many
+queries soon. Arrays of other types are converted to ``float64``; complex numbers are refused. Arguments are copied, but for positions of meshes: these are read where
 they are, so no other thread may change them during a call. The proofs assume rounding to nearest
 and gradual underflow. Each function sets that for itself, on x86-64 and AArch64, and restores what
 the calling thread had: a library that switches on flush-to-zero changes no answer.
@@ -40,7 +40,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _tunnelproof
-from ._arrays import Bools, Codes, Floats, Kind, query_arrays
+from ._arrays import Bools, Codes, Floats, Kind, query_arrays, whole
 from ._hits import Case, ContactPoints, Hits
 from ._html import Picture, frame
 from ._kinds import Blocked, ContactKind, Feature
@@ -169,9 +169,10 @@ def queries(family: str, count: int, *, seed: int = 1, start: int = 0) -> tuple[
 
     :returns: points of shape ``(count, 8, 3)`` and radii of shape ``(count, 2)``; the same
         everywhere.
-    :raises ValueError: if there is no such family.
+    :raises ValueError: if there is no such family, or for a number below 0.
+    :raises MemoryError: if there is no room for so many.
     """
-    return _tunnelproof.family(family, seed, start, count)
+    return _tunnelproof.family(family, whole("seed", seed), whole("start", start), whole("count", count))
 
 
 @dataclass(frozen=True, eq=False)
@@ -263,9 +264,9 @@ def certify(
             late,
             None if families is None else list(families),
             rows,
-            count,
-            seed,
-            shard,
+            whole("count", count),
+            whole("seed", seed),
+            (whole("shard", shard[0]), whole("shard", shard[1])),
         )
     )
 

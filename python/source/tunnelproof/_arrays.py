@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from typing import Literal
 
 import numpy as np
@@ -20,9 +21,25 @@ Codes = npt.NDArray[np.int8]
 Indices = npt.NDArray[np.uint32]
 
 
+def reals(name: str, values: npt.ArrayLike) -> Floats:
+    """Numbers as float64, where they are if they are that already. No complex ones, and no texts."""
+    array = np.asarray(values)
+    if array.dtype.kind not in "biufO":
+        raise ValueError(f"{name}: {array.dtype} is no type of real numbers")
+    return np.asarray(array, dtype=np.float64)
+
+
+def whole(name: str, value: int) -> int:
+    """A number that is counted by, below 2**64."""
+    number = operator.index(value)
+    if not 0 <= number < 2**64:
+        raise ValueError(f"{name} is {number}, not a number from 0 to 2**64 - 1")
+    return number
+
+
 def query_arrays(points: npt.ArrayLike, radius: npt.ArrayLike) -> tuple[Floats, Floats]:
     """Points and radii in the shapes that the extension takes."""
-    of_points = np.asarray(points, dtype=np.float64)
+    of_points = reals("points", points)
     if of_points.ndim != 3 or of_points.shape[1:] != (8, 3):
         raise ValueError(f"points have the shape {of_points.shape}, not (n, 8, 3)")
     return of_points, radius_array(radius, len(of_points))
@@ -30,7 +47,7 @@ def query_arrays(points: npt.ArrayLike, radius: npt.ArrayLike) -> tuple[Floats, 
 
 def radius_array(radius: npt.ArrayLike, count: int) -> Floats:
     """Two numbers for each of so many queries, whose sum is their radius."""
-    of_radii = np.asarray(radius, dtype=np.float64)
+    of_radii = reals("radius", radius)
     if of_radii.shape not in [(), (count,), (count, 2)]:
         raise ValueError(
             f"radius has the shape {of_radii.shape}, not (), ({count},) or ({count}, 2)"
@@ -43,7 +60,7 @@ def radius_array(radius: npt.ArrayLike, count: int) -> Floats:
 
 def position_array(name: str, positions: npt.ArrayLike) -> Floats:
     """Positions where they are, if they are float64 in the order of C; else a copy that is."""
-    array = np.require(positions, dtype=np.float64, requirements=["C", "A"])
+    array = np.require(reals(name, positions), requirements=["C", "A"])
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"{name} has the shape {array.shape}, not (n, 3)")
     return array

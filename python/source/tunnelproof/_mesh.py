@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _tunnelproof
-from ._arrays import Codes, Floats, Indices, index_array, position_array
+from ._arrays import Codes, Floats, Indices, index_array, position_array, reals
 from ._html import table
 from ._kinds import Blocked, ContactKind, Feature
 
@@ -296,7 +296,7 @@ def _question(
     start: npt.ArrayLike, end: npt.ArrayLike, thickness: npt.ArrayLike
 ) -> tuple[Floats, Floats, Any]:
     """The arguments of a question as the extension takes them."""
-    of_thickness = np.require(thickness, dtype=np.float64, requirements=["C", "A"])
+    of_thickness = np.require(reals("thickness", thickness), requirements=["C", "A"])
     if of_thickness.ndim > 1:
         raise ValueError(f"thickness has the shape {of_thickness.shape}, not () or (group_count,)")
     return (

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _tunnelproof
-from ._arrays import Bools, Floats, Kind, query_arrays
+from ._arrays import Bools, Floats, Kind, query_arrays, reals, whole
 from ._html import Picture, image, table
 
 Method = Callable[[Kind, Floats, Floats], "tuple[npt.ArrayLike, npt.ArrayLike] | None"]
@@ -26,7 +26,7 @@ def checked(method: Method) -> Callable[..., tuple[Bools, Floats] | None]:
         if answer is None:
             return None
         hit = np.asarray(answer[0], dtype=np.bool_)
-        toi = np.asarray(answer[1], dtype=np.float64)
+        toi = reals("toi", answer[1])
         if hit.shape != (len(points),) or toi.shape != hit.shape:
             raise ValueError(
                 f"hit and toi have the shapes {hit.shape} and {toi.shape}, not ({len(points)},)"
@@ -60,8 +60,8 @@ class Query:
     """What pictures and explanations call it."""
 
     def __post_init__(self) -> None:
-        points = np.array(self.points, dtype=np.float64)
-        radius = np.array(self.radius, dtype=np.float64)
+        points = reals("points", self.points).copy()
+        radius = reals("radius", self.radius).copy()
         if points.shape != (8, 3):
             raise ValueError(f"points have the shape {points.shape}, not (8, 3)")
         if radius.shape not in [(), (2,)]:
@@ -194,7 +194,7 @@ def shrink(
     ('tunnel', True)
     """
     one = _one(query)
-    found = _tunnelproof.shrink(checked(method), near, late, *one.arrays, calls)
+    found = _tunnelproof.shrink(checked(method), near, late, *one.arrays, whole("calls", calls))
     if found is None:
         return None
     fault, (points, radius), tried, is_minimal = found

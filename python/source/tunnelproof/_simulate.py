@@ -69,6 +69,14 @@ class Simulation:
         return frame(self.html, 720)
 
 
+def _file(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        names = ", ".join(scenes())
+        raise FileNotFoundError(f"there is no file {path}, and the scenes are {names}") from None
+
+
 def scenes() -> list[str]:
     """The names of the scenes that are built in: those of the thesis."""
     return _tunnelproof.scenes()
@@ -103,5 +111,5 @@ def simulate(
     (<Simulation: 6 steps, clean>, 8)
     """
     name = os.fspath(scene)
-    text = name if name in scenes() else Path(name).read_text(encoding="utf-8")
+    text = name if name in scenes() else _file(Path(name))
     return Simulation(**_tunnelproof.simulate(text, narrow, mode, step, duration, audit, beside))

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _tunnelproof
-from ._arrays import Floats, TurningKind, radius_array
+from ._arrays import Floats, TurningKind, radius_array, reals
 from ._hits import Hits
 
 _SHAPES = {
@@ -75,7 +75,7 @@ def decide_rigid(
         of_points = _array("points", points, (in_space, 3))
         count = len(of_points)
         of_local = _array("local", local, (of_bodies, 3), count)
-    of_poses = np.asarray(poses, dtype=np.float64)
+    of_poses = reals("poses", poses)
     if of_poses.shape == (number_of_poses, 7):
         of_poses = np.broadcast_to(of_poses, (count, number_of_poses, 7))
     of_poses = _array("poses", of_poses, (number_of_poses, 7), count)
@@ -86,7 +86,7 @@ def decide_rigid(
 def _array(
     name: str, values: npt.ArrayLike, shape: tuple[int, int], count: int | None = None
 ) -> Floats:
-    array = np.asarray(values, dtype=np.float64)
+    array = reals(name, values)
     first = array.shape[0] if count is None and array.ndim == 3 else count
     if array.shape != (first, *shape):
         rows = "n" if count is None else count

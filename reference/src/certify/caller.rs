@@ -25,6 +25,18 @@ pub enum Caller {
 }
 
 impl Caller {
+    /// The command that explains a query that is in no file, ready to paste.
+    pub fn explain_entry(&self, entry: &Entry) -> String {
+        match self {
+            Caller::Shell { program, .. } => line_of(entry, program),
+            Caller::Test => line_of(entry, INSTALLED),
+            Caller::Python => {
+                let query = jsonl::write(entry, Numbers::Decimal);
+                format!("print(tunnelproof.explain({}))", in_quotes(&query))
+            }
+        }
+    }
+
     /// The command that explains a witness against a subject, ready to paste.
     pub fn explain(&self, witness: &Witness, subject: Option<&str>) -> String {
         let is_nowhere = witness.id.starts_with(NOWHERE);
@@ -36,7 +48,7 @@ impl Caller {
                     false => format!("{program} explain {}{subject}", quoted(&witness.id)),
                 }
             }
-            Caller::Test if is_nowhere => line_of(&witness.entry(), INSTALLED),
+            Caller::Test if is_nowhere => self.explain_entry(&witness.entry()),
             Caller::Test => format!("{INSTALLED} explain {}", quoted(&witness.id)),
             Caller::Python => {
                 let query = match is_nowhere {
@@ -155,6 +167,9 @@ mod tests {
         );
         assert!(python("-#mine:7", "my ccd").starts_with("print(tunnelproof.explain('{\"id\""));
         assert!(python("-#mine:7", "my ccd").ends_with("}', method))"));
+        let alone = Caller::Python.explain_entry(&witness("step-7").entry());
+        assert!(alone.starts_with("print(tunnelproof.explain('{\"id\""));
+        assert!(alone.ends_with("}'))"), "{alone}");
         let test = Caller::Test.explain(&witness("lattice:1:7"), Some("mine"));
         assert_eq!(test, "tunnelproof explain lattice:1:7");
     }

@@ -16,7 +16,7 @@ use crate::generate::{RigidFamily, RigidId};
 use crate::oracle::{Oracle, decide_rigid_query};
 use crate::subject::{Answer, NoAnswer, RigidSubject, Subject};
 
-use super::strict::{counts, words};
+use super::strict::{counts, took_none, words};
 use super::table::{Paint, Shown, Tone, cut, grouped, short};
 use super::tally::Fault;
 use super::verdict::{Judgement, judge};
@@ -262,7 +262,7 @@ fn failures_of(subject: &dyn RigidSubject, total: &RigidBlock, tally: &RigidTall
         )
     });
     let takes_none = total.queries > 0 && tally.not_asked == total.queries;
-    let none = takes_none.then(|| "takes none of the queries".to_owned());
+    let none = takes_none.then(|| took_none(total.queries));
     faults.chain(none).collect()
 }
 
@@ -499,7 +499,10 @@ mod tests {
             (LATE, "late times of impact"),
             (wrong_side, "answers that differ from the exact one"),
             (silent, "150 queries without answer"),
-            (refusing, "takes none of the queries"),
+            (
+                refusing,
+                "takes none of the 150 queries, so it gave no answer",
+            ),
         ] {
             let (_, failures, text) = judged(&changed("second", RIGHT), &changed("engine", change));
             let [failure] = &failures[..] else {

@@ -79,10 +79,16 @@ pub(super) fn refusals(total: &Block, tally: &Tally) -> impl Iterator<Item = Str
         )
     });
     let takes_none = total.queries > 0 && tally.taken.is_empty();
-    let none = takes_none.then(|| "takes none of the queries".to_owned());
+    let none = takes_none.then(|| took_none(total.queries));
     let surplus =
         (tally.surplus > 0).then(|| format!("{} answers too many", grouped(tally.surplus)));
     of_taken.into_iter().chain(none).chain(surplus)
+}
+
+/// Of a subject that takes no query, so that nothing but this can be said of it.
+pub(super) fn took_none(queries: u64) -> String {
+    let queries = grouped(queries);
+    format!("takes none of the {queries} queries, so it gave no answer")
 }
 
 /// What a subject would fail by without its tolerance, and does not with it.

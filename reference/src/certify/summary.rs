@@ -30,9 +30,10 @@ impl Column {
         }
     }
 
-    /// What stands in it of a subject.
+    /// What stands in it of a subject; of one that took no query a dash.
     pub fn cell(&self, tally: &Tally) -> String {
         match self.is_worst {
+            _ if tally.taken.is_empty() => "-".to_owned(),
             true => worst(tally, self.fault),
             false => count(tally, self.fault),
         }
@@ -122,7 +123,7 @@ pub(super) fn table(findings: &Findings, paint: Paint) -> String {
         let cells = cells.map(|(wide, column)| {
             let cell = format!("{:>wide$}", column.cell(tally));
             match cell.trim() {
-                "0" => paint(Tone::Pale, &cell),
+                "0" | "-" => paint(Tone::Pale, &cell),
                 _ => cell,
             }
         });

@@ -209,10 +209,10 @@ fn times<Z: Integer>(decision: &Decision<Z>, kind: QueryKind) -> Vec<Time> {
     let steps = decision.steps();
     let same_times = steps.chunk_by(|a, b| a.time.compare(&b.time).is_eq());
     let time = |same_time: &[Step<Z>]| {
-        let events = same_time.iter().map(|step| match step.event {
-            Event::Start => "start",
-            Event::Coplanar | Event::AtRadius => "",
-            Event::EndOnLine(end) => event_name(kind, end),
+        let events = same_time.iter().filter_map(|step| match step.event {
+            Event::Start => Some("start"),
+            Event::Coplanar | Event::AtRadius => None,
+            Event::EndOnLine(end) => Some(event_name(kind, end)),
         });
         let events = events.collect::<Vec<_>>().join(" ");
         let events = match events.is_empty() {
