@@ -129,7 +129,8 @@ impl Finding {
 
     /// The command that explains the witness, ready to paste into a shell.
     pub fn command(&self) -> Option<String> {
-        self.entry().map(|entry| caller::explain_line(&entry))
+        self.entry()
+            .map(|entry| caller::explain_line(&entry.id, &entry.query.into()))
     }
 }
 
