@@ -224,9 +224,10 @@ def claims(results):
         engines.setdefault(result["engine"], result)
     lines = []
     for result in engines.values():
+        peer = tomllib.loads((PEERS / result["engine"] / "peer.toml").read_text())
         margin = f' Margin: {result["margin"]:g} m ({escaped(result["margin_source"])}).' if result["margin"] else ""
         about = f'{escaped(result["version"])}, {escaped(result["licence"])}, {escaped(result["origin"])}, {result["precision"]}'
-        lines.append(f'<dt>{escaped(result["name"])} <span class="pale">{about}</span></dt><dd>{escaped(result["claims"])}{margin}</dd>')
+        lines.append(f'<dt>{escaped(result["name"])} <span class="pale">{about}</span></dt><dd>{escaped(peer["claims"])}{margin}</dd>')
     return "<dl>" + "".join(lines) + "</dl>"
 
 

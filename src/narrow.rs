@@ -152,6 +152,7 @@ impl Report {
 
 /// A query that a method does not take.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Unsupported {
     /// Queries of this kind.
     Kind(QueryKind),

@@ -75,6 +75,7 @@ pub enum QueryKind {
 
 /// Why eight points and a radius are not a query.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum QueryError {
     /// A coordinate is NaN or infinite.
     NotFinite {

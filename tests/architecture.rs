@@ -247,3 +247,37 @@ fn imports_are_found_in_groups_and_paths() {
     let found: Vec<String> = imports(code, "crate").into_iter().collect();
     assert_eq!(found, ["a", "c", "f", "h"]);
 }
+
+/// The names of enums of errors in a source that are closed: who matches them breaks when one grows.
+fn closed_errors(text: &str) -> Vec<String> {
+    let is_error =
+        |name: &str| name.ends_with("Error") || ["Fault", "Reason", "Unsupported"].contains(&name);
+    let lines: Vec<_> = text.lines().map(str::trim).collect();
+    let enums = lines.iter().enumerate().filter_map(|(at, line)| {
+        let name = line.strip_prefix("pub enum ")?.strip_suffix(" {")?;
+        let attributes = lines[..at]
+            .iter()
+            .rev()
+            .take_while(|line| line.starts_with("#["));
+        let is_open = attributes
+            .into_iter()
+            .any(|line| *line == "#[non_exhaustive]");
+        (is_error(name) && !is_open).then(|| name.to_owned())
+    });
+    enums.collect()
+}
+
+#[test]
+fn enums_of_errors_of_the_engine_may_grow() {
+    let mut seen = 0;
+    for (_, path) in sources(&root().join("src")) {
+        let text = fs::read_to_string(&path).unwrap();
+        seen += text.matches("Error {\n").count();
+        assert_eq!(closed_errors(&text), [""; 0], "{}", path.display());
+    }
+    assert!(seen > 8, "{seen}");
+    assert_eq!(
+        closed_errors("#[derive(Debug)]\npub enum AnError {"),
+        ["AnError"]
+    );
+}

@@ -89,7 +89,7 @@ fn certify(family: &str, subject: &str) -> Block {
         seed: 1,
         count: COUNT,
     };
-    panel.run(&source, |_| {}).unwrap()
+    panel.run(&source.clone().into(), |_| {}).unwrap()
 }
 
 #[test]

@@ -44,7 +44,7 @@ fn counts<const N: usize>(engine: impl NarrowPhase, family: &str, faults: [Fault
         count: 4000,
     };
     let block = panel
-        .run(&source, |_| ())
+        .run(&source.into(), |_| ())
         .expect("generated queries are sound");
     faults.map(|fault| block.tallies[0].count(fault))
 }

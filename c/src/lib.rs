@@ -153,8 +153,9 @@ fn query<Q: Query>(points: &[f64; 24], radii: [f64; 2]) -> Result<Q, i32> {
     let point = |i: usize| Point::new(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
     let (start, end) = ([0, 1, 2, 3].map(point), [4, 5, 6, 7].map(point));
     <Q as Query>::new(start, end, Radius::from(radii)).map_err(|error| match error {
-        QueryError::NotFinite { .. } => NOT_FINITE,
         QueryError::Radius(_) => RADIUS,
+        // A coordinate, or what a later version refuses besides.
+        _ => NOT_FINITE,
     })
 }
 

@@ -202,9 +202,11 @@ pub fn speeds(duration: f64) -> Result<String, SceneError> {
     let mut text = String::from("Basic collision at other speeds\n");
     let names = [
         "discrete: standing",
+        "ambiguous",
         "guard: prevented",
         "guard: missed",
         "guard: standing",
+        "ambiguous",
     ];
     text += &row("speed, m/s", names.map(str::to_owned));
     for speed in [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0] {
@@ -216,8 +218,9 @@ pub fn speeds(duration: f64) -> Result<String, SceneError> {
         let discrete = audited(&scene, Narrow::Discrete, Mode::Guard)?.report;
         let guard = audited(&scene, Narrow::Certified, Mode::Guard)?.report;
         let missed = guard.missed.iter().sum::<u64>();
-        let (lost, standing) = (discrete.standing.len() as u64, guard.standing.len() as u64);
-        let cells = [lost, guard.prevented, missed, standing].map(grouped);
+        let [lost, held] = [&discrete, &guard]
+            .map(|report| [report.standing.len() as u64, report.ambiguous.len() as u64]);
+        let cells = [lost[0], lost[1], guard.prevented, missed, held[0], held[1]].map(grouped);
         text += &row(&speed.to_string(), cells);
     }
     Ok(text)

@@ -223,13 +223,13 @@ fn turning_vectors_agree_with_the_second_judge_and_with_rational_arithmetic() {
 #[test]
 fn turning_vectors_are_answered_by_the_certified_path() {
     let certified = turning_subjects().into_iter();
-    let certified = certified.filter(|subject| subject.name == "certified");
+    let certified = certified.filter(|subject| subject.name() == "certified");
     let [certified] = <[_; 1]>::try_from(certified.collect::<Vec<_>>())
         .ok()
         .unwrap();
     for vector in vectors() {
         let query = query(&vector, "").unwrap();
-        let answer = (certified.answer)(&query);
+        let answer = certified.turning_answer(&query).unwrap();
         let truth = difference::decide_rigid::<field::Default>(&query);
         assert!(
             !judge(&truth, Some(&answer), || false).differs,

@@ -87,7 +87,8 @@ pub(crate) fn certify(
     };
     let mut blocks = Vec::new();
     for source in &sources {
-        let run = || panel.run_shard(source, shard, |_| {});
+        let source = source.clone().into();
+        let run = || panel.run_shard(&source, shard, |_| {});
         let block = subject.watched(py, run);
         if let Some(error) = subject.ending(py) {
             return Err(error);

@@ -3,18 +3,18 @@
 use std::sync::LazyLock;
 
 use tunnelproof::additive::Additive;
-use tunnelproof::certified::decide_rigid;
+use tunnelproof::narrow::Unsupported;
 use tunnelproof::query::Query;
-use tunnelproof::rigid::RigidQuery;
 use tunnelproof::thesis::{Erratum, Repairs, Thesis};
 
 use crate::answer::ExactAnswer;
+use crate::certify::query::AnyQuery;
 use crate::difference::{self, Difference};
 use crate::field;
-use crate::oracle::{Oracle, decide_query, decide_rigid_query};
+use crate::oracle::Oracle;
 use crate::shadow::Shadow;
 use crate::shrink::Truth;
-use crate::subject::{Answer, Certified, Engine, NoAnswer, RigidSubject, Subject};
+use crate::subject::{Answer, Certified, Engine, Subject};
 
 /// Agrees with the oracle on every query that it takes, or one of the two is wrong: edges without
 /// radius.
@@ -55,54 +55,24 @@ pub fn by_name(name: &str) -> Option<&'static dyn Subject> {
     subjects.find(|subject| subject.name() == name)
 }
 
-/// Who answers queries of bodies that turn.
-pub struct TurningSubject {
-    /// The name used on the command line.
-    pub name: &'static str,
-    /// The answer to a query.
-    pub answer: fn(&RigidQuery) -> Answer,
-}
-
-/// The name of the second judge of bodies that turn.
-pub const SECOND_OF_TURNS: &str = "difference";
-
-impl RigidSubject for TurningSubject {
-    fn name(&self) -> &str {
-        self.name
-    }
-
-    fn answers(&self, queries: &[RigidQuery]) -> Vec<Result<Answer, NoAnswer>> {
-        queries
-            .iter()
-            .map(|query| Ok((self.answer)(query)))
-            .collect()
-    }
-}
-
-/// Everyone who answers queries of bodies that turn: the oracle, the second judge and the certified
-/// path.
-pub fn turning_subjects() -> [TurningSubject; 3] {
-    [
-        TurningSubject {
-            name: "oracle",
-            answer: |query| Answer::Exact(decide_rigid_query(query)),
-        },
-        TurningSubject {
-            name: SECOND_OF_TURNS,
-            answer: |query| Answer::Exact(difference::decide_rigid::<field::Default>(query)),
-        },
-        TurningSubject {
-            name: "certified",
-            answer: |query| Answer::Certified(decide_rigid(query)),
-        },
-    ]
+/// Everyone who answers queries of bodies that turn as well, the oracle first.
+pub fn turning_subjects() -> [&'static dyn Subject; 3] {
+    [&Oracle, &Difference, &Certified]
 }
 
 /// Who can be taken for the truth, by the name of the subject.
 pub fn truths() -> [(&'static str, Truth); 3] {
-    let oracle = |query: &Query| Ok(decide_query(query));
-    let shadow = |query: &Query| SECOND_JUDGE.decide(query);
-    let difference = |query: &Query| Ok(difference::decide::<field::Default>(query));
+    let oracle = |query: &AnyQuery| Ok(query.decide());
+    let shadow = |query: &AnyQuery| match query {
+        AnyQuery::Linear(query) => SECOND_JUDGE.decide(query),
+        AnyQuery::Turning(_) => Err(Unsupported::Kind(query.shape())),
+    };
+    let difference = |query: &AnyQuery| {
+        Ok(match query {
+            AnyQuery::Linear(query) => difference::decide::<field::Default>(query),
+            AnyQuery::Turning(query) => difference::decide_rigid::<field::Default>(query),
+        })
+    };
     [
         (Oracle.name(), oracle),
         (Difference.name(), difference),

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use tunnelproof::certified::decide;
+use tunnelproof::certified::{decide, decide_rigid};
 use tunnelproof::contact::{Case, Hit, Place};
 use tunnelproof::narrow::{NarrowPhase, Report, Tolerance, Unsupported};
 use tunnelproof::query::Query;
@@ -33,25 +33,33 @@ pub trait Subject: Sync {
         queries.iter().map(answer).collect()
     }
 
+    /// The answer to a query of a body that turns; nobody has to take such queries.
+    ///
+    /// # Errors
+    ///
+    /// As [`answer`](Self::answer). [`Unsupported`] names the kind of the same query of linear motion.
+    fn turning_answer(&self, query: &RigidQuery) -> Result<Answer, NoAnswer> {
+        Err(refusal(query).into())
+    }
+
+    /// The answers to several of these, as [`answers`](Self::answers).
+    fn turning_answers(&self, queries: &[RigidQuery]) -> Vec<Result<Answer, NoAnswer>> {
+        let answer = |query| {
+            let attempt = catch_unwind(AssertUnwindSafe(|| self.turning_answer(query)));
+            attempt.unwrap_or_else(|panic| Err(Lapse::panicked(&*panic).into()))
+        };
+        queries.iter().map(answer).collect()
+    }
+
     /// How far off the subject declares its answers to be; nothing for one that claims exactness.
     fn tolerance(&self) -> Tolerance {
         Tolerance::NONE
     }
 }
 
-/// Someone who answers queries of bodies that turn.
-pub trait RigidSubject: Sync {
-    /// The name used in tables and on the command line.
-    fn name(&self) -> &str;
-
-    /// The answers to several queries, as many and in their order. [`NoAnswer::Unsupported`] names the kind of the
-    /// same query of linear motion.
-    fn answers(&self, queries: &[RigidQuery]) -> Vec<Result<Answer, NoAnswer>>;
-
-    /// How far off the subject declares its answers to be; nothing for one that claims exactness.
-    fn tolerance(&self) -> Tolerance {
-        Tolerance::NONE
-    }
+/// That a subject takes no queries of bodies that turn.
+fn refusal(query: &RigidQuery) -> Unsupported {
+    Unsupported::Kind(query.linear_kind())
 }
 
 /// What a subject says.
@@ -207,6 +215,10 @@ impl Subject for Certified {
             Query::EdgeEdge(query) => decide(query).map(|hit| hit.map_place(Place::from)),
             Query::VertexFace(query) => decide(query).map(|hit| hit.map_place(Place::from)),
         }))
+    }
+
+    fn turning_answer(&self, query: &RigidQuery) -> Result<Answer, NoAnswer> {
+        Ok(Answer::Certified(decide_rigid(query)))
     }
 }
 

@@ -6,6 +6,7 @@ use super::item_id::ItemId;
 
 /// Why something is no box, no moving segment or no item.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum BroadError {
     /// A coordinate is NaN or infinite.
     NotFinite {

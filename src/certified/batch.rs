@@ -235,6 +235,7 @@ impl<K: Kind> Batch<K> {
 
 /// Why arrays are not a batch.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum BatchError {
     /// An array is not as long as the first.
     Length {

@@ -129,7 +129,8 @@ impl Finding {
 
     /// The command that explains the witness to whoever asked, ready to paste.
     pub fn command(&self, caller: &Caller) -> Option<String> {
-        self.entry().map(|entry| caller.explain_entry(&entry))
+        self.entry()
+            .map(|entry| caller.explain_query(&entry.id, &entry.query.into()))
     }
 }
 

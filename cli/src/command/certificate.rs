@@ -79,12 +79,6 @@ impl Certificate {
             paint: paint(),
         }
     }
-
-    /// Whether a file is asked for.
-    pub(super) fn has_file(&self) -> bool {
-        let files = [&self.json, &self.html, &self.junit, &self.badge];
-        files.iter().any(|file| file.is_some())
-    }
 }
 
 impl Prepared {

@@ -8,10 +8,13 @@ use tunnelproof_reference::certify::caller::{self, Caller};
 use tunnelproof_reference::certify::defaults;
 use tunnelproof_reference::certify::findings::{Findings, Settings};
 use tunnelproof_reference::certify::judged::Judged;
+use tunnelproof_reference::certify::query::AnyQuery;
 use tunnelproof_reference::certify::run::Panel;
 use tunnelproof_reference::certify::shard::Shard;
-use tunnelproof_reference::certify::source::Source;
-use tunnelproof_reference::generate::{FAMILIES, Family, RigidFamily};
+use tunnelproof_reference::certify::source::{AnySource, Source, TurningSource};
+use tunnelproof_reference::certify::tally::{Fault, Witness};
+use tunnelproof_reference::difference::Difference;
+use tunnelproof_reference::generate::FAMILIES;
 use tunnelproof_reference::program::Conduct;
 use tunnelproof_reference::registry;
 use tunnelproof_reference::shadow::Shadow;
@@ -20,11 +23,9 @@ use tunnelproof_reference::subject::Subject;
 
 use super::certificate::Certificate;
 use super::resume::Resumed;
-use super::sources::{AnyFamily, any_family, of_families, of_files};
+use super::sources::{AnyFamily, any_family, of_files};
 use super::subjects::{Answering, AskedList, Permit, Programs, asked_list};
 use super::{Failure, Reading, output, progress};
-
-mod turning;
 
 /// Judge subjects against the exact answer
 ///
@@ -44,8 +45,8 @@ Examples:
 
 Without files: the figure cases and every family of edges without radius, or, if no subject takes
 these, every family that one of them takes. With files: these, and the families asked for. Families of
-vertices and faces, and of radii: face_... and thick_...; subjects that do not take such queries are not
-asked. Families of bodies that turn, turning_..., are judged in a run of their own. A folder stands for the files of queries in it. Both public benchmarks are read as they are
+vertices and faces, of radii, and of bodies that turn: face_..., thick_... and turning_...; subjects
+that do not take such queries are not asked. A folder stands for the files of queries in it. Both public benchmarks are read as they are
 published, with their labels.
 
 With --resume, what is judged so far is kept in OUT.part beside OUT, the file of --json, after each family
@@ -86,6 +87,9 @@ pub(super) struct Certify {
     /// Take the oracle's word without asking the second judge, for long runs of other subjects
     #[arg(long)]
     one_judge: bool,
+    /// The files hold queries of bodies that turn
+    #[arg(long, requires = "files", conflicts_with_all = ["kind", "radius"])]
+    turning: bool,
     /// Also print a shrunk twin of each worst witness
     #[arg(long)]
     shrink: bool,
@@ -104,10 +108,7 @@ pub(super) struct Certify {
 impl Certify {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
         self.reading.check(&self.files)?;
-        if !self.turning_families().is_empty() {
-            return self.run_turning();
-        }
-        let files = of_files(&self.files, &self.reading)?;
+        let files = self.files()?;
         if files.is_empty() && self.count == 0 && !self.family.is_empty() {
             return Err(Failure::Nothing);
         }
@@ -158,8 +159,7 @@ impl Certify {
             }
         }
         if !self.family.is_empty() {
-            let families = self.linear_families();
-            let names: Vec<_> = families.iter().map(|family| family.name()).collect();
+            let names: Vec<_> = self.family.iter().map(AnyFamily::name).collect();
             option("family", names.join(","));
         }
         if self.files.is_empty() || !self.family.is_empty() {
@@ -172,6 +172,7 @@ impl Certify {
         if let Some(radius) = self.reading.radius {
             option("radius", radius.to_string());
         }
+        words.extend(self.turning.then(|| "--turning".to_owned()));
         words.extend(self.one_judge.then(|| "--one-judge".to_owned()));
         words.extend(self.files.iter().map(|file| caller::quoted(file)));
         Settings {
@@ -186,30 +187,42 @@ impl Certify {
         }
     }
 
-    fn linear_families(&self) -> Vec<&'static Family> {
-        let linear = |family: &AnyFamily| match family {
-            AnyFamily::Linear(family) => Some(*family),
-            AnyFamily::Turning(_) => None,
-        };
-        self.family.iter().filter_map(linear).collect()
+    /// The queries of files.
+    fn files(&self) -> Result<Vec<AnySource>, Failure> {
+        if self.turning {
+            let files = self.files.iter().cloned();
+            let files = files.map(|path| TurningSource::File { path }.into());
+            return Ok(files.collect());
+        }
+        let files = of_files(&self.files, &self.reading)?.into_iter();
+        Ok(files.map(AnySource::from).collect())
     }
 
-    fn turning_families(&self) -> Vec<&'static RigidFamily> {
-        let turning = |family: &AnyFamily| match family {
-            AnyFamily::Linear(_) => None,
-            AnyFamily::Turning(family) => Some(*family),
-        };
-        self.family.iter().filter_map(turning).collect()
+    /// Whether everything that is judged is of bodies that turn.
+    fn is_all_turning(&self) -> bool {
+        let has_linear_files = !self.files.is_empty() && !self.turning;
+        let is_some = self.turning || !self.family.is_empty();
+        is_some && !has_linear_files && self.family.iter().all(AnyFamily::turns)
     }
 
     fn answering(&self) -> Result<Vec<Answering>, Failure> {
         let mut answering = match self.subject.is_empty() {
+            true if self.is_all_turning() => {
+                let subjects = registry::turning_subjects().into_iter();
+                let second = Difference.name();
+                let subjects = subjects.filter(|subject| subject.name() != second);
+                subjects.map(Answering::Known).collect()
+            }
             true => registry::judged_by_default()
                 .map(Answering::Known)
                 .collect(),
             false => self.programs.start_all(&self.subject)?,
         };
         self.permit.grant(&mut answering)?;
+        if self.turning || self.family.iter().any(AnyFamily::turns) {
+            self.permit.refuse_near()?;
+            self.programs.check_turning(&answering)?;
+        }
         Ok(answering)
     }
 
@@ -226,17 +239,19 @@ impl Certify {
     }
 
     /// What is judged: by default what the subjects can answer.
-    fn sources(&self, panel: &Panel, files: Vec<Source>) -> Vec<Source> {
-        let families = match self.family.is_empty() && files.is_empty() {
+    fn sources(&self, panel: &Panel, files: Vec<AnySource>) -> Vec<AnySource> {
+        let families: Vec<_> = match self.family.is_empty() && files.is_empty() {
             true => {
                 let subjects: Vec<_> = panel.subjects.iter().map(|judged| judged.subject).collect();
-                defaults::families(&subjects)
+                let families = defaults::families(&subjects).into_iter();
+                families.map(AnyFamily::Linear).collect()
             }
-            false => self.linear_families(),
+            false => self.family.clone(),
         };
         let is_everything = self.family.is_empty() && families.len() == FAMILIES.len();
-        let figures = is_everything.then_some(Source::Figures);
-        let families = of_families(&families, self.seed, self.count);
+        let figures = is_everything.then_some(Source::Figures.into());
+        let families = families.iter().filter(|_| self.count > 0);
+        let families = families.map(|family| family.first(self.seed, self.count));
         figures.into_iter().chain(families).chain(files).collect()
     }
 }
@@ -254,15 +269,29 @@ fn shrunk_witnesses(findings: &Findings) -> String {
                 continue;
             };
             if disagreement.fault(&witness.query) == Ok(Some(fault)) {
-                let shrunk = disagreement.shrink(&witness.query, fault, MOST_CALLS);
                 let name = judged.subject.name();
-                lines.push(format!("  {name}, {}: {shrunk}", fault.name()));
-                lines.push(format!("    {}", shrunk.command(&witness.id)));
+                let [found, command] = shrunk(&disagreement, witness, fault);
+                lines.push(format!("  {name}, {}: {found}", fault.name()));
+                lines.push(format!("    {command}"));
             }
         }
     }
     lines.push(String::new());
     lines.join("\n")
+}
+
+/// What was found, and the command that explains it.
+fn shrunk(disagreement: &Disagreement, witness: &Witness, fault: Fault) -> [String; 2] {
+    match &witness.query {
+        AnyQuery::Turning(query) => {
+            let shrunk = disagreement.shrink(query, fault, MOST_CALLS);
+            [shrunk.to_string(), shrunk.command(&witness.id)]
+        }
+        AnyQuery::Linear(query) => {
+            let shrunk = disagreement.shrink(query, fault, MOST_CALLS);
+            [shrunk.to_string(), shrunk.command(&witness.id)]
+        }
+    }
 }
 
 /// Ends the programs and says what each of them did.
@@ -286,7 +315,7 @@ pub(super) fn judged(subject: &dyn Subject) -> Judged<'_> {
 fn judge(
     panel: &Panel,
     settings: &Settings,
-    sources: &[Source],
+    sources: &[AnySource],
     resumed: &Resumed,
 ) -> Result<Vec<Block>, Failure> {
     let mut blocks = resumed.blocks(sources)?;

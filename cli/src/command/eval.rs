@@ -2,6 +2,7 @@
 
 use std::io::{self, BufWriter, Write};
 use std::process::ExitCode;
+use std::slice;
 
 use clap::Args;
 use tunnelproof_reference::certify::batch::map_chunks_in_order;
@@ -10,7 +11,7 @@ use tunnelproof_reference::certify::source::Source;
 use tunnelproof_reference::corpus::Entry;
 use tunnelproof_reference::corpus::turning::{self, TurningEntry};
 use tunnelproof_reference::report::answer;
-use tunnelproof_reference::subject::{RigidSubject, Subject};
+use tunnelproof_reference::subject::Subject;
 
 use super::output::standard_output;
 use super::sources::of_files;
@@ -78,7 +79,8 @@ impl Eval {
 impl Eval {
     /// The same of bodies that turn.
     fn run_turning(self) -> Result<ExitCode, Failure> {
-        let answering = self.programs.start_turning(&self.subject)?;
+        let answering = self.programs.start(&self.subject)?;
+        self.programs.check_turning(slice::from_ref(&answering))?;
         let mut output = BufWriter::new(io::stdout().lock());
         for path in &self.files {
             map_chunks_in_order(
@@ -95,12 +97,9 @@ impl Eval {
 /// How many queries a subject is asked for at once.
 const CHUNK: usize = 64;
 
-fn turning_lines(
-    subject: &dyn RigidSubject,
-    entries: &[TurningEntry],
-) -> Vec<Result<String, Failure>> {
+fn turning_lines(subject: &dyn Subject, entries: &[TurningEntry]) -> Vec<Result<String, Failure>> {
     let queries: Vec<_> = entries.iter().map(|entry| entry.query).collect();
-    let answers = subject.answers(&queries).into_iter().zip(entries);
+    let answers = subject.turning_answers(&queries).into_iter().zip(entries);
     answers
         .map(|(answer, entry)| match answer {
             Ok(answer) => Ok(answer::turning_line(&entry.id, &answer)),

@@ -38,7 +38,7 @@ pub(super) struct Explain {
     #[arg(long, value_parser = asked_list)]
     subject: Vec<AskedList>,
     /// PATH#ID and - are of queries of bodies that turn; families of them are known by name
-    #[arg(long, conflicts_with_all = ["kind", "radius", "subject"])]
+    #[arg(long, conflicts_with_all = ["kind", "radius"])]
     turning: bool,
     #[command(flatten)]
     programs: Programs,
@@ -80,7 +80,12 @@ impl Explain {
         if let Some(file) = svg {
             file.write(&picture::draw_turning(&entry.id, &entry.query, &answer))?;
         }
-        print(&report::turning::explain(&entry, &answer))?;
+        let more = self.programs.start_all(&self.subject)?;
+        self.programs.check_turning(&more)?;
+        let programs = more.iter().filter(|more| more.program().is_some());
+        let subjects = registry::turning_subjects().into_iter();
+        let subjects: Vec<_> = subjects.chain(programs.map(Answering::subject)).collect();
+        print(&report::turning::explain(&entry, &answer, &subjects))?;
         Ok(ExitCode::SUCCESS)
     }
 }

@@ -5,11 +5,15 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use tunnelproof_reference::certify::shard::Shard;
-use tunnelproof_reference::certify::source::Source;
+use tunnelproof_reference::certify::source::{AnySource, Source};
 
 /// A bar for the queries of a part of these sources.
-pub(super) fn of_sources(sources: &[Source], shard: Shard) -> ProgressBar {
-    match sources.iter().map(Source::count).sum::<Option<u64>>() {
+pub(super) fn of_sources(sources: &[AnySource], shard: Shard) -> ProgressBar {
+    of_counts(sources.iter().map(AnySource::count).sum(), shard)
+}
+
+fn of_counts(count: Option<u64>, shard: Shard) -> ProgressBar {
+    match count {
         Some(count) => of(count / shard.of()),
         None if is_shown() => ProgressBar::new_spinner(),
         None => ProgressBar::hidden(),
@@ -18,7 +22,7 @@ pub(super) fn of_sources(sources: &[Source], shard: Shard) -> ProgressBar {
 
 /// Reads queries under a bar.
 pub(super) fn reading<T>(sources: &[Source], read: impl FnOnce(&dyn Fn(u64)) -> T) -> T {
-    let bar = of_sources(sources, Shard::WHOLE);
+    let bar = of_counts(sources.iter().map(Source::count).sum(), Shard::WHOLE);
     bar.set_message("reading");
     let read = read(&|queries| bar.inc(queries));
     bar.finish_and_clear();

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use tunnelproof_reference::certify::block::Block;
 use tunnelproof_reference::certify::findings::{Findings, Settings};
 use tunnelproof_reference::certify::run::Panel;
-use tunnelproof_reference::certify::source::Source;
+use tunnelproof_reference::certify::source::AnySource;
 use tunnelproof_reference::report::merge::{Kept, MergeError};
 use tunnelproof_reference::report::results::Results;
 
@@ -58,20 +58,26 @@ impl<'a> Resumed<'a> {
     /// The whole result of this command, if it is there already.
     pub(super) fn whole(&self) -> Result<Option<Kept>, Failure> {
         match &self.paths {
-            Some(paths) => self.read(&paths.whole),
+            Some(paths) => {
+                let kept = self.read(&paths.whole)?;
+                Ok(kept.map(|kept| kept.with_settings(self.settings.clone())))
+            }
             None => Ok(None),
         }
     }
 
     /// What is judged already, of the first of these sources.
-    pub(super) fn blocks(&self, sources: &[Source]) -> Result<Vec<Block>, Failure> {
+    pub(super) fn blocks(&self, sources: &[AnySource]) -> Result<Vec<Block>, Failure> {
         let Some(paths) = &self.paths else {
             return Ok(Vec::new());
         };
         let Some(kept) = self.read(&paths.part)? else {
             return Ok(Vec::new());
         };
-        let names = sources.iter().map(Source::name).take(kept.blocks().len());
+        let names = sources
+            .iter()
+            .map(AnySource::name)
+            .take(kept.blocks().len());
         let blocks = kept.blocks().to_vec();
         match blocks.iter().map(|block| block.name.clone()).eq(names) {
             true => Ok(blocks),
@@ -102,10 +108,15 @@ impl<'a> Resumed<'a> {
         }
     }
 
+    /// Whether these are the settings of this command.
+    fn is_of(&self, kept: &Settings) -> bool {
+        kept.shard == self.settings.shard && self.settings.are_of_same_certification(kept)
+    }
+
     /// A result of this command in a file, if there is one.
     fn read(&self, path: &Path) -> Result<Option<Kept>, Failure> {
         match merge::read_if_there(path)? {
-            Some(kept) if kept.settings() != self.settings => Err(other(path, "command")),
+            Some(kept) if !self.is_of(kept.settings()) => Err(other(path, "command")),
             kept => Ok(kept),
         }
     }

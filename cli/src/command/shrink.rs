@@ -1,16 +1,19 @@
 //! `shrink`: the smallest query on which a subject is wrong in the same way.
 
+use std::iter;
 use std::process::ExitCode;
 use std::slice;
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use tunnelproof::narrow::Unsupported;
+use tunnelproof_reference::certify::query::AnyQuery;
 use tunnelproof_reference::certify::run::RunError;
 use tunnelproof_reference::corpus::locate::locate;
-use tunnelproof_reference::corpus::{self, CorpusError, Entries};
+use tunnelproof_reference::corpus::{self, CorpusError, turning};
+use tunnelproof_reference::generate::RigidId;
 use tunnelproof_reference::registry;
-use tunnelproof_reference::shrink::{Disagreement, MOST_CALLS, Truth};
+use tunnelproof_reference::shrink::{Disagreement, MOST_CALLS, Shrunk, Truth};
 
 use super::output::print;
 use super::subjects::{Asked, Permit, Programs, asked};
@@ -22,6 +25,7 @@ use super::{Failure, Reading};
 Examples:
   tunnelproof shrink --subject thesis lattice:1:12311
   tunnelproof shrink --subject additive uniform:1:8 | tunnelproof explain -
+  tunnelproof shrink --subject 'cmd:./my_ccd' turning_plates:1:6
   tunnelproof shrink --subject thesis < queries.jsonl
 
 What is wrong is one of the faults that certify counts: a tunnel, a missed graze, a false hit, a near
@@ -45,6 +49,9 @@ pub(super) struct Shrink {
     programs: Programs,
     #[command(flatten)]
     permit: Permit,
+    /// PATH#ID and - are of queries of bodies that turn; families of them are known by name
+    #[arg(long, conflicts_with_all = ["kind", "radius"])]
+    turning: bool,
     /// Who is right
     #[arg(long, default_value = "oracle", value_parser = truth())]
     truth: NamedTruth,
@@ -62,23 +69,34 @@ impl Shrink {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
         let mut answering = self.programs.start(&self.subject)?;
         self.permit.grant(slice::from_mut(&mut answering))?;
+        if self.is_turning() {
+            self.permit.refuse_near()?;
+            self.programs.check_turning(slice::from_ref(&answering))?;
+        }
         let disagreement = Disagreement {
             subject: answering.subject(),
             truth: self.truth.truth,
         };
         for entry in self.entries()? {
-            let entry = entry?;
+            let (id, query) = entry?;
             let refused = |reason: Unsupported| RunError::NoAnswer {
-                place: format!("{}: {} as the truth", entry.id, self.truth.name),
+                place: format!("{id}: {} as the truth", self.truth.name),
                 reason: reason.into(),
             };
-            let Some(fault) = disagreement.fault(&entry.query).map_err(refused)? else {
+            let Some(fault) = disagreement.fault(&query).map_err(refused)? else {
                 continue;
             };
-            let shrunk = disagreement.shrink(&entry.query, fault, self.calls);
-            eprintln!("{}: {}: {shrunk}", entry.id, fault.name());
-            let id = entry.id.strip_suffix(SHRUNK).unwrap_or(&entry.id);
-            print(&format!("{}\n", shrunk.line(&format!("{id}{SHRUNK}"))))?;
+            let name = format!("{}{SHRUNK}", id.strip_suffix(SHRUNK).unwrap_or(&id));
+            let [found, line] = match &query {
+                AnyQuery::Linear(query) => {
+                    found(&disagreement.shrink(query, fault, self.calls), &name)
+                }
+                AnyQuery::Turning(query) => {
+                    found(&disagreement.shrink(query, fault, self.calls), &name)
+                }
+            };
+            eprintln!("{id}: {}: {found}", fault.name());
+            print(&format!("{line}\n"))?;
             return Ok(ExitCode::SUCCESS);
         }
         eprintln!(
@@ -89,13 +107,40 @@ impl Shrink {
         Ok(ExitCode::FAILURE)
     }
 
-    fn entries(&self) -> Result<Entries, CorpusError> {
-        let options = self.reading.options();
-        match self.query.as_str() {
-            "-" => corpus::open("-", options),
-            identifier => Ok(Box::new(std::iter::once(locate(identifier, options)))),
-        }
+    /// Whether queries are of bodies that turn.
+    fn is_turning(&self) -> bool {
+        self.turning || RigidId::parse(&self.query).is_some()
     }
+
+    fn entries(&self) -> Result<Named, CorpusError> {
+        let options = self.reading.options();
+        Ok(match (self.is_turning(), self.query.as_str()) {
+            (true, "-") => {
+                let entries = turning::open("-")?;
+                Box::new(entries.map(|entry| entry.map(|entry| (entry.id, entry.query.into()))))
+            }
+            (true, identifier) => {
+                let entry = turning::locate(identifier)?;
+                Box::new(iter::once(Ok((entry.id, entry.query.into()))))
+            }
+            (false, "-") => {
+                let entries = corpus::open("-", options)?;
+                Box::new(entries.map(|entry| entry.map(|entry| (entry.id, entry.query.into()))))
+            }
+            (false, identifier) => {
+                let entry = locate(identifier, options)?;
+                Box::new(iter::once(Ok((entry.id, entry.query.into()))))
+            }
+        })
+    }
+}
+
+/// Queries with what each is known by.
+type Named = Box<dyn Iterator<Item = Result<(String, AnyQuery), CorpusError>>>;
+
+/// What was found in a few words, and the query as a line.
+fn found<Q: Copy + Into<AnyQuery>>(shrunk: &Shrunk<Q>, id: &str) -> [String; 2] {
+    [shrunk.to_string(), shrunk.line(id)]
 }
 
 /// Who is right, by name.

@@ -9,8 +9,8 @@ use tunnelproof::narrow::Tolerance;
 use tunnelproof_reference::certify::table;
 use tunnelproof_reference::program::wire::Wire;
 use tunnelproof_reference::program::{self, Command, Program};
-use tunnelproof_reference::registry::{self, TurningSubject, turning_subjects};
-use tunnelproof_reference::subject::{RigidSubject, Subject};
+use tunnelproof_reference::registry;
+use tunnelproof_reference::subject::Subject;
 
 use super::Failure;
 
@@ -50,12 +50,6 @@ pub(super) struct Permit {
 /// A subject that answers.
 pub(super) enum Answering {
     Known(&'static dyn Subject),
-    Program(Box<Program>),
-}
-
-/// A subject that answers queries of bodies that turn.
-pub(super) enum AnsweringTurns {
-    Known(TurningSubject),
     Program(Box<Program>),
 }
 
@@ -123,48 +117,28 @@ impl Programs {
         Ok(Answering::Program(Box::new(program)))
     }
 
-    /// Starts a subject that answers queries of bodies that turn.
-    pub(super) fn start_turning(&self, asked: &Asked) -> Result<AnsweringTurns, Failure> {
-        let refuse = |name: &str, reason: &str| Failure::Program {
-            name: name.to_owned(),
-            reason: reason.to_owned(),
-        };
-        match asked {
-            Asked::Known(subject) => {
-                let known = turning_subjects().into_iter();
-                known
-                    .filter(|known| known.name == subject.name())
-                    .map(AnsweringTurns::Known)
-                    .next()
-                    .ok_or_else(|| refuse(subject.name(), "answers no queries of bodies that turn"))
-            }
-            Asked::Program(name) if name.starts_with(LIBRARY) => Err(refuse(
-                name,
-                "a library is asked no queries of bodies that turn",
-            )),
-            Asked::Program(name) if self.wire != Wire::Lines => Err(refuse(
-                name,
-                "queries of bodies that turn are asked in lines alone",
-            )),
-            Asked::Program(_) => match self.start(asked)? {
-                Answering::Program(program) => Ok(AnsweringTurns::Program(program)),
-                Answering::Known(subject) => self.start_turning(&Asked::Known(subject)),
-            },
-        }
-    }
-
-    /// Starts all of them; by default all but the second judge.
-    pub(super) fn start_all_turning(
-        &self,
-        lists: &[AskedList],
-    ) -> Result<Vec<AnsweringTurns>, Failure> {
-        if lists.is_empty() {
-            let known = turning_subjects().into_iter();
-            let known = known.filter(|known| known.name != registry::SECOND_OF_TURNS);
-            return Ok(known.map(AnsweringTurns::Known).collect());
-        }
-        let asked = lists.iter().flat_map(|AskedList(list)| list);
-        asked.map(|asked| self.start_turning(asked)).collect()
+    /// That the programs among these can be asked about bodies that turn.
+    ///
+    /// # Errors
+    ///
+    /// A library, or a program that reads the binary form.
+    pub(super) fn check_turning(&self, answering: &[Answering]) -> Result<(), Failure> {
+        let mut programs = answering.iter().filter_map(Answering::program);
+        let refused = programs.find_map(|program| {
+            let name = program.name();
+            let reason = match name.starts_with(LIBRARY) {
+                true => "a library is asked no queries of bodies that turn",
+                false if self.wire != Wire::Lines => {
+                    "queries of bodies that turn are asked in lines alone"
+                }
+                false => return None,
+            };
+            Some(Failure::Program {
+                name: name.to_owned(),
+                reason: reason.to_owned(),
+            })
+        });
+        refused.map_or(Ok(()), Err)
     }
 
     /// The values of the options, to be written.
@@ -205,23 +179,14 @@ impl Permit {
         is_granted.then_some(()).ok_or(Failure::Permit)
     }
 
-    /// The same for bodies that turn, whose gap nobody measures.
-    pub(super) fn grant_turning(self, answering: &mut [AnsweringTurns]) -> Result<(), Failure> {
-        let Some(tolerance) = self.permit else {
-            return Ok(());
-        };
-        if tolerance.near > 0.0 {
-            return Err(Failure::File {
+    /// That no hit may be near: nobody measures the gap of bodies that turn.
+    pub(super) fn refuse_near(self) -> Result<(), Failure> {
+        match self.permit {
+            Some(Tolerance { near, .. }) if near > 0.0 => Err(Failure::File {
                 path: "--permit near".to_owned(),
                 problem: "is not for bodies that turn".to_owned(),
-            });
-        }
-        let programs = answering.iter_mut().filter_map(AnsweringTurns::program_mut);
-        let granted = programs.map(|program| program.declare(tolerance)).count();
-        if granted == 0 {
-            Err(Failure::Permit)
-        } else {
-            Ok(())
+            }),
+            _ => Ok(()),
         }
     }
 
@@ -244,22 +209,6 @@ impl Answering {
         match self {
             Answering::Known(_) => None,
             Answering::Program(program) => Some(program),
-        }
-    }
-}
-
-impl AnsweringTurns {
-    pub(super) fn subject(&self) -> &dyn RigidSubject {
-        match self {
-            AnsweringTurns::Known(subject) => subject,
-            AnsweringTurns::Program(program) => program.as_ref(),
-        }
-    }
-
-    pub(super) fn program_mut(&mut self) -> Option<&mut Program> {
-        match self {
-            AnsweringTurns::Known(_) => None,
-            AnsweringTurns::Program(program) => Some(program),
         }
     }
 }

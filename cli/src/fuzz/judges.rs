@@ -1,9 +1,11 @@
 //! Subjects against judges.
 
+use tunnelproof::narrow::Unsupported;
 use tunnelproof::query::Query;
 use tunnelproof::thesis::{Erratum, Repairs, Thesis};
 
 use tunnelproof_reference::certify::margin::excuses;
+use tunnelproof_reference::certify::query::AnyQuery;
 use tunnelproof_reference::difference::Difference;
 use tunnelproof_reference::registry::SECOND_JUDGE;
 use tunnelproof_reference::shadow::Shadow;
@@ -60,7 +62,10 @@ pub(super) fn thesis_vs_shadow(query: &Query) -> Option<String> {
 pub(super) fn engine_vs_shadow(subject: &dyn Subject, query: &Query) -> Option<String> {
     let disagreement = Disagreement {
         subject,
-        truth: |query| EXACT_THESIS.decide(query),
+        truth: |query| match query {
+            AnyQuery::Linear(query) => EXACT_THESIS.decide(query),
+            AnyQuery::Turning(_) => Err(Unsupported::Kind(query.shape())),
+        },
     };
     let fault = fault(&disagreement, query)?;
     (!excuses(query)).then_some(fault)

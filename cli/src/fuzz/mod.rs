@@ -215,7 +215,11 @@ impl fmt::Display for Finding {
                 Err(_) => writeln!(f, "  {name} panics")?,
             }
         }
-        writeln!(f, "{}", caller::explain_line(&entry))?;
+        writeln!(
+            f,
+            "{}",
+            caller::explain_line(&entry.id, &entry.query.into())
+        )?;
         if let Some(shrunk) = self.shrunk(query) {
             writeln!(f, "shrunk, {shrunk}")?;
         }

@@ -27,15 +27,19 @@ pub(super) fn check(bytes: &[u8]) -> Option<String> {
     let is_wrong = |answer: &Answer| judge(&truth, Some(answer), || false).differs;
     let wrong = turning_subjects()
         .into_iter()
-        .skip_while(|subject| subject.name == "oracle")
-        .find(|subject| is_wrong(&(subject.answer)(&query)))?;
+        .skip_while(|subject| subject.name() == "oracle")
+        .find(|subject| {
+            subject
+                .turning_answer(&query)
+                .map_or(true, |answer| is_wrong(&answer))
+        })?;
     let entry = TurningEntry {
         id: "turning".to_owned(),
         query,
         label: Some(truth.hit.is_some()),
     };
     let line = turning::write(&entry, Format::Hexadecimal);
-    Some(format!("{} differs from the oracle: {line}", wrong.name))
+    Some(format!("{} differs from the oracle: {line}", wrong.name()))
 }
 
 fn is_of_small_integers(query: &RigidQuery) -> bool {

@@ -7,6 +7,7 @@ use tunnelproof::query::{Query, QueryKind};
 use tunnelproof::rigid::RigidQuery;
 
 use tunnelproof_reference::answer::{Enclosure, ExactAnswer, ExactHit};
+use tunnelproof_reference::certify::query::AnyQuery;
 
 use super::caption;
 use super::labels::Labels;
@@ -35,6 +36,14 @@ pub fn draw(title: &str, query: &Query, answer: &ExactAnswer) -> String {
     let [start, end] = [query.start(), query.end()].map(|points| points.map(|point| point.coords));
     let at = |t: f64| [0, 1, 2, 3].map(|i| start[i] * (1.0 - t) + end[i] * t);
     draw_motion(title, query.kind(), &[0.0, 1.0], &at, answer)
+}
+
+/// The picture of a query of any sort.
+pub fn draw_any(title: &str, query: &AnyQuery, answer: &ExactAnswer) -> String {
+    match query {
+        AnyQuery::Linear(query) => draw(title, query, answer),
+        AnyQuery::Turning(query) => draw_turning(title, query, answer),
+    }
 }
 
 /// The same of bodies that turn: their points move on arcs.

@@ -191,7 +191,7 @@ fn witnesses<'a>(
         WitnessFields {
             worst,
             setting,
-            command: explain_line(&entry),
+            command: explain_line(&entry.id, &entry.query.into()),
             query: serde_json::from_str(&line).expect("a query is written as JSON"),
         }
     };

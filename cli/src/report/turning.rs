@@ -5,13 +5,13 @@ use std::fmt::Write as _;
 
 use tunnelproof::rigid::{RigidMotion, Side};
 use tunnelproof_reference::answer::ExactAnswer;
-use tunnelproof_reference::certify::verdict::judge;
+use tunnelproof_reference::certify::verdict::{Judgement, Verdict, judge};
 use tunnelproof_reference::corpus::turning::TurningEntry;
-use tunnelproof_reference::registry::turning_subjects;
 use tunnelproof_reference::report::{answer, number};
+use tunnelproof_reference::subject::{Answer, Subject};
 
-/// The text for a query and its exact answer.
-pub fn explain(entry: &TurningEntry, truth: &ExactAnswer) -> String {
+/// The text for a query, its exact answer, and what these subjects say.
+pub fn explain(entry: &TurningEntry, truth: &ExactAnswer, subjects: &[&dyn Subject]) -> String {
     let query = &entry.query;
     let mut text = format!("{}\n\n  {}\n", entry.id, query.kind());
     let mut names = NAMES.iter();
@@ -47,16 +47,33 @@ pub fn explain(entry: &TurningEntry, truth: &ExactAnswer) -> String {
     }
     text.push('\n');
     let _ = writeln!(text, "Case: {}\n", truth.case);
-    for subject in turning_subjects() {
-        let answer = (subject.answer)(query);
-        let verdict = match judge(truth, Some(&answer), || false).differs {
-            true => "  differs from the oracle",
-            false => "",
+    for subject in subjects {
+        let line = match subject.turning_answer(query) {
+            Ok(answer) => said(subject.name(), truth, &answer),
+            Err(reason) => format!("{}: {reason}", subject.name()),
         };
-        let line = answer::turning_line(subject.name, &answer);
-        let _ = writeln!(text, "{line}{verdict}");
+        let _ = writeln!(text, "{line}");
     }
     text
+}
+
+/// What a subject says, and what is wrong with it.
+fn said(name: &str, truth: &ExactAnswer, answer: &Answer) -> String {
+    let judgement = judge(truth, Some(answer), || false);
+    let verdict = match judgement {
+        _ if judgement.differs => "  differs from the oracle".to_owned(),
+        Judgement {
+            verdict: Verdict::Right,
+            late,
+            ..
+        } if late > 0.0 => format!("  late by {late:e}"),
+        Judgement {
+            verdict: Verdict::Right,
+            ..
+        } => String::new(),
+        Judgement { verdict, .. } => format!("  {}", verdict.name()),
+    };
+    answer::turning_line(name, answer) + &verdict
 }
 
 const NAMES: [char; 4] = ['A', 'B', 'C', 'D'];

@@ -183,7 +183,16 @@ fn raise(worst: &mut Option<(f64, usize)>, later: (f64, usize)) {
 /// The gaps of some queries, and the largest with the query that has it.
 fn measure_gaps(queries: &[usize], sample: &Sample) -> Option<(Gaps, (f64, usize))> {
     let estimates = sample.estimate_gaps(queries);
-    let mut ranked: Vec<_> = estimates.into_iter().zip(queries.iter().copied()).collect();
+    let ranked = estimates.into_iter().zip(queries.iter().copied());
+    gaps_of(ranked.collect(), |index| sample.gap(index))
+}
+
+/// The same of queries with their estimates. The median and the largest are found by these and then
+/// measured; if the measured one of the median is above the other, that is the largest.
+fn gaps_of(
+    mut ranked: Vec<(f64, usize)>,
+    gap: impl Fn(usize) -> f64,
+) -> Option<(Gaps, (f64, usize))> {
     // Of equal gaps the first query is the last in order: it is the witness.
     ranked.sort_by(|(a, i), (b, j)| a.total_cmp(b).then(j.cmp(i)));
     let &(_, last) = ranked.last()?;
@@ -192,13 +201,17 @@ fn measure_gaps(queries: &[usize], sample: &Sample) -> Option<(Gaps, (f64, usize
     for (estimate, _) in &ranked {
         *decades.entry(decade(*estimate)).or_default() += 1;
     }
-    let [median, max] = [middle, last].map(|index| sample.gap(index));
+    let [median, largest] = [middle, last].map(|index| (gap(index), index));
+    let largest = match largest.0 < median.0 {
+        true => median,
+        false => largest,
+    };
     let gaps = Gaps {
-        median,
-        max,
+        median: median.0,
+        max: largest.0,
         decades,
     };
-    Some((gaps, (max, last)))
+    Some((gaps, largest))
 }
 
 /// Smaller estimates count as this: they are rounding.
@@ -225,6 +238,16 @@ mod tests {
         ] {
             assert_eq!(decade(gap), exponent, "{gap}");
         }
+    }
+
+    #[test]
+    fn largest_gap_is_never_below_the_median() {
+        // The estimates of 7 and 8 are off: the one that is taken for the median is larger.
+        let ranked = vec![(1.0, 8), (1.0, 7), (0.5, 9)];
+        let (gaps, largest) = gaps_of(ranked, |index| [1.25, 1.5, 0.5][index - 7]).unwrap();
+        assert_eq!((gaps.median, gaps.max, largest), (1.5, 1.5, (1.5, 8)));
+        let (gaps, largest) = gaps_of(vec![(1.0, 0), (2.0, 1)], |index| index as f64).unwrap();
+        assert_eq!((gaps.median, gaps.max, largest), (0.0, 1.0, (1.0, 1)));
     }
 
     #[test]

@@ -49,7 +49,7 @@ fn sweep_at_table_3_1_counts_what_certify_counts() {
     };
     let mut expected = Tally::default();
     for source in sources(&names, 150) {
-        let block = panel.run(&source, |_| {}).unwrap();
+        let block = panel.run(&source.clone().into(), |_| {}).unwrap();
         expected.merge(block.tallies[0].clone());
     }
     let sample = sample(&names, 150, 1.0);

@@ -115,3 +115,14 @@ fn table_4_2_has_the_figures_of_the_thesis_and_its_own_beside_them() {
         assert!(number > 0.0, "{text}");
     }
 }
+
+#[test]
+fn table_of_speeds_says_what_is_ambiguous() {
+    let text = speeds(0.02).unwrap();
+    let rows: Vec<_> = text.lines().skip(1).collect();
+    assert_eq!(rows[0].matches("ambiguous").count(), 2, "{text}");
+    assert_eq!(rows.len(), 9, "{text}");
+    for row in &rows[1..] {
+        assert_eq!(row[NAME..].split_whitespace().count(), 6, "{text}");
+    }
+}

@@ -196,6 +196,81 @@ fn first_sources(result: &Value, count: usize) -> Value {
     part
 }
 
+/// A checkout and an installed program are the same certification.
+#[test]
+fn certify_resumes_wherever_its_program_was_started_from() {
+    let folder = Folder::new();
+    let arguments = [&FAMILIES[..], &["--json", "@result.json", "--resume"]].concat();
+    let whole = folder.certify(&arguments);
+    let result = folder.read("result.json");
+    let [checkout, installed] = ["cargo run --release --", "tunnelproof"];
+    let other = match result.contains(checkout) {
+        true => result.replace(checkout, installed),
+        false => result.replace("\"tunnelproof", &format!("\"{checkout}")),
+    };
+    assert_ne!(other, result);
+    let doctored = other.replace("\"joints\": 105", "\"joints\": 999");
+    fs::write(folder.path("result.json"), doctored).unwrap();
+    let resumed = folder.certify(&arguments);
+    assert!(
+        stdout(&resumed).contains("999 joints"),
+        "{}",
+        stdout(&resumed)
+    );
+    assert_eq!(stdout(&resumed).replace("999", "105"), stdout(&whole));
+}
+
+/// Bodies that turn have every form of the certificate.
+#[test]
+fn certificates_are_of_bodies_that_turn_too() {
+    let folder = Folder::new();
+    let blind = r#"cmd:sh -c 'while read -r line; do echo "{\"hit\": false}"; done'"#;
+    let arguments = |more: &[&'static str]| {
+        let own = [
+            "--family",
+            "turning_lattice,lattice",
+            "--count",
+            "40",
+            "--subject",
+            blind,
+        ];
+        [&own[..], more].concat()
+    };
+    let files = [
+        "--json",
+        "@whole.json",
+        "--html",
+        "@whole.html",
+        "--junit",
+        "@whole.xml",
+    ];
+    let whole = folder.certify(&arguments(&files));
+    assert!(
+        stdout(&whole).contains("80 queries of 2 sources: "),
+        "{}",
+        stdout(&whole)
+    );
+    assert!(
+        folder
+            .read("whole.html")
+            .contains("What moves in turning_lattice:1:")
+    );
+    let junit = folder.read("whole.xml");
+    assert!(
+        junit.contains("name=\"turning_lattice\"") && junit.contains("explain turning_lattice:1:")
+    );
+    let result = folder.json("whole.json");
+    assert_is_valid(&result);
+    let worst = &result["sources"][0]["subjects"][0]["faults"]["tunnel"]["worst"];
+    assert!(worst["query"]["poses"].is_array(), "{worst}");
+    folder.certify(&arguments(&["--shard", "1/2", "--json", "@1.json"]));
+    folder.certify(&arguments(&["--shard", "2/2", "--json", "@2.json"]));
+    let names = ["merge", "@1.json", "@2.json", "--json", "@merged.json"];
+    assert!(folder.run(&names).status.success());
+    let sources = |name: &str| folder.json(name)["sources"].clone();
+    assert_eq!(sources("merged.json"), sources("whole.json"));
+}
+
 #[test]
 fn certify_goes_on_where_it_was_interrupted() {
     let folder = Folder::new();

@@ -5,7 +5,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::run::{PROGRAM, code, stderr, stdout, tunnelproof};
+use crate::run::{PROGRAM, code, stderr, stdout, tunnelproof, with_input};
 
 /// What a program does, each time that it is started, on its 40th query.
 const MISDEEDS: [&str; 6] = ["crash", "hang", "half a line", "nan", "garbage", "wrong id"];
@@ -236,7 +236,7 @@ fn certify_of_bodies_that_turn_judges_engines_and_programs() {
     let ours = certify("oracle,difference,certified");
     let text = stdout(&ours);
     assert_eq!(code(&ours), 0, "{text}{}", stderr(&ours));
-    assert!(text.contains("140 queries of 2 families: "), "{text}");
+    assert!(text.contains("140 queries of 2 sources: "), "{text}");
     assert!(
         text.contains("oracle and difference agree on all 140 queries"),
         "{text}"
@@ -250,7 +250,7 @@ fn certify_of_bodies_that_turn_judges_engines_and_programs() {
     for fault in [" tunnels, ", " missed grazes"] {
         assert!(stderr(&misses).contains(fault), "{}", stderr(&misses));
     }
-    assert!(stdout(&misses).contains("tunnelproof explain turning_"));
+    assert!(stdout(&misses).contains("explain turning_"));
 }
 
 #[test]
@@ -263,22 +263,51 @@ fn certify_of_bodies_that_turn_refuses_what_it_cannot_do() {
         assert!(stderr(&output).contains(what), "{}", stderr(&output));
     };
     refused(
-        &["--subject", "thesis"],
-        "answers no queries of bodies that turn",
-    );
-    refused(
         &["--subject", "cmd:cat", "--wire", "binary"],
         "in lines alone",
     );
-    refused(&["--family", "uniform"], "in a run each");
-    refused(&["queries.jsonl"], "in a run each");
-    refused(&["--json", "out.json"], "have no --json");
-    refused(&["--shrink"], "have no --shrink");
-    refused(&["--shard", "1/2"], "have no --shard");
+    refused(&["--subject", "lib:./none.so"], "lib:./none.so");
     refused(
         &["--subject", "cmd:cat", "--permit", "near=1e-9"],
         "is not for bodies that turn",
     );
+}
+
+#[test]
+fn shrink_and_explain_take_queries_of_bodies_that_turn() {
+    let blind = r#"cmd:sh -c 'while read -r line; do echo "{\"hit\": false}"; done'"#;
+    let shrink = |query: &str| {
+        let arguments = ["shrink", "--calls", "300", "--subject", blind, query];
+        tunnelproof(&arguments)
+    };
+    let shrunk = shrink("turning_plates:1:6");
+    assert_eq!(code(&shrunk), 0, "{}", stderr(&shrunk));
+    let line = stdout(&shrunk);
+    assert!(
+        line.contains("turning") && line.contains("\"poses\""),
+        "{line}"
+    );
+    let explained = with_input(&["explain", "--turning", "--subject", blind, "-"], &line);
+    let text = stdout(&explained);
+    assert_eq!(code(&explained), 0, "{}", stderr(&explained));
+    assert!(
+        text.contains("\"hit\":false}  tunnel") || text.contains("  missed graze"),
+        "{text}"
+    );
+    let again = with_input(
+        &[
+            "shrink",
+            "--turning",
+            "--calls",
+            "1",
+            "--subject",
+            "certified",
+            "-",
+        ],
+        &line,
+    );
+    assert_eq!(code(&again), 1, "{}", stderr(&again));
+    assert!(stderr(&again).contains("certified is right"));
 }
 
 #[test]

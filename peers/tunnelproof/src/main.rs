@@ -1,11 +1,11 @@
-//! This project's own methods as a program, timed as the peers are: `certified`, `additive` or
-//! `thesis`.
+//! This project's own methods as a program, timed as the peers are: `certified`, `additive`,
+//! `thesis`, or `tuned`, the thesis path with other thresholds.
 
 use tunnelproof::additive::Additive;
 use tunnelproof::decide;
 use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
 use tunnelproof::query::{Point, Query, QueryKind};
-use tunnelproof::thesis::Thesis;
+use tunnelproof::thesis::{Options, Thesis, Thresholds};
 
 #[path = "../../common/frames.rs"]
 mod frames;
@@ -46,11 +46,23 @@ fn narrow(engine: impl NarrowPhase, asked: &Asked, clock: &mut Clock) -> Said {
     }
 }
 
+/// What `tune` recommends for scenes of a metre (docs/thresholds.md).
+const TUNED: Thresholds = Thresholds::named([1e-4, 1e-4, 1e-15, 1e-5, 1e-12]);
+
+fn tuned() -> Thesis {
+    let options = Options {
+        thresholds: TUNED,
+        ..Options::default()
+    };
+    Thesis { options }
+}
+
 fn main() -> std::io::Result<()> {
     let method = std::env::args().nth(1).unwrap_or_default();
     match method.as_str() {
         "additive" => serve(|asked, clock| narrow(Additive::default(), asked, clock)),
         "thesis" => serve(|asked, clock| narrow(Thesis::default(), asked, clock)),
+        "tuned" => serve(|asked, clock| narrow(tuned(), asked, clock)),
         _ => serve(certified),
     }
 }

@@ -1,13 +1,12 @@
 //! What was found on one source, added up.
 
-use tunnelproof::query::Query;
-
 use crate::answer::ExactAnswer;
 use crate::subject::Answer;
 
 use super::fingerprint::Fingerprint;
-use super::judged::{Found, exact_gap};
+use super::judged::Found;
 use super::named::Named;
+use super::query::AnyQuery;
 use super::reply::Reply;
 use super::tally::{Fault, Finding, Sort, Statement, Tally, Witness};
 use super::verdict::Outline;
@@ -52,7 +51,7 @@ pub struct Agreement {
 pub(super) struct Judgements {
     pub(super) id: String,
     pub(super) place: u64,
-    pub(super) query: Query,
+    pub(super) query: AnyQuery,
     pub(super) label: Option<bool>,
     pub(super) truth: ExactAnswer,
     /// The number of the second judge that takes the query, if any, and what it says.
@@ -204,6 +203,6 @@ pub(super) fn measure_gap(tally: &mut Tally) {
         .get_mut(&Fault::FalseHit)
         .and_then(|finding| finding.worst.as_mut());
     if let Some(witness) = worst {
-        witness.severity = exact_gap(&witness.query);
+        witness.severity = witness.query.exact_gap();
     }
 }

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::query::AnyQuery;
 use super::tally::Witness;
-use crate::corpus::Entry;
-use crate::corpus::jsonl::{self, Numbers};
+use crate::corpus::jsonl::Numbers;
 
 /// Who asked for a certification: where a command that explains a find has to work.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,14 +26,27 @@ pub enum Caller {
 
 impl Caller {
     /// The command that explains a query that is in no file, ready to paste.
-    pub fn explain_entry(&self, entry: &Entry) -> String {
+    pub fn explain_query(&self, id: &str, query: &AnyQuery) -> String {
         match self {
-            Caller::Shell { program, .. } => line_of(entry, program),
-            Caller::Test => line_of(entry, INSTALLED),
+            Caller::Shell { program, .. } => line_of(id, query, program),
+            Caller::Test => line_of(id, query, INSTALLED),
             Caller::Python => {
-                let query = jsonl::write(entry, Numbers::Decimal);
-                format!("print(tunnelproof.explain({}))", in_quotes(&query))
+                let line = query.line(id, Numbers::Decimal);
+                format!("print(tunnelproof.explain({}))", in_quotes(&line))
             }
+        }
+    }
+
+    /// Whether the other asks in the same way, wherever its program was started from.
+    pub(super) fn asks_as(&self, other: &Caller) -> bool {
+        match (self, other) {
+            (
+                Caller::Shell { options, .. },
+                Caller::Shell {
+                    options: others, ..
+                },
+            ) => options == others,
+            _ => self == other,
         }
     }
 
@@ -44,15 +57,15 @@ impl Caller {
             Caller::Shell { program, options } => {
                 let subject = subject.map_or(String::new(), |name| asked(name, options));
                 match is_nowhere {
-                    true => line_of(&witness.entry(), program) + &subject,
-                    false => format!("{program} explain {}{subject}", quoted(&witness.id)),
+                    true => line_of(&witness.id, &witness.query, program) + &subject,
+                    false => named(program, witness) + &subject,
                 }
             }
-            Caller::Test if is_nowhere => self.explain_entry(&witness.entry()),
-            Caller::Test => format!("{INSTALLED} explain {}", quoted(&witness.id)),
+            Caller::Test if is_nowhere => self.explain_query(&witness.id, &witness.query),
+            Caller::Test => named(INSTALLED, witness),
             Caller::Python => {
                 let query = match is_nowhere {
-                    true => jsonl::write(&witness.entry(), Numbers::Decimal),
+                    true => witness.query.line(&witness.id, Numbers::Decimal),
                     false => witness.id.clone(),
                 };
                 let method = subject.filter(|name| is_name(name)).unwrap_or("method");
@@ -76,13 +89,29 @@ fn asked(name: &str, options: &str) -> String {
 }
 
 /// The command that explains a query that is in no file, ready to paste into a shell in a checkout.
-pub fn explain_line(entry: &Entry) -> String {
-    line_of(entry, CHECKOUT)
+pub fn explain_line(id: &str, query: &AnyQuery) -> String {
+    line_of(id, query, CHECKOUT)
 }
 
-fn line_of(entry: &Entry, program: &str) -> String {
-    let line = jsonl::write(entry, Numbers::Decimal);
-    format!("echo {} | {program} explain -", quoted(&line))
+fn line_of(id: &str, query: &AnyQuery, program: &str) -> String {
+    let line = query.line(id, Numbers::Decimal);
+    format!(
+        "echo {} | {program} explain{} -",
+        quoted(&line),
+        turning(query)
+    )
+}
+
+/// The command that explains a query that is known by its identifier.
+fn named(program: &str, witness: &Witness) -> String {
+    let is_file = witness.id.contains('#');
+    let turning = if is_file { turning(&witness.query) } else { "" };
+    format!("{program} explain{turning} {}", quoted(&witness.id))
+}
+
+/// The option that says that a line is of a body that turns; families say so by their names.
+fn turning(query: &AnyQuery) -> &'static str {
+    if query.turns() { " --turning" } else { "" }
 }
 
 /// What commands begin with in a checkout of the project.
@@ -130,7 +159,7 @@ mod tests {
             rank: 0.0,
             place: 7,
             id: id.to_owned(),
-            query,
+            query: query.into(),
             truth: decide_query(&query),
             answer: None,
             lapse: None,
@@ -167,7 +196,10 @@ mod tests {
         );
         assert!(python("-#mine:7", "my ccd").starts_with("print(tunnelproof.explain('{\"id\""));
         assert!(python("-#mine:7", "my ccd").ends_with("}', method))"));
-        let alone = Caller::Python.explain_entry(&witness("step-7").entry());
+        let alone = {
+            let witness = witness("step-7");
+            Caller::Python.explain_query(&witness.id, &witness.query)
+        };
         assert!(alone.starts_with("print(tunnelproof.explain('{\"id\""));
         assert!(alone.ends_with("}'))"), "{alone}");
         let test = Caller::Test.explain(&witness("lattice:1:7"), Some("mine"));

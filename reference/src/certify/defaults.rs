@@ -15,7 +15,7 @@ use crate::subject::Subject;
 pub fn families(subjects: &[&dyn Subject]) -> Vec<&'static Family> {
     let mut known = BTreeMap::new();
     let mut is_taken = |family: &Family| {
-        let query = family.query(1, 0);
+        let query = family.query(1, 0).into();
         let takes = |subject: &&dyn Subject| ask(*subject, &query) != Reply::NotAsked;
         let taken = known.entry(Sort::of(&query));
         *taken.or_insert_with(|| subjects.iter().any(takes))

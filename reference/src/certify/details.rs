@@ -11,7 +11,7 @@ use super::summary::worst_of;
 use super::table::{Paint, Tone, count, cut, first, grouped, name_width, tolerance, worst};
 use super::tally::{Explained, Fault, Tally};
 use crate::figures;
-use crate::generate;
+use crate::generate::{self, Family, RigidFamily};
 
 /// A column after the subject: two lines of heading, the width, what stands in it.
 type Column = ([&'static str; 2], usize, fn(&Tally) -> String);
@@ -84,11 +84,10 @@ pub fn is_clean(block: &Block) -> bool {
 
 /// What the queries of a source are like, if it is known.
 pub fn description(source: &str) -> Option<&'static str> {
-    match generate::by_name(source) {
-        Some(family) => Some(family.description()),
-        None if source == figures::SOURCE => Some(figures::DESCRIPTION),
-        None => None,
-    }
+    let linear = generate::by_name(source).map(Family::description);
+    let turning = || generate::rigid_by_name(source).map(RigidFamily::description);
+    let figures = || (source == figures::SOURCE).then_some(figures::DESCRIPTION);
+    linear.or_else(turning).or_else(figures)
 }
 
 /// A line of the table: a name, then a cell in each column.

@@ -37,6 +37,24 @@ pub struct Settings {
     pub shard: Shard,
 }
 
+impl Settings {
+    /// Whether the same is judged in the same way, but for which part of the queries, and wherever the
+    /// program was started from.
+    pub fn are_of_same_certification(&self, other: &Settings) -> bool {
+        let parts = |settings: &Settings| (settings.own_command(), settings.seed, settings.count);
+        parts(self) == parts(other) && self.caller.asks_as(&other.caller)
+    }
+
+    /// The command without what it begins with.
+    fn own_command(&self) -> String {
+        let own = match &self.caller {
+            Caller::Shell { program, .. } => self.command.strip_prefix(program.as_str()),
+            Caller::Test | Caller::Python => None,
+        };
+        own.unwrap_or(&self.command).to_owned()
+    }
+}
+
 impl<'a> Findings<'a> {
     /// What was found on each source, and on all of them together.
     pub fn new(

@@ -4,7 +4,8 @@ use std::fmt;
 use std::str::FromStr;
 
 use hmac_sha256::Hash;
-use tunnelproof::query::Query;
+
+use super::query::AnyQuery;
 
 /// The sum, modulo 2^128, of the first half of the SHA-256 of each query with its place. So that of
 /// the parts of a set of queries gives that of the whole, in any order.
@@ -13,17 +14,16 @@ pub struct Fingerprint(u128);
 
 impl Fingerprint {
     /// Adds the query at this place in its source, from 0.
-    pub fn add(&mut self, place: u64, query: &Query) {
+    pub fn add(&mut self, place: u64, query: &AnyQuery) {
         let mut hash = Hash::new();
         hash.update(place.to_le_bytes());
-        hash.update(query.kind().name());
+        let (kind, coordinates) = query.fields();
+        hash.update(kind);
         for radius in query.radius().parts() {
             hash.update(radius.to_le_bytes());
         }
-        for point in query.start().iter().chain(query.end()) {
-            for coordinate in &point.coords {
-                hash.update(coordinate.to_le_bytes());
-            }
+        for coordinate in coordinates {
+            hash.update(coordinate.to_le_bytes());
         }
         let digest = hash.finalize();
         let half = digest.iter().take(16);
@@ -62,7 +62,7 @@ mod tests {
         let mut fingerprint = Fingerprint::default();
         places
             .into_iter()
-            .for_each(|place| fingerprint.add(place, &family.query(1, place)));
+            .for_each(|place| fingerprint.add(place, &family.query(1, place).into()));
         fingerprint
     }
 
@@ -78,8 +78,8 @@ mod tests {
     fn fingerprint_tells_queries_places_and_counts_apart() {
         let family = generate::by_name("uniform").unwrap();
         let mut swapped = Fingerprint::default();
-        swapped.add(0, &family.query(1, 1));
-        swapped.add(1, &family.query(1, 0));
+        swapped.add(0, &family.query(1, 1).into());
+        swapped.add(1, &family.query(1, 0).into());
         let all = [of(0..2), of(0..3), of(1..3), swapped];
         for (i, one) in all.iter().enumerate() {
             assert!(all[..i].iter().all(|other| other != one));

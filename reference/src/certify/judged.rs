@@ -3,9 +3,9 @@
 use tunnelproof::query::Query;
 
 use crate::answer::ExactAnswer;
-use crate::oracle;
 use crate::subject::{Answer, Lapse, LapseKind, Subject};
 
+use super::query::AnyQuery;
 use super::reply::{Reply, ask};
 use super::tally::Fault;
 use super::verdict::{Verdict, judge};
@@ -56,12 +56,13 @@ impl Found {
 
 impl Judged<'_> {
     /// Asks the subject and compares its answer with the exact one. The gap of a false hit is an
-    /// estimate; see [`exact_gap`].
-    pub fn judge(&self, query: &Query, truth: &ExactAnswer) -> Found {
-        self.compare(query, truth, ask(self.subject, query))
+    /// estimate; see [`AnyQuery::exact_gap`].
+    pub fn judge(&self, query: impl Into<AnyQuery>, truth: &ExactAnswer) -> Found {
+        let query = query.into();
+        self.compare(&query, truth, ask(self.subject, &query))
     }
 
-    pub(super) fn compare(&self, query: &Query, truth: &ExactAnswer, reply: Reply) -> Found {
+    pub(super) fn compare(&self, query: &AnyQuery, truth: &ExactAnswer, reply: Reply) -> Found {
         let (answer, lapse) = match reply {
             Reply::NotAsked => return Found::NOT_ASKED,
             Reply::Answer(answer) => (Some(answer), None),
@@ -69,10 +70,14 @@ impl Judged<'_> {
         };
         let declared = self.subject.tolerance().near;
         let judgement = judge(truth, answer.as_ref(), || {
-            declared > 0.0 && oracle::comes_within(query, declared)
+            declared > 0.0 && query.comes_within(declared)
         });
-        let gap = || oracle::estimate_gap(query);
+        let gap = || query.estimate_gap();
         let explain = self.explain.filter(|_| judgement.differs);
+        let errata = match (explain, query) {
+            (Some(explain), AnyQuery::Linear(query)) => explain(query, truth),
+            _ => Vec::new(),
+        };
         Found {
             answer,
             lapse: lapse.or_else(|| no_time(judgement.verdict)),
@@ -80,14 +85,9 @@ impl Judged<'_> {
             is_hit: judgement.is_hit,
             is_miss: judgement.is_miss(),
             faults: judgement.faults(&truth.into(), gap),
-            errata: explain.map_or_else(Vec::new, |explain| explain(query, truth)),
+            errata,
         }
     }
-}
-
-/// The gap of a query ([`oracle::least_gap`]), rounded down to about three digits.
-pub fn exact_gap(query: &Query) -> f64 {
-    oracle::least_gap(query).below
 }
 
 /// That a time of impact is no time of the step, if that is why an answer is none.

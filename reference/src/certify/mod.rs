@@ -5,9 +5,8 @@
 //! counted in the order of the queries, so that the result does not depend on the threads.
 //!
 //! [`judged`] compares one answer with the exact one, [`verdict`] says what it is worth, [`tally`]
-//! counts, in a [`block`] for a whole [`source`] or a [`shard`] of it. [`rigid`] does all of this for
-//! bodies that turn. [`run`] does it, all blocks
-//! are the [`findings`], [`strict`] says whether the result passes and [`table`] writes it down,
+//! counts, in a [`block`] for a whole [`source`] or a [`shard`] of it. A [`query`] is of linear motion
+//! or of a body that turns. [`run`] does it, all blocks are the [`findings`], [`strict`] says whether the result passes and [`table`] writes it down,
 //! with a [`summary`] first and [`details`] on request. [`caller`] says how a find is shown again,
 //! [`defaults`] which families a subject gets by itself.
 //! How far a subject may be off, it declares itself ([`tolerance`](crate::subject::Subject::tolerance));
@@ -23,8 +22,8 @@ pub mod fingerprint;
 pub mod judged;
 pub mod margin;
 pub mod named;
+pub mod query;
 mod reply;
-pub mod rigid;
 pub mod run;
 pub mod shard;
 pub mod source;

@@ -4,7 +4,9 @@ use std::slice;
 
 use tunnelproof::narrow::Unsupported;
 use tunnelproof::query::Query;
+use tunnelproof::rigid::RigidQuery;
 
+use super::query::AnyQuery;
 use crate::subject::{Answer, Lapse, LapseKind, NoAnswer, Subject};
 
 /// What comes of asking a subject.
@@ -26,13 +28,13 @@ impl Reply {
     }
 }
 
-pub(super) fn ask(subject: &dyn Subject, query: &Query) -> Reply {
+pub(super) fn ask(subject: &dyn Subject, query: &AnyQuery) -> Reply {
     let mut replies = ask_all(subject, slice::from_ref(query));
     replies.remove(0)
 }
 
-pub(super) fn ask_all(subject: &dyn Subject, queries: &[Query]) -> Vec<Reply> {
-    let answers = subject.answers(queries);
+pub(super) fn ask_all(subject: &dyn Subject, queries: &[AnyQuery]) -> Vec<Reply> {
+    let answers = answers(subject, queries);
     assert_eq!(
         answers.len(),
         queries.len(),
@@ -52,10 +54,25 @@ pub(super) fn ask_all(subject: &dyn Subject, queries: &[Query]) -> Vec<Reply> {
         .collect()
 }
 
+/// The answers to queries of which some may be of bodies that turn.
+fn answers(subject: &dyn Subject, queries: &[AnyQuery]) -> Vec<Result<Answer, NoAnswer>> {
+    let runs = queries.chunk_by(|a, b| a.turns() == b.turns());
+    let answers = runs.flat_map(|run| {
+        let linear = run.iter().filter_map(AnyQuery::linear);
+        let turning = run.iter().filter_map(AnyQuery::turning);
+        match run.first().is_some_and(AnyQuery::turns) {
+            false => subject.answers(&linear.copied().collect::<Vec<Query>>()),
+            true => subject.turning_answers(&turning.copied().collect::<Vec<RigidQuery>>()),
+        }
+    });
+    answers.collect()
+}
+
 /// Whether what a subject says it does not take is what the query is.
-fn is_of_sort(refusal: Unsupported, query: &Query) -> bool {
+fn is_of_sort(refusal: Unsupported, query: &AnyQuery) -> bool {
     match refusal {
-        Unsupported::Kind(kind) => kind == query.kind(),
+        Unsupported::Kind(kind) => kind == query.shape(),
         Unsupported::Radius(radius) => !radius.is_zero() && radius == query.radius(),
+        _ => false,
     }
 }

@@ -3,9 +3,7 @@
 use std::fmt;
 use std::iter;
 
-use tunnelproof::query::Query;
-
-use crate::corpus::{CorpusError, Entry};
+use crate::corpus::CorpusError;
 use crate::generate;
 use crate::oracle;
 use crate::subject::{Answer, NoAnswer, Subject};
@@ -13,9 +11,10 @@ use crate::subject::{Answer, NoAnswer, Subject};
 use super::batch::map_chunks_in_order;
 use super::block::{Agreement, Block, Judgements, measure_gap};
 use super::judged::Judged;
+use super::query::AnyQuery;
 use super::reply::{Reply, ask, ask_all};
 use super::shard::Shard;
-use super::source::{Group, Source};
+use super::source::{AnyEntry, AnySource, Group};
 use super::tally::Tally;
 
 /// Who judges and who is judged. A subject with the name of a judge is that judge.
@@ -76,7 +75,7 @@ impl Panel<'_> {
     /// # Errors
     ///
     /// [`RunError`] for the first query that cannot be read.
-    pub fn run(&self, source: &Source, progress: impl Fn(u64)) -> Result<Block, RunError> {
+    pub fn run(&self, source: &AnySource, progress: impl Fn(u64)) -> Result<Block, RunError> {
         self.run_shard(source, Shard::WHOLE, progress)
     }
 
@@ -87,7 +86,7 @@ impl Panel<'_> {
     /// As [`run`](Self::run).
     pub fn run_shard(
         &self,
-        source: &Source,
+        source: &AnySource,
         shard: Shard,
         progress: impl Fn(u64),
     ) -> Result<Block, RunError> {
@@ -101,7 +100,7 @@ impl Panel<'_> {
         let groups = source.groups(shard)?;
         let groups = groups.map(|group| group.map_err(RunError::from));
         let work = |groups| {
-            let judged = self.judge_all(source, groups);
+            let judged = self.judge_all(groups);
             judged.into_iter().map(Ok).collect()
         };
         map_chunks_in_order(groups, CHUNK, work, |groups: Vec<Vec<Judgements>>| {
@@ -119,7 +118,7 @@ impl Panel<'_> {
     }
 
     /// Judges groups of queries. Each subject that is no judge is asked for all of them at once.
-    fn judge_all(&self, source: &Source, groups: Vec<Group>) -> Vec<Vec<Judgements>> {
+    fn judge_all(&self, groups: Vec<Group>) -> Vec<Vec<Judgements>> {
         let entries = groups.iter().flat_map(|group| &group.entries);
         let queries: Vec<_> = entries.map(|entry| entry.query).collect();
         let asked = self.subjects.iter().map(|judged| match judged.subject {
@@ -129,7 +128,7 @@ impl Panel<'_> {
         let mut asked: Vec<_> = asked.map(Vec::into_iter).collect();
         let mut judge = |(place, entry)| {
             let replies = asked.iter_mut().map(Iterator::next).collect();
-            self.judge(source, place, entry, replies)
+            self.judge(place, entry, replies)
         };
         let groups = groups.into_iter();
         groups
@@ -145,15 +144,9 @@ impl Panel<'_> {
     }
 
     /// Judges a query to which the subjects that are no judges gave these replies.
-    fn judge(
-        &self,
-        source: &Source,
-        place: u64,
-        entry: Entry,
-        replies: Vec<Option<Reply>>,
-    ) -> Judgements {
+    fn judge(&self, place: u64, entry: AnyEntry, replies: Vec<Option<Reply>>) -> Judgements {
         let query = entry.query;
-        let truth = oracle::decide_query(&query);
+        let truth = query.decide();
         let second = self.second(&query);
         // What the judges said need not be asked again.
         let by_judge = |name: &str| match &second {
@@ -170,7 +163,7 @@ impl Panel<'_> {
         };
         Judgements {
             subjects: self.subjects.iter().zip(replies).map(found).collect(),
-            id: source.identifier(&entry),
+            id: entry.id,
             place,
             query,
             label: entry.label,
@@ -180,7 +173,7 @@ impl Panel<'_> {
     }
 
     /// The number of the second judge that takes the query, and what it says.
-    fn second(&self, query: &Query) -> Option<(usize, Reply)> {
+    fn second(&self, query: &AnyQuery) -> Option<(usize, Reply)> {
         let judges = self.second_judges.iter().enumerate();
         let mut replies = judges.map(|(index, judge)| (index, ask(*judge, query)));
         replies.find(|(_, reply)| *reply != Reply::NotAsked)

@@ -5,12 +5,42 @@ use std::sync::Arc;
 use crate::figures::{self, FIGURES};
 use tunnelproof::query::Query;
 
+use crate::corpus::turning::{self, TurningEntry};
 use crate::corpus::{self, CorpusError, Entries, Entry, ReadOptions};
-use crate::generate::{Family, GeneratedId};
+use crate::generate::{Family, GeneratedId, RigidFamily, RigidId};
 
+use super::query::AnyQuery;
 use super::shard::Shard;
 
-/// A finite sequence of queries with a name.
+/// A finite sequence of queries with a name, which may be of bodies that turn.
+#[derive(Clone, Debug)]
+pub enum AnySource {
+    /// Queries of linear motion.
+    Linear(Source),
+    /// Queries of bodies that turn.
+    Turning(TurningSource),
+}
+
+/// A finite sequence of queries of bodies that turn, with a name.
+#[derive(Clone, Debug)]
+pub enum TurningSource {
+    /// The first queries of a family.
+    Family {
+        /// The family.
+        family: &'static RigidFamily,
+        /// The seed of the family.
+        seed: u64,
+        /// How many queries.
+        count: u64,
+    },
+    /// A corpus.
+    File {
+        /// Its path, `-` for the standard input.
+        path: String,
+    },
+}
+
+/// A finite sequence of queries of linear motion with a name.
 #[derive(Clone, Debug)]
 pub enum Source {
     /// The cases of thesis section 4.1, labelled with whether they are hits.
@@ -45,7 +75,17 @@ pub struct Group {
     /// The place of the first in the source, from 0.
     pub first: u64,
     /// The queries.
-    pub entries: Vec<Entry>,
+    pub entries: Vec<AnyEntry>,
+}
+
+/// A query that is judged.
+pub struct AnyEntry {
+    /// What `explain` knows it by.
+    pub id: String,
+    /// The query.
+    pub query: AnyQuery,
+    /// Whether it is known to be a hit; `None` if the source does not say.
+    pub label: Option<bool>,
 }
 
 /// Groups of queries. After an error there are no more.
@@ -117,13 +157,7 @@ impl Source {
         }
     }
 
-    /// The groups of queries of a part of the source, in their order. Queries of other parts are
-    /// not made, where they need not be read.
-    ///
-    /// # Errors
-    ///
-    /// [`CorpusError`] if a corpus cannot be opened.
-    pub fn groups(&self, shard: Shard) -> Result<Groups, CorpusError> {
+    fn groups(&self, shard: Shard) -> Result<Groups, CorpusError> {
         let size = self.group_size() as u64;
         if let &Source::Family {
             family,
@@ -135,27 +169,29 @@ impl Source {
             return Ok(Box::new(firsts.map(move |group| {
                 let first = group * size;
                 let indices = first..count.min(first + size);
-                let entries = indices.map(|index| generated(family, seed, index));
+                let entries = indices.map(|index| generated(family, seed, index).into());
                 let entries = entries.collect();
                 Ok(Group { first, entries })
             })));
         }
-        let places = (0..).zip(self.entries()?);
-        let is_mine =
-            move |(place, entry): &(u64, Result<_, _>)| entry.is_err() || shard.has(*place);
-        Ok(Box::new(places.filter(is_mine).map(|(first, entry)| {
-            let entries = vec![entry?];
-            Ok(Group { first, entries })
-        })))
+        let path = self.path().map(str::to_owned);
+        let entries = self.entries()?.map(move |entry| {
+            let mut entry = AnyEntry::from(entry?);
+            entry.id = identifier(path.as_deref(), entry.id);
+            Ok(entry)
+        });
+        Ok(singly(entries, shard))
     }
 
     /// What `explain` knows an entry of this source by.
     pub fn identifier(&self, entry: &Entry) -> String {
+        identifier(self.path(), entry.id.clone())
+    }
+
+    fn path(&self) -> Option<&str> {
         match self {
-            Source::File { path, .. } if !entry.id.starts_with(&format!("{path}#")) => {
-                format!("{path}#{}", entry.id)
-            }
-            _ => entry.id.clone(),
+            Source::File { path, .. } => Some(path),
+            _ => None,
         }
     }
 
@@ -164,6 +200,127 @@ impl Source {
         match (self, entry.line) {
             (Source::File { path, .. }, Some(line)) => format!("{path}:{line}"),
             _ => entry.id.clone(),
+        }
+    }
+}
+
+/// What `explain` knows a query by that a file calls so.
+fn identifier(path: Option<&str>, id: String) -> String {
+    match path {
+        Some(path) if !id.starts_with(&format!("{path}#")) => format!("{path}#{id}"),
+        _ => id,
+    }
+}
+
+/// Each query of a part by itself.
+fn singly(
+    entries: impl Iterator<Item = Result<AnyEntry, CorpusError>> + Send + 'static,
+    shard: Shard,
+) -> Groups {
+    let is_mine = move |(place, entry): &(u64, Result<_, _>)| entry.is_err() || shard.has(*place);
+    Box::new((0..).zip(entries).filter(is_mine).map(|(first, entry)| {
+        let entries = vec![entry?];
+        Ok(Group { first, entries })
+    }))
+}
+
+impl TurningSource {
+    fn groups(&self, shard: Shard) -> Result<Groups, CorpusError> {
+        match self.clone() {
+            TurningSource::Family {
+                family,
+                seed,
+                count,
+            } => {
+                let places = (0..count).filter(move |place| shard.has(*place));
+                Ok(Box::new(places.map(move |first| {
+                    let id = RigidId {
+                        family,
+                        seed,
+                        index: first,
+                    };
+                    let entries = vec![AnyEntry {
+                        id: id.to_string(),
+                        query: id.query().into(),
+                        label: None,
+                    }];
+                    Ok(Group { first, entries })
+                })))
+            }
+            TurningSource::File { path } => {
+                let entries = turning::open(&path)?.map(move |entry| {
+                    let TurningEntry { id, query, label } = entry?;
+                    Ok(AnyEntry {
+                        id: identifier(Some(&path), id),
+                        query: query.into(),
+                        label,
+                    })
+                });
+                Ok(singly(entries, shard))
+            }
+        }
+    }
+}
+
+impl AnySource {
+    /// The name used in tables.
+    pub fn name(&self) -> String {
+        match self {
+            AnySource::Linear(source) => source.name(),
+            AnySource::Turning(TurningSource::Family { family, .. }) => family.name().to_owned(),
+            AnySource::Turning(TurningSource::File { path }) => path.clone(),
+        }
+    }
+
+    /// How many queries there are, if that is known beforehand.
+    pub fn count(&self) -> Option<u64> {
+        match self {
+            AnySource::Linear(source) => source.count(),
+            AnySource::Turning(TurningSource::Family { count, .. }) => Some(*count),
+            AnySource::Turning(TurningSource::File { .. }) => None,
+        }
+    }
+
+    /// How many consecutive queries belong together ([`Family::group_size`]).
+    pub fn group_size(&self) -> usize {
+        match self {
+            AnySource::Linear(source) => source.group_size(),
+            AnySource::Turning(_) => 1,
+        }
+    }
+
+    /// The groups of queries of a part of the source, in their order. Queries of other parts are
+    /// not made, where they need not be read.
+    ///
+    /// # Errors
+    ///
+    /// [`CorpusError`] if a corpus cannot be opened.
+    pub fn groups(&self, shard: Shard) -> Result<Groups, CorpusError> {
+        match self {
+            AnySource::Linear(source) => source.groups(shard),
+            AnySource::Turning(source) => source.groups(shard),
+        }
+    }
+}
+
+impl From<Source> for AnySource {
+    fn from(source: Source) -> Self {
+        AnySource::Linear(source)
+    }
+}
+
+impl From<TurningSource> for AnySource {
+    fn from(source: TurningSource) -> Self {
+        AnySource::Turning(source)
+    }
+}
+
+impl From<Entry> for AnyEntry {
+    fn from(entry: Entry) -> Self {
+        AnyEntry {
+            id: entry.id,
+            query: entry.query.into(),
+            label: entry.label,
         }
     }
 }

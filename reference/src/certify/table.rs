@@ -258,6 +258,8 @@ pub(super) fn first(finding: &Finding) -> &str {
 pub fn measure(fault: Fault, severity: f64) -> String {
     match fault {
         Fault::Tunnel | Fault::JointTunnel | Fault::MissedGraze => format!("central {severity:.2}"),
+        // Not measured of bodies that turn.
+        Fault::FalseHit if severity == 0.0 => String::new(),
         Fault::FalseHit => format!("gap {} m", short(severity)),
         Fault::Late | Fault::Early => format!("by {}", short(severity)),
         Fault::NearHit | Fault::NoAnswer | Fault::WrongCase | Fault::Differs => String::new(),

@@ -4,12 +4,12 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::Value;
-use tunnelproof::query::{Query, QueryKind};
+use tunnelproof::query::QueryKind;
 
 use crate::answer::ExactAnswer;
-use crate::corpus::Entry;
 use crate::subject::{Answer, Lapse, LapseKind};
 
+use super::query::AnyQuery;
 use super::verdict::{Judgement, Outline, Verdict};
 
 /// What can be wrong with an answer.
@@ -60,7 +60,7 @@ pub struct Witness {
     /// The identifier of the query.
     pub id: String,
     /// The query.
-    pub query: Query,
+    pub query: AnyQuery,
     /// The exact answer.
     pub truth: ExactAnswer,
     /// What the subject says; `None` for no answer.
@@ -81,19 +81,44 @@ pub struct Finding {
 /// What a subject may take or not as a whole: queries of a kind, with a radius or without.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Sort {
-    /// Their kind.
+    /// Their kind; of bodies that turn that of the same query of linear motion.
     pub kind: QueryKind,
+    /// Whether they are of bodies that turn.
+    pub turns: bool,
     /// Whether they have a radius above 0.
     pub has_radius: bool,
 }
 
 impl Sort {
     /// The sort of a query.
-    pub fn of(query: &Query) -> Self {
+    pub fn of(query: &AnyQuery) -> Self {
         Sort {
-            kind: query.kind(),
+            kind: query.shape(),
+            turns: query.turns(),
             has_radius: !query.radius().is_zero(),
         }
+    }
+
+    /// The word of the kind, as queries state it.
+    pub fn name(&self) -> &'static str {
+        match (self.kind, self.turns) {
+            (kind, false) => kind.name(),
+            (QueryKind::EdgeEdge, true) => "edge-turning-edge",
+            (QueryKind::VertexFace, true) => "vertex-turning-face",
+        }
+    }
+
+    /// The sort with this [`name`](Self::name), with a radius or without.
+    pub fn from_name(name: &str, has_radius: bool) -> Option<Self> {
+        let kinds = [QueryKind::EdgeEdge, QueryKind::VertexFace].into_iter();
+        let sorts = kinds.flat_map(|kind| {
+            [false, true].map(|turns| Sort {
+                kind,
+                turns,
+                has_radius,
+            })
+        });
+        sorts.into_iter().find(|sort| sort.name() == name)
     }
 }
 
@@ -216,13 +241,6 @@ impl Judgement {
         let times = [(Fault::Late, self.late), (Fault::Early, self.early)];
         faults.extend(times.into_iter().filter(|(_, by)| *by > 0.0));
         faults
-    }
-}
-
-impl Witness {
-    /// The query as an entry of a corpus.
-    pub fn entry(&self) -> Entry {
-        Entry::unlabelled(&self.id, self.query)
     }
 }
 

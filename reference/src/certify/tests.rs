@@ -9,6 +9,7 @@ use tunnelproof::query::{Point, Query};
 use super::block::Block;
 use super::details;
 use super::judged::Judged;
+use super::query::AnyQuery;
 use super::run::Panel;
 use super::source::Source;
 use super::strict::{exact_failures, failures};
@@ -21,6 +22,10 @@ use crate::generate;
 use crate::oracle::{Oracle, decide_query, least_gap};
 use crate::shadow::Shadow;
 use crate::subject::{Answer, LapseKind, NoAnswer, Subject};
+
+mod turning {
+    mod tests;
+}
 
 const COUNT: u64 = 1500;
 
@@ -95,7 +100,7 @@ fn is_chosen(query: &Query) -> bool {
 }
 
 fn run(subject: &dyn Subject) -> Block {
-    panel(subject).run(&lattice(), |_| {}).unwrap()
+    panel(subject).run(&lattice().into(), |_| {}).unwrap()
 }
 
 fn panel(subject: &dyn Subject) -> Panel<'_> {
@@ -351,7 +356,7 @@ fn certify_exact_subject_off_by_a_neighbour_differs() {
         second_judges: vec![&AlmostExact],
         subjects: Vec::new(),
     };
-    let block = panel.run(&lattice(), |_| {}).unwrap();
+    let block = panel.run(&lattice().into(), |_| {}).unwrap();
     assert_eq!(block.agreements[0].disagreements.count, count);
     let expected = format!("oracle and almost exact disagree on {count} queries");
     assert_eq!(failures(&panel, &block), [expected]);
@@ -377,12 +382,12 @@ fn certify_wrong_labels_are_found() {
         options: ReadOptions::default(),
     };
     let panel = panel(&Oracle);
-    let block = panel.run(&source, |_| {}).unwrap();
+    let block = panel.run(&source.clone().into(), |_| {}).unwrap();
     assert_eq!((block.labels, block.wrong_labels.count), (100, wrong));
     let witness = block.wrong_labels.worst.as_ref().unwrap();
     assert_eq!(witness.id, format!("{path}#lattice:3:0"));
     let entry = crate::corpus::locate::locate(&witness.id, ReadOptions::default()).unwrap();
-    assert_eq!(entry.query, witness.query);
+    assert_eq!(AnyQuery::from(entry.query), witness.query);
     assert_eq!(failures(&panel, &block).len(), 1);
 }
 
@@ -401,7 +406,7 @@ fn certify_result_does_not_depend_on_the_threads() {
 #[test]
 fn certify_figures_are_hits_where_the_captions_say_so() {
     let panel = panel(&Oracle);
-    let block = panel.run(&Source::Figures, |_| {}).unwrap();
+    let block = panel.run(&Source::Figures.into(), |_| {}).unwrap();
     assert_eq!((block.queries, block.labels), (12, 12));
     assert_eq!(block.wrong_labels.count, 0);
     assert_eq!(failures(&panel, &block), [""; 0]);
@@ -428,7 +433,7 @@ fn run_joint(drops: impl Fn(&Query) -> bool + Sync) -> (Block, Vec<String>) {
         near: 0.0,
     };
     let panel = panel(&liar);
-    let block = panel.run(&joint(), |_| {}).unwrap();
+    let block = panel.run(&joint().into(), |_| {}).unwrap();
     let failures = failures(&panel, &block);
     (block, failures)
 }
@@ -465,7 +470,7 @@ fn certify_wires_missed_by_both_segments_are_joint_tunnels() {
         "{failures:?}"
     );
     let witness = tally.faults[&Fault::JointTunnel].worst.as_ref().unwrap();
-    assert!(is_chosen_wire(&witness.query) && witness.truth.hit.is_some());
+    assert!(witness.query.linear().is_some_and(is_chosen_wire) && witness.truth.hit.is_some());
     assert_eq!(witness.severity, tally.worst(Fault::JointTunnel));
 }
 

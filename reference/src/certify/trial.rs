@@ -134,7 +134,7 @@ impl<N: NarrowPhase> Trial<N> {
             count,
         });
         let sources = families.chain(self.sources);
-        let blocks = sources.map(|source| panel.run(&source, |_| {}));
+        let blocks = sources.map(|source| panel.run(&source.into(), |_| {}));
         let blocks = blocks.collect::<Result<_, _>>()?;
         let settings = Settings {
             command,

@@ -12,6 +12,7 @@
 
 use tunnelproof::contact::{Case, ContactKind, Flags};
 use tunnelproof::query::{Query, QueryKind, Radius};
+use tunnelproof::rigid::RigidQuery;
 
 use crate::algebraic::Algebraic;
 use crate::answer::{ExactAnswer, ExactHit};
@@ -40,6 +41,10 @@ impl Subject for Difference {
 
     fn answer(&self, query: &Query) -> Result<Answer, NoAnswer> {
         Ok(Answer::Exact(decide::<field::Default>(query)))
+    }
+
+    fn turning_answer(&self, query: &RigidQuery) -> Result<Answer, NoAnswer> {
+        Ok(Answer::Exact(decide_rigid::<field::Default>(query)))
     }
 }
 

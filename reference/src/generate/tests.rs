@@ -121,6 +121,48 @@ fn families_queries_stay_the_same() {
     assert_eq!(digests, DIGESTS);
 }
 
+/// The same of a family with radii.
+fn digest_with_radii(family: &Family) -> u64 {
+    let radii = (0..1000).flat_map(|index| family.query(1, index).radius().parts());
+    radii
+        .map(f64::to_bits)
+        .fold(digest(family), |digest, bits| {
+            (digest ^ bits).wrapping_mul(0x100_0000_01b3)
+        })
+}
+
+#[test]
+fn cast_families_queries_stay_the_same() {
+    let digests = CAST_FAMILIES
+        .iter()
+        .map(|f| (f.name(), digest_with_radii(f)));
+    assert_eq!(digests.collect::<Vec<_>>(), CAST_DIGESTS);
+}
+
+const CAST_DIGESTS: [(&str, u64); 21] = [
+    ("cast_uniform", 0xdc59_7e8a_f525_1265),
+    ("cast_lattice", 0xe711_7c65_f525_1265),
+    ("cast_coplanar", 0x5481_8ec5_f525_1265),
+    ("cast_parallel", 0x770d_6a95_f525_1265),
+    ("cast_grazing", 0xf830_f096_7525_1265),
+    ("cast_long_thin", 0xd684_3203_f525_1265),
+    ("cast_far", 0x3577_7c28_f525_1265),
+    ("cast_tiny", 0x8660_251a_f525_1265),
+    ("cast_start", 0xe916_748e_7525_1265),
+    ("cast_thin_uniform", 0xb360_fcbf_f525_1265),
+    ("cast_thin_lattice", 0x780d_7c65_f525_1265),
+    ("cast_thin_coplanar", 0x13de_9c15_f525_1265),
+    ("cast_thin_parallel", 0xf067_6f05_f525_1265),
+    ("cast_thin_far", 0x4acf_e044_3525_1265),
+    ("cast_face_uniform", 0x06c9_36a8_f525_1265),
+    ("cast_face_lattice", 0x9315_7c65_f525_1265),
+    ("cast_face_grazing", 0xdad1_70a1_7525_1265),
+    ("cast_face_long_thin", 0x37b9_f081_f525_1265),
+    ("cast_face_far", 0x8a69_774d_3525_1265),
+    ("cast_face_tiny", 0xac5c_6657_f525_1265),
+    ("cast_face_start", 0x9a71_4331_7525_1265),
+];
+
 const DIGESTS: [(&str, u64); 16] = [
     ("uniform", 0x90e1_f756_7887_2025),
     ("lattice", 0x38a1_60f1_e188_9625),

@@ -21,6 +21,7 @@ use std::cmp::Ordering;
 
 use tunnelproof::contact::{Case, ContactKind};
 use tunnelproof::query::{EdgeEdge, Query};
+use tunnelproof::rigid::RigidQuery;
 
 use crate::algebraic::Algebraic;
 use crate::answer::{ExactAnswer, ExactHit};
@@ -69,6 +70,10 @@ impl Subject for Oracle {
 
     fn answer(&self, query: &Query) -> Result<Answer, NoAnswer> {
         Ok(Answer::Exact(decide_query(query)))
+    }
+
+    fn turning_answer(&self, query: &RigidQuery) -> Result<Answer, NoAnswer> {
+        Ok(Answer::Exact(decide_rigid_query(query)))
     }
 }
 

@@ -18,12 +18,12 @@ use std::time::{Duration, Instant};
 
 use tunnelproof::narrow::Tolerance;
 use tunnelproof::query::Query;
+use tunnelproof::rigid::RigidQuery;
 
 use crate::subject::{Answer, Lapse, LapseKind, NoAnswer, Subject};
 
 pub mod frames;
 pub mod lines;
-mod rigid;
 mod stderr;
 pub mod wire;
 mod worker;
@@ -230,6 +230,15 @@ impl Subject for Program {
     }
 
     fn answers(&self, queries: &[Query]) -> Vec<Result<Answer, NoAnswer>> {
+        self.all_answers(queries)
+    }
+
+    fn turning_answer(&self, query: &RigidQuery) -> Result<Answer, NoAnswer> {
+        self.all_answers(std::slice::from_ref(query)).remove(0)
+    }
+
+    /// Of what is asked in [lines](Wire::Lines); the other form has no such queries.
+    fn turning_answers(&self, queries: &[RigidQuery]) -> Vec<Result<Answer, NoAnswer>> {
         self.all_answers(queries)
     }
 

@@ -1,19 +1,16 @@
 //! Results read from files, and parts of one certification put together.
 
-use std::io::Cursor;
-
 use tunnelproof::narrow::{Tolerance, Unsupported};
-use tunnelproof::query::{Query, QueryKind};
+use tunnelproof::query::Query;
 
 use crate::certify::block::{Agreement, Block};
 use crate::certify::findings::{Findings, Settings};
 use crate::certify::judged::Judged;
 use crate::certify::named::Named;
+use crate::certify::query::AnyQuery;
 use crate::certify::run::Panel;
 use crate::certify::shard::Shard;
 use crate::certify::tally::{Explained, Fault, Finding, Sort, Statement, Tally, Witness};
-use crate::corpus::{self, Format, ReadOptions};
-use crate::oracle;
 use crate::program::Conduct;
 use crate::subject::{Answer, Lapse, LapseKind, NoAnswer, Subject};
 
@@ -159,10 +156,6 @@ impl Kept {
                 .map(|b| b.name.clone())
                 .collect::<Vec<_>>()
         };
-        let same = |settings: &Settings| Settings {
-            shard: Shard::WHOLE,
-            ..settings.clone()
-        };
         for (what, is_same) in [
             (
                 "number of shards",
@@ -174,7 +167,10 @@ impl Kept {
                 names(&self.subjects) != names(&other.subjects)
                     || tolerances(&self.subjects) == tolerances(&other.subjects),
             ),
-            ("command", same(&self.settings) == same(&other.settings)),
+            (
+                "command",
+                self.settings.are_of_same_certification(&other.settings),
+            ),
             (
                 "list of subjects",
                 names(&self.subjects) == names(&other.subjects),
@@ -204,6 +200,11 @@ impl Kept {
     /// What was found on each source, of those judged so far, in their order.
     pub fn blocks(&self) -> &[Block] {
         &self.blocks
+    }
+
+    /// The same as found by these settings, such as of a program that was started otherwise.
+    pub fn with_settings(self, settings: Settings) -> Self {
+        Kept { settings, ..self }
     }
 
     /// What was judged.
@@ -339,9 +340,8 @@ fn tally(row: &SubjectRow) -> Result<Tally, MergeError> {
 }
 
 fn sort(row: &SortRow) -> Result<Sort, MergeError> {
-    Ok(Sort {
-        kind: word("kind", &row.kind, QueryKind::from_name)?,
-        has_radius: row.has_radius,
+    word("kind", &row.kind, |name| {
+        Sort::from_name(name, row.has_radius)
     })
 }
 
@@ -358,15 +358,8 @@ fn witness(row: &WitnessRow) -> Result<Witness, MergeError> {
         id: row.id.clone(),
         problem,
     };
-    let line = Cursor::new(row.query_hexadecimal.to_string());
-    let options = ReadOptions::default();
-    let entries = corpus::read(line, &row.id, Some(Format::Jsonl), options);
-    let entry = entries.and_then(|mut entries| entries.next().transpose());
-    let entry = entry.map_err(|error| unreadable(error.to_string()))?;
-    let query = entry
-        .ok_or_else(|| unreadable("there is none".to_owned()))?
-        .query;
-    let truth = oracle::decide_query(&query);
+    let query = AnyQuery::parse(&row.query_hexadecimal.to_string()).map_err(unreadable)?;
+    let truth = query.decide();
     Ok(Witness {
         severity: row.severity,
         rank: row.rank,

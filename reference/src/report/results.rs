@@ -27,7 +27,7 @@
 //! explains an answer two findings, `alone` and `with_others`. A finding has `count` and `worst`,
 //! its worst witness: `severity`, `rank` (what it was chosen by), `place` (of the query in its
 //! source, from 0), `id`, the `command` that explains it, the `query` with decimal and with
-//! hexadecimal numbers ([`crate::corpus::jsonl`] reads both), `truth` and `answer`
+//! hexadecimal numbers ([`crate::corpus::jsonl`] and [`crate::corpus::turning`] read both), `truth` and `answer`
 //! ([`super::answer`]; `null` for no answer), and `lapse`, how the subject failed, if it did:
 //! `kind` and `detail`. `severity` is the gap of a false hit in metres, the difference of a late or
 //! early time of impact, and for missed contacts how far time and place are from their ends
@@ -45,7 +45,7 @@ use crate::certify::judged::Judged;
 use crate::certify::run::Panel;
 use crate::certify::strict::{exact_failures, failures};
 use crate::certify::tally::{Explained, Fault, Finding, Sort, Statement, Tally, Witness};
-use crate::corpus::jsonl::{self, Numbers};
+use crate::corpus::jsonl::Numbers;
 use crate::field::{self, Integer};
 
 use super::answer::Fields;
@@ -298,7 +298,7 @@ pub fn written(kind: QueryKind, answer: &Statement) -> Value {
 impl From<&Sort> for SortRow {
     fn from(sort: &Sort) -> Self {
         SortRow {
-            kind: sort.kind.name().to_owned(),
+            kind: sort.name().to_owned(),
             has_radius: sort.has_radius,
         }
     }
@@ -335,9 +335,8 @@ impl ExplainedRow {
 
 impl WitnessRow {
     fn new(witness: &Witness, subject: Option<&str>, caller: &Caller) -> Self {
-        let entry = witness.entry();
         let query = |numbers| {
-            let line = jsonl::write(&entry, numbers);
+            let line = witness.query.line(&witness.id, numbers);
             serde_json::from_str(&line).expect("a query is written as JSON")
         };
         WitnessRow {
@@ -352,7 +351,7 @@ impl WitnessRow {
             answer: witness
                 .answer
                 .as_ref()
-                .map(|answer| written(witness.query.kind(), answer)),
+                .map(|answer| written(witness.query.shape(), answer)),
             lapse: witness.lapse.as_ref().map(|lapse| LapseRow {
                 kind: lapse.kind.name().to_owned(),
                 detail: lapse.detail.clone(),

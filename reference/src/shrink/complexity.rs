@@ -12,7 +12,7 @@ use crate::shape::Shape;
 /// 1. the bits of all coordinates and radii. 0 takes none, an odd integer times `2^e` the bits of
 ///    the integer, and `e` more if `e` is above 0, `-2 e` more if it is below: an integer takes as
 ///    many as it has binary digits, and small integers are simpler than fractions;
-/// 2. how many different positions the points take, of at most eight;
+/// 2. how many different positions the points take;
 /// 3. how many numbers are below 0;
 /// 4. the numbers themselves, as a list of magnitudes and then of signs.
 ///
@@ -23,11 +23,11 @@ pub struct Complexity {
     positions: usize,
     negative: usize,
     magnitudes: [u64; NUMBERS],
-    signs: u32,
+    signs: u64,
 }
 
-/// 24 coordinates and two radii.
-const NUMBERS: usize = 26;
+/// The most numbers of any query: 32 of an edge and one of a body that turns, and two radii.
+const NUMBERS: usize = 34;
 
 impl Complexity {
     /// How complex this query is.
@@ -41,15 +41,24 @@ impl Complexity {
     }
 
     pub(super) fn new(shape: &Shape) -> Self {
+        let positions = (0..8).map(|index| shape.position(index));
+        Self::of_numbers(&shape.numbers, shape.radii, positions.collect())
+    }
+
+    /// Of numbers that are, besides others, these positions.
+    pub(super) fn of_numbers(own: &[f64], radii: [f64; 2], positions: Vec<[f64; 3]>) -> Self {
         let mut numbers = [0.0; NUMBERS];
-        numbers[..24].copy_from_slice(&shape.numbers);
-        numbers[24..].copy_from_slice(&shape.radii);
+        let all = own.iter().chain(&radii);
+        numbers
+            .iter_mut()
+            .zip(all)
+            .for_each(|(place, number)| *place = *number);
         let signs = numbers.iter().fold(0, |signs, number| {
-            signs << 1 | u32::from(number.is_sign_negative())
+            signs << 1 | u64::from(number.is_sign_negative())
         });
         Complexity {
             bits: numbers.iter().map(|&number| bits(number)).sum(),
-            positions: positions(shape),
+            positions: different(positions),
             negative: signs.count_ones() as usize,
             magnitudes: numbers.map(|number| number.abs().to_bits()),
             signs,
@@ -66,8 +75,7 @@ fn bits(number: f64) -> u64 {
     }
 }
 
-fn positions(shape: &Shape) -> usize {
-    let mut positions: Vec<_> = (0..8).map(|index| shape.position(index)).collect();
+fn different(mut positions: Vec<[f64; 3]>) -> usize {
     positions.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
     positions.dedup();
     positions.len()

@@ -1,17 +1,16 @@
 //! What a subject gets wrong, as something to be shrunk.
 
 use tunnelproof::narrow::Unsupported;
-use tunnelproof::query::Query;
 
-use super::{Shrunk, shrink};
+use super::{Shrinkable, Shrunk, shrink};
 use crate::answer::ExactAnswer;
 use crate::certify::judged::Judged;
+use crate::certify::query::AnyQuery;
 use crate::certify::tally::Fault;
-use crate::oracle::decide_query;
 use crate::subject::Subject;
 
 /// Says what is true, if it takes the query.
-pub type Truth = fn(&Query) -> Result<ExactAnswer, Unsupported>;
+pub type Truth = fn(&AnyQuery) -> Result<ExactAnswer, Unsupported>;
 
 /// A subject and who knows better.
 #[derive(Clone, Copy)]
@@ -25,7 +24,7 @@ pub struct Disagreement<'a> {
 impl<'a> Disagreement<'a> {
     /// With the oracle as the one who is right.
     pub fn with_oracle(subject: &'a dyn Subject) -> Self {
-        let truth = |query: &Query| Ok(decide_query(query));
+        let truth = |query: &AnyQuery| Ok(query.decide());
         Disagreement { subject, truth }
     }
 
@@ -36,8 +35,9 @@ impl<'a> Disagreement<'a> {
     /// # Errors
     ///
     /// [`Unsupported`] for a query that the truth does not take.
-    pub fn fault(&self, query: &Query) -> Result<Option<Fault>, Unsupported> {
-        let truth = (self.truth)(query)?;
+    pub fn fault<Q: Copy + Into<AnyQuery>>(&self, query: &Q) -> Result<Option<Fault>, Unsupported> {
+        let query = (*query).into();
+        let truth = (self.truth)(&query)?;
         let judged = Judged {
             subject: self.subject,
             explain: None,
@@ -56,8 +56,8 @@ impl<'a> Disagreement<'a> {
     }
 
     /// The smallest query on which the subject does wrong what it does on this one.
-    pub fn shrink(&self, query: &Query, fault: Fault, most_calls: u64) -> Shrunk {
-        shrink(query, most_calls, |query| {
+    pub fn shrink<Q: Shrinkable>(&self, query: &Q, fault: Fault, most_calls: u64) -> Shrunk<Q> {
+        shrink(query, most_calls, |query: &Q| {
             self.fault(query) == Ok(Some(fault))
         })
     }

@@ -1,6 +1,6 @@
 //! From a query that shows something to the smallest one that still shows it.
 //!
-//! [`shrink`] knows nothing of what is shown: a predicate says whether a query is still
+//! [`shrink()`] knows nothing of what is shown: a predicate says whether a query is still
 //! interesting. It is greedy. Each step (`steps`) proposes queries, the first one that is simpler
 //! by [`Complexity`] and still interesting takes the place of the query, and so on until no step
 //! gets any further. [`Disagreement`] is the predicate for a subject that is wrong.
@@ -11,29 +11,32 @@ use std::fmt;
 use tunnelproof::query::Query;
 
 use crate::certify::caller;
-use crate::corpus::Entry;
-use crate::corpus::jsonl::{self, Numbers};
-use crate::shape::Shape;
+use crate::certify::query::AnyQuery;
+use crate::corpus::jsonl::Numbers;
 
 mod complexity;
 mod disagreement;
+mod form;
 mod steps;
+mod turning;
 
 #[cfg(test)]
 mod tests;
 
 pub use complexity::Complexity;
 pub use disagreement::{Disagreement, Truth};
+pub use form::{Form, Shrinkable, Step};
+pub use turning::TurningForm;
 
 /// How often the predicate is asked where nothing else is said. Some thousand times are enough for
 /// most queries; the truth takes some ten microseconds each.
 pub const MOST_CALLS: u64 = 20_000;
 
-/// What [`shrink`] found.
+/// What [`shrink()`] found.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shrunk {
+pub struct Shrunk<Q = Query> {
     /// The simplest query found; the one that was given, if there is none simpler.
-    pub query: Query,
+    pub query: Q,
     /// How complex the given query is.
     pub before: Complexity,
     /// How complex the query found is: less than `before`, or the same for the same query.
@@ -49,13 +52,13 @@ pub struct Shrunk {
 /// `query` itself is taken to be interesting. A result that is minimal is returned as it is if it
 /// is shrunk again. The result depends on nothing but the query, the limit and the predicate, which
 /// has to be the same for equal queries; it is asked at most `most_calls` times.
-pub fn shrink(
-    query: &Query,
+pub fn shrink<Q: Shrinkable>(
+    query: &Q,
     most_calls: u64,
-    mut is_interesting: impl FnMut(&Query) -> bool,
-) -> Shrunk {
-    let start = Shape::new(query);
-    let before = Complexity::new(&start);
+    mut is_interesting: impl FnMut(&Q) -> bool,
+) -> Shrunk<Q> {
+    let start = query.form();
+    let before = start.complexity();
     let mut search = Search {
         best: start,
         complexity: before,
@@ -76,21 +79,21 @@ pub fn shrink(
 /// The calls are used up.
 struct UsedUp;
 
-struct Search {
-    best: Shape,
+struct Search<F> {
+    best: F,
     complexity: Complexity,
     /// What the predicate has refused.
-    refused: HashSet<Shape>,
+    refused: HashSet<F>,
     calls: u64,
     most_calls: u64,
 }
 
-impl Search {
+impl<F: Form> Search<F> {
     /// Whether it ends because no step gets any further.
-    fn run(&mut self, is_interesting: &mut dyn FnMut(&Query) -> bool) -> bool {
+    fn run(&mut self, is_interesting: &mut dyn FnMut(&F::Query) -> bool) -> bool {
         loop {
             let round = self.complexity;
-            for step in steps::STEPS {
+            for step in F::STEPS {
                 if self.exhaust(*step, is_interesting).is_err() {
                     return false;
                 }
@@ -104,13 +107,13 @@ impl Search {
     /// Takes one step as long as it gets further.
     fn exhaust(
         &mut self,
-        step: steps::Step,
-        is_interesting: &mut dyn FnMut(&Query) -> bool,
+        step: Step<F>,
+        is_interesting: &mut dyn FnMut(&F::Query) -> bool,
     ) -> Result<(), UsedUp> {
         loop {
             let mut has_improved = false;
-            for shape in step(&self.best) {
-                if self.accepts(shape, is_interesting)? {
+            for form in step(&self.best) {
+                if self.accepts(form, is_interesting)? {
                     has_improved = true;
                     break;
                 }
@@ -123,14 +126,14 @@ impl Search {
 
     fn accepts(
         &mut self,
-        shape: Shape,
-        is_interesting: &mut dyn FnMut(&Query) -> bool,
+        form: F,
+        is_interesting: &mut dyn FnMut(&F::Query) -> bool,
     ) -> Result<bool, UsedUp> {
-        let complexity = Complexity::new(&shape);
-        if complexity >= self.complexity || self.refused.contains(&shape) {
+        let complexity = form.complexity();
+        if complexity >= self.complexity || self.refused.contains(&form) {
             return Ok(false);
         }
-        let Some(query) = shape.query() else {
+        let Some(query) = form.query() else {
             return Ok(false);
         };
         if self.calls == self.most_calls {
@@ -138,27 +141,27 @@ impl Search {
         }
         self.calls += 1;
         if is_interesting(&query) {
-            (self.best, self.complexity) = (shape, complexity);
+            (self.best, self.complexity) = (form, complexity);
             return Ok(true);
         }
-        self.refused.insert(shape);
+        self.refused.insert(form);
         Ok(false)
     }
 }
 
-impl Shrunk {
+impl<Q: Copy + Into<AnyQuery>> Shrunk<Q> {
     /// The query as a line of JSON that every command reads.
     pub fn line(&self, id: &str) -> String {
-        jsonl::write(&Entry::unlabelled(id, self.query), Numbers::Decimal)
+        self.query.into().line(id, Numbers::Decimal)
     }
 
     /// The command that explains the query, ready to paste into a shell.
     pub fn command(&self, id: &str) -> String {
-        caller::explain_line(&Entry::unlabelled(id, self.query))
+        caller::explain_line(id, &self.query.into())
     }
 }
 
-impl fmt::Display for Shrunk {
+impl<Q> fmt::Display for Shrunk<Q> {
     /// Sizes and calls, in a few words.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (before, after) = (self.before.bits(), self.after.bits());

@@ -3,14 +3,12 @@
 
 use tunnelproof::query::QueryKind;
 
+use super::form::Step;
 use crate::algebraic::decompose;
 use crate::shape::Shape;
 
-/// Proposes queries in place of one.
-pub(super) type Step = fn(&Shape) -> Box<dyn Iterator<Item = Shape>>;
-
 /// Every step, in the order in which they are taken.
-pub(super) const STEPS: &[Step] = &[
+pub(super) const STEPS: &[Step<Shape>] = &[
     simpler_radius,
     zeros,
     at_rest,
@@ -109,20 +107,26 @@ fn pairs(count: usize) -> impl Iterator<Item = (usize, usize)> {
 /// Numbers rounded to a multiple of a power of two that leaves few bits of the largest.
 fn coarser(shape: &Shape) -> Box<dyn Iterator<Item = Shape>> {
     let shape = *shape;
-    let rounded = move |bits: i64, run: std::ops::Range<usize>| {
-        let largest = shape.numbers[run.clone()]
-            .iter()
-            .fold(0.0, |largest: f64, number| largest.max(number.abs()));
-        let (mantissa, exponent) = decompose(largest);
-        let length = i64::from(i64::BITS - mantissa.leading_zeros());
-        let unit = exponent + length - bits;
-        shape.changed(run, |number| {
-            let multiple = (scale(number, -unit)).round();
-            scale(multiple, unit)
+    Box::new(runs().flat_map(move |run| {
+        BITS.map(|bits| {
+            let round = rounding(&shape.numbers[run.clone()], bits);
+            shape.changed(run.clone(), round)
         })
-    };
-    let bits = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 40, 48, 52];
-    Box::new(runs().flat_map(move |run| bits.map(|bits| rounded(bits, run.clone()))))
+    }))
+}
+
+/// How many bits of the largest number are left.
+pub(super) const BITS: [i64; 13] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 40, 48, 52];
+
+/// Rounds a number to a multiple of a power of two that leaves so many bits of the largest of these.
+pub(super) fn rounding(numbers: &[f64], bits: i64) -> impl Fn(f64) -> f64 + use<> {
+    let largest = numbers
+        .iter()
+        .fold(0.0, |largest: f64, number| largest.max(number.abs()));
+    let (mantissa, exponent) = decompose(largest);
+    let length = i64::from(i64::BITS - mantissa.leading_zeros());
+    let unit = exponent + length - bits;
+    move |number| scale(scale(number, -unit).round(), unit)
 }
 
 /// `number 2^exponent`, rounded once where it has to be.
@@ -150,7 +154,7 @@ fn without_offset(shape: &Shape) -> Box<dyn Iterator<Item = Shape>> {
 }
 
 /// The lowest bit that is set in a number, with its sign; 0 for 0.
-fn lowest_bit(number: f64) -> f64 {
+pub(super) fn lowest_bit(number: f64) -> f64 {
     match decompose(number) {
         (0, _) => 0.0,
         (_, exponent) => scale(1.0, exponent).copysign(number),
@@ -198,22 +202,27 @@ fn single_numbers(shape: &Shape) -> Box<dyn Iterator<Item = Shape>> {
     let shape = *shape;
     Box::new((0..24).flat_map(move |index| {
         let number = shape.numbers[index];
-        let step = lowest_bit(number);
-        let simpler = [
-            1.0,
-            -1.0,
-            2.0,
-            -2.0,
-            3.0,
-            -3.0,
-            number.trunc(),
-            number / 2.0,
-            -number,
-            number - step,
-            number + step,
-        ];
-        simpler.map(|value| shape.changed([index], |_| value))
+        simpler(number).map(|value| shape.changed([index], |_| value))
     }))
+}
+
+/// Numbers that may be simpler than this one.
+pub(super) fn simpler(number: f64) -> [f64; 11] {
+    let step = lowest_bit(number);
+    let [half, whole] = [number / 2.0, number.trunc()];
+    [
+        1.0,
+        -1.0,
+        2.0,
+        -2.0,
+        3.0,
+        -3.0,
+        whole,
+        half,
+        -number,
+        number - step,
+        number + step,
+    ]
 }
 
 /// The same motion seen otherwise: axes exchanged and reversed, time reversed, points renamed as

@@ -2,6 +2,7 @@ use tunnelproof::contact::{Case, Verdict};
 use tunnelproof::narrow::{NarrowPhase, Report, Tolerance, Unsupported};
 use tunnelproof::query::EdgeEdge;
 use tunnelproof::query::{Point, QueryKind};
+use tunnelproof::rigid::RigidQuery;
 use tunnelproof::thesis::{Options, Thesis, Thresholds};
 
 use super::*;
@@ -9,8 +10,8 @@ use crate::certify::tally::Fault;
 use crate::corpus::figures;
 use crate::generate::FAMILIES;
 use crate::registry;
-use crate::subject::Engine;
-use crate::subject::Subject;
+use crate::shape::Shape;
+use crate::subject::{Answer, Engine, NoAnswer, Said, Subject};
 
 /// Shrinks a query on which the subject is wrong, and checks what has to hold of every result.
 fn shrunk(subject: &dyn Subject, query: &Query) -> Option<(Fault, Shrunk)> {
@@ -202,4 +203,66 @@ fn failure_names_a_query_that_explain_reads() {
     let line = lines.next().unwrap();
     assert!(line.contains("[0.0,1.0,0.0]],"), "{line}");
     assert!(lines.next().unwrap().ends_with("explain -"));
+}
+
+/// Misses every contact of a body that turns.
+struct Blind;
+
+impl Subject for Blind {
+    fn name(&self) -> &str {
+        "blind"
+    }
+
+    fn answer(&self, _: &Query) -> Result<Answer, NoAnswer> {
+        Ok(Answer::Said(Said::default()))
+    }
+
+    fn turning_answer(&self, _: &RigidQuery) -> Result<Answer, NoAnswer> {
+        Ok(Answer::Said(Said::default()))
+    }
+}
+
+#[test]
+fn shrunk_query_of_a_body_that_turns_shows_the_same_in_few_small_integers() {
+    let disagreement = Disagreement::with_oracle(&Blind);
+    for name in ["turning_uniform", "turning_thick_lattice"] {
+        let family = crate::generate::rigid_by_name(name).unwrap();
+        let mut kinds = std::collections::BTreeSet::new();
+        for query in (0..400).map(|index| family.query(2, index)) {
+            let Some(fault) = disagreement.fault(&query).unwrap() else {
+                continue;
+            };
+            if !kinds.insert((query.kind(), fault)) {
+                continue;
+            }
+            let shrunk = disagreement.shrink(&query, fault, 2_000);
+            assert_eq!(disagreement.fault(&shrunk.query), Ok(Some(fault)));
+            assert_eq!(shrunk.before, query.form().complexity());
+            assert_eq!(shrunk.after, shrunk.query.form().complexity());
+            assert!(shrunk.after < shrunk.before, "{shrunk}");
+            assert!(shrunk.is_minimal, "{shrunk}");
+            assert!(
+                shrunk.after.bits() <= 24,
+                "{shrunk}: {}",
+                shrunk.line("shrunk")
+            );
+            assert!(shrunk.command("shrunk").ends_with("explain --turning -"));
+        }
+        assert!(kinds.len() >= 2, "{name}: {kinds:?}");
+    }
+}
+
+#[test]
+fn turning_forms_are_the_queries_that_they_were_made_of() {
+    for family in crate::generate::RIGID_FAMILIES {
+        for index in 0..50 {
+            let query = family.query(1, index);
+            assert_eq!(
+                query.form().query(),
+                Some(query),
+                "{}:1:{index}",
+                family.name()
+            );
+        }
+    }
 }

@@ -11,6 +11,7 @@ use crate::wire::site::WireSite;
 
 /// Why a step with collisions was not done.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum CollisionError {
     /// Midlines touch where the step starts: no motion, however short, keeps them apart.
     Touching {

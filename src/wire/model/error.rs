@@ -4,6 +4,7 @@ use std::fmt;
 
 /// What is wrong with a model: which field, its value, and what is accepted.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum ModelError {
     /// A number out of its range.
     Value {

@@ -17,6 +17,7 @@ pub struct ReadError {
 
 /// What is wrong with a part of a recording.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Fault {
     /// The source failed.
     Io(io::ErrorKind),
@@ -83,6 +84,7 @@ impl std::error::Error for ReadError {}
 
 /// A step that was not written.
 #[derive(Debug)]
+#[non_exhaustive]
 pub enum WriteError {
     /// The sink failed. What it took of the step, if anything, will be the unsound end of the
     /// recording.

@@ -195,10 +195,10 @@ fn witness_of(caller: &Caller, subject: &str, fault: Fault, witness: &Witness) -
     html! {
         figure {
             img alt={ "What moves in " (witness.id) }
-                src=(data_url(&picture::draw(&witness.id, &witness.query, &witness.truth)));
+                src=(data_url(&picture::draw_any(&witness.id, &witness.query, &witness.truth)));
             figcaption {
                 strong { (title(fault, witness.severity)) } ". Exact answer: " (truth) "."
-                @if let Some(answer) = &witness.answer { " It says: " (said(witness.query.kind(), answer)) "." }
+                @if let Some(answer) = &witness.answer { " It says: " (said(witness.query.shape(), answer)) "." }
                 @if let Some(lapse) = &witness.lapse { " No answer: " (lapse) "." }
                 pre { (caller.explain(witness, Some(subject))) }
             }

@@ -5,7 +5,8 @@ use tunnelproof::contact::Case;
 use tunnelproof::query::Query;
 
 use crate::answer::{Enclosure, ExactAnswer};
-use crate::certify::judged::{Found, Judged, exact_gap};
+use crate::certify::judged::{Found, Judged};
+use crate::certify::query::AnyQuery;
 use crate::certify::table;
 use crate::certify::tally::Fault;
 use crate::report::number;
@@ -32,7 +33,7 @@ pub struct Statement {
 
 impl Statement {
     pub(super) fn new(judged: &Judged, query: &Query, truth: &ExactAnswer) -> Self {
-        let found = judged.judge(query, truth);
+        let found = judged.judge(*query, truth);
         let (toi, case) = said(found.answer.as_ref());
         Statement {
             name: judged.subject.name().to_owned(),
@@ -114,7 +115,10 @@ fn worth(query: &Query, found: &Found) -> String {
     };
     let is_right = !found.faults.iter().any(|&(fault, _)| is_verdict(fault));
     let faults = found.faults.iter().map(|&(fault, severity)| match fault {
-        Fault::FalseHit => format!("false hit (gap {} m)", table::short(exact_gap(query))),
+        Fault::FalseHit => format!(
+            "false hit (gap {} m)",
+            table::short(AnyQuery::from(*query).exact_gap())
+        ),
         Fault::Late | Fault::Early => format!("{} by {}", fault.name(), table::short(severity)),
         _ => fault.name().to_owned(),
     });
