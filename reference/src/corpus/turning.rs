@@ -337,7 +337,7 @@ mod tests {
             (
                 "vertex-turning-face",
                 "edge-edge",
-                "kind is \"edge-edge\", neither edge-turning-edge nor vertex-turning-face",
+                "kind is \"edge-edge\", not edge-turning-edge, vertex-turning-face,",
             ),
             ("[0,0,1]]", "[0,0]]", "points[1] has 2 items, not 3"),
             (",[0,1,0]]", "]", "local has 2 items, not 3"),

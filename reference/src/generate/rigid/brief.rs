@@ -1,5 +1,6 @@
 //! A contact at a radius that lasts for a tiny part of the step only, and often another one later, of
-//! other parts of the two sides. A search that guesses when they touch steps over the first one.
+//! other parts of the two sides, or just no such contact. A search that guesses when they touch steps
+//! over the first one.
 
 use nalgebra::Vector3;
 use rand::{Rng, RngExt};
@@ -40,7 +41,12 @@ fn brief(rng: &mut dyn Rng) -> RigidQuery {
         return draw(rng);
     };
     let more = 2f64.powi(-rng.random_range(8..=48));
-    RigidQuery::new(query.sides(), first.distance * (1.0 + more)).unwrap_or(query)
+    // One of eight is just too short.
+    let factor = match rng.random_range(0..8) {
+        0 => 1.0 - more,
+        _ => 1.0 + more,
+    };
+    RigidQuery::new(query.sides(), first.distance * factor).unwrap_or(query)
 }
 
 /// The first time at which two sides are as near as never before, and go again.
