@@ -189,6 +189,8 @@ def test_two_bodies_have_no_points_in_space():
         tunnelproof.decide_rigid(
             "turning-edge-turning-edge", [WIRE + WIRE], [WIRE + ROD], QUARTER + QUARTER
         )
+    with pytest.raises(ValueError, match="has some in space"):
+        tunnelproof.decide_rigid("edge-turning-edge", None, [ROD], QUARTER)
     with pytest.raises(ValueError, match=r"local have the shape"):
         tunnelproof.decide_rigid("turning-vertex-turning-face", None, [ROD], QUARTER + QUARTER)
     with pytest.raises(ValueError, match="turning-vertex-turning-face"):

@@ -72,6 +72,8 @@ def decide_rigid(
         count = len(of_local)
         of_points = np.empty((count, 0, 3))
     else:
+        if points is None:
+            raise ValueError(f"points are None, but {kind} has some in space")
         of_points = _array("points", points, (in_space, 3))
         count = len(of_points)
         of_local = _array("local", local, (of_bodies, 3), count)
