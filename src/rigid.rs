@@ -36,11 +36,13 @@
 //! ```
 
 mod error;
+mod kind;
 mod motion;
 mod query;
 mod side;
 
 pub use error::RigidError;
+pub use kind::{Lengths, RigidQueryKind};
 pub use motion::{MOST_DEGREES, Pose, RigidMotion};
 pub use query::{
     EdgeTurningEdge, RigidQuery, TurningEdgeTurningEdge, TurningVertexTurningFace,

@@ -92,7 +92,7 @@ fn rigid_certified_is_the_oracle_on_every_family() {
 /// The answer of the linear query of the same points, and its case.
 fn linear(query: &RigidQuery) -> (Option<Hit<Place>>, Case) {
     let (start, end, radius) = (query.positions(0.0), query.positions(1.0), query.radius());
-    match query.linear_kind() {
+    match query.kind().linear() {
         QueryKind::EdgeEdge => {
             let query = EdgeEdge::new(start, end, radius).expect("finite");
             let hit = decide(&query).map(|hit| hit.map_place(Place::from));
@@ -169,7 +169,7 @@ fn rigid_bodies_meet_at_the_same_time_in_either_order() {
         let mut hits = 0;
         for index in 0..1000 {
             let query = family.query(SEED, index);
-            if query.linear_kind() == QueryKind::VertexFace {
+            if query.kind().linear() == QueryKind::VertexFace {
                 continue;
             }
             let [first, second] = query.sides();

@@ -5,11 +5,9 @@ use numpy::{PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use tunnelproof::certified::RigidKind as _;
 use tunnelproof::contact::Place;
 use tunnelproof::nalgebra::Quaternion;
-use tunnelproof::query::QueryKind;
-use tunnelproof::rigid::{Pose, RigidQuery};
+use tunnelproof::rigid::{Lengths, Pose, RigidQuery, RigidQueryKind};
 use tunnelproof::{Hit, Point, Radius};
 use tunnelproof_float_env::with_default;
 
@@ -33,13 +31,14 @@ pub(crate) fn decide_rigid<'py>(
         poses: poses.as_array(),
         radii: radii.as_array(),
     };
-    let form = Form::of(kind)?;
-    with_default(|| written(py, form, &arrays))
+    let kind = RigidQueryKind::from_name(kind).ok_or_else(|| {
+        let problem = format!("kind is {kind:?}, which is no kind of query of bodies that turn");
+        PyValueError::new_err(problem)
+    })?;
+    with_default(|| written(py, kind, &arrays))
 }
 
-/// Of one body: points of shape `(n, 2 a, 3)`, with `a` points in space, points of the body of shape
-/// `(n, 4 - a, 3)` and poses of shape `(n, 2, 7)`. Of two: no points in space, points of the bodies of shape
-/// `(n, 4, 3)` and poses of shape `(n, 4, 7)`. Radii of shape `(n, 2)`.
+/// Of the [`shapes`] of the kind, and radii of shape `(n, 2)`.
 struct Arrays<'a> {
     points: ArrayView3<'a, f64>,
     local: ArrayView3<'a, f64>,
@@ -47,46 +46,21 @@ struct Arrays<'a> {
     radii: ArrayView2<'a, f64>,
 }
 
-/// A kind of query.
-#[derive(Clone, Copy)]
-struct Form {
-    kind: QueryKind,
-    /// Whether the first side is of a body too.
-    both_turn: bool,
-}
-
-impl Form {
-    fn of(kind: &str) -> PyResult<Self> {
-        let (kind, both_turn) = match kind {
-            "edge-turning-edge" => (QueryKind::EdgeEdge, false),
-            "vertex-turning-face" => (QueryKind::VertexFace, false),
-            "turning-edge-turning-edge" => (QueryKind::EdgeEdge, true),
-            "turning-vertex-turning-face" => (QueryKind::VertexFace, true),
-            _ => {
-                return Err(PyValueError::new_err(format!(
-                    "kind is {kind:?}, which is no kind of query of bodies that turn"
-                )));
-            }
-        };
-        Ok(Form { kind, both_turn })
-    }
-
-    /// The shapes of so many queries: points in space, points of bodies, poses.
-    fn shapes(self, count: usize) -> [[usize; 3]; 3] {
-        let (points, local, poses) = match (self.both_turn, self.kind) {
-            (true, _) => (0, 4, 4),
-            (false, QueryKind::EdgeEdge) => (4, 2, 2),
-            (false, QueryKind::VertexFace) => (2, 3, 2),
-        };
-        [[count, points, 3], [count, local, 3], [count, poses, 7]]
-    }
+/// The shapes of so many queries: points in space, points of bodies, poses.
+fn shapes(kind: RigidQueryKind, count: usize) -> [[usize; 3]; 3] {
+    let Lengths {
+        points,
+        local,
+        poses,
+    } = kind.lengths();
+    [[count, points, 3], [count, local, 3], [count, poses, 7]]
 }
 
 impl Arrays<'_> {
     /// How many queries there are.
-    fn count(&self, form: Form) -> PyResult<usize> {
+    fn count(&self, kind: RigidQueryKind) -> PyResult<usize> {
         let count = self.local.shape()[0];
-        let expected = form.shapes(count);
+        let expected = shapes(kind, count);
         let shapes = [&self.points, &self.local, &self.poses].map(|array| array.shape());
         match shapes == expected && self.radii.shape() == [count, 2] {
             true => Ok(count),
@@ -96,7 +70,7 @@ impl Arrays<'_> {
         }
     }
 
-    fn query(&self, form: Form, index: usize) -> Result<RigidQuery, Refused> {
+    fn query(&self, kind: RigidQueryKind, index: usize) -> Result<RigidQuery, Refused> {
         let points = |array: &ArrayView3<'_, f64>| -> Vec<Point> {
             let rows = array.index_axis(numpy::ndarray::Axis(0), index);
             rows.outer_iter().map(|row| point(&row)).collect()
@@ -112,7 +86,7 @@ impl Arrays<'_> {
         let poses: Vec<Pose> = (0..self.poses.shape()[1]).map(pose).collect();
         let radius = Radius::from([self.radii[[index, 0]], self.radii[[index, 1]]]);
         let (points, local) = (points(&self.points), points(&self.local));
-        RigidQuery::from_lists(form.kind, &points, &local, &poses, radius)
+        RigidQuery::from_lists(kind, &points, &local, &poses, radius)
             .map_err(|error| Refused::new(&format!("query {index}: {error}")))
     }
 }
@@ -121,11 +95,15 @@ fn point(row: &ArrayView1<'_, f64>) -> Point {
     Point::new(row[0], row[1], row[2])
 }
 
-fn written<'py>(py: Python<'py>, form: Form, arrays: &Arrays<'_>) -> PyResult<Bound<'py, PyDict>> {
-    let indices = 0..arrays.count(form)?;
+fn written<'py>(
+    py: Python<'py>,
+    kind: RigidQueryKind,
+    arrays: &Arrays<'_>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let indices = 0..arrays.count(kind)?;
     // Copied out of NumPy, so that Python can run while they are decided.
     let queries: Result<Vec<RigidQuery>, Refused> =
-        indices.map(|index| arrays.query(form, index)).collect();
+        indices.map(|index| arrays.query(kind, index)).collect();
     let queries = queries?;
     let row = |query: &RigidQuery| Some(row(query, tunnelproof::decide_rigid(query)?));
     columns(py, &each(py, &queries, row)?)

@@ -59,7 +59,7 @@ pub trait Subject: Sync {
 
 /// That a subject takes no queries of bodies that turn.
 fn refusal(query: &RigidQuery) -> Unsupported {
-    Unsupported::Kind(query.linear_kind())
+    Unsupported::Kind(query.kind().linear())
 }
 
 /// What a subject says.

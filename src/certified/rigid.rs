@@ -82,10 +82,6 @@ pub trait RigidKind: Sealed + Copy + Send + Sync + 'static {
 
     #[doc(hidden)]
     fn decide_in_integers(&self) -> Option<Hit<Self::Place>>;
-
-    /// The point in space of the first side with these weights of A, B, C and D, at a time in
-    /// `[0, 1]`, rounded.
-    fn point(&self, weights: &[f64; 4], t: f64) -> Point;
 }
 
 /// Whether and when an edge or a vertex, of space or of another body, touches an edge or a face of a
@@ -127,10 +123,6 @@ macro_rules! kind {
 
             fn decide_in_integers(&self) -> Option<Hit<$place>> {
                 exact::$decide(&self.turning())
-            }
-
-            fn point(&self, weights: &[f64; 4], t: f64) -> Point {
-                self.point(weights, t)
             }
         }
     };
@@ -189,10 +181,6 @@ impl RigidKind for RigidQuery {
 
     fn decide_in_integers(&self) -> Option<Hit<Place>> {
         of_any_kind!(self, query => query.decide_in_integers().map(|hit| hit.map_place(Into::into)))
-    }
-
-    fn point(&self, weights: &[f64; 4], t: f64) -> Point {
-        of_any_kind!(self, query => query.point(weights, t))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::kind::{Lengths, RigidQueryKind};
 use super::motion::MOST_DEGREES;
 use crate::query::{Point, QueryError, Radius};
 
@@ -61,15 +62,17 @@ pub enum RigidError {
     Radius(Radius),
     /// There is no kind of query of so many points.
     NumberOfPoints {
-        /// Those of the first side, or those in space.
+        /// Those of the first side, at one time.
         first: usize,
-        /// Those of the second side, or those of bodies.
+        /// Those of the second side.
         second: usize,
     },
-    /// A query has two poses for each body: two or four.
-    NumberOfPoses {
-        /// How many there are.
-        count: usize,
+    /// Lists of points and poses do not have the lengths of this kind.
+    Lengths {
+        /// The kind.
+        kind: RigidQueryKind,
+        /// How long they are.
+        lengths: Lengths,
     },
     /// The second side is not one of a body: it has to be the one that turns.
     SecondSide,
@@ -144,13 +147,21 @@ impl fmt::Display for RigidError {
             RigidError::Radius(radius) => QueryError::Radius(radius).fmt(f),
             RigidError::NumberOfPoints { first, second } => write!(
                 f,
-                "there is no query of {first} and {second} points; two edges have 2 and 2, a vertex and a \
-                 face 1 and 3"
+                "there is no query of {first} and {second} points; two edges have 2 and 2, a \
+                 vertex and a face 1 and 3"
             ),
-            RigidError::NumberOfPoses { count } => write!(
-                f,
-                "there are {count} poses; it takes 2 of one body, or 4 of two"
-            ),
+            RigidError::Lengths { kind, lengths } => {
+                let said = |lengths: Lengths| {
+                    let Lengths {
+                        points,
+                        local,
+                        poses,
+                    } = lengths;
+                    format!("{points} points in space, {local} of bodies and {poses} poses")
+                };
+                let (given, due) = (said(lengths), said(kind.lengths()));
+                write!(f, "there are {given}; {kind} has {due}")
+            }
             RigidError::SecondSide => write!(f, "the second side has to be of a body that turns"),
         }
     }

@@ -1,9 +1,10 @@
 //! The kinds of queries.
 
 use super::error::RigidError;
+use super::kind::{Lengths, RigidQueryKind};
 use super::motion::{Pose, RigidMotion};
 use super::side::Side;
-use crate::query::{Point, QueryKind, Radius};
+use crate::query::{Point, Radius};
 
 /// A moving edge `AB` and an edge `CD` of a turning body: do they come within `radius` of each other
 /// during the step?
@@ -60,7 +61,7 @@ pub enum RigidQuery {
 
 /// What all kinds have.
 macro_rules! query {
-    ($kind:ident, $first:literal) => {
+    ($kind:ident) => {
         impl $kind {
             /// The distance at which the two count as touching; 0 asks for the midlines and the
             /// face themselves.
@@ -77,10 +78,7 @@ macro_rules! query {
             /// [weights](crate::contact::Place::weights) of A, B, C and D, at a time in `[0, 1]`,
             /// rounded.
             pub fn point(&self, weights: &[f64; 4], t: f64) -> Point {
-                let positions = self.positions(t);
-                let first = positions[0].coords * weights[0];
-                let rest = (1..$first).map(|i| positions[i].coords * weights[i]);
-                Point::from(rest.fold(first, |sum, part| sum + part))
+                point(&self.sides(), weights, t)
             }
         }
 
@@ -168,7 +166,7 @@ macro_rules! one_body {
             }
         }
 
-        query!($kind, $first);
+        query!($kind);
     };
 }
 
@@ -242,7 +240,7 @@ macro_rules! two_bodies {
             }
         }
 
-        query!($kind, $first);
+        query!($kind);
     };
 }
 
@@ -283,6 +281,14 @@ fn check(sides: &[Side<'_>; 2], radius: Radius) -> Result<(), RigidError> {
         true => Ok(()),
         false => Err(RigidError::Radius(radius)),
     }
+}
+
+/// The point of the first side with these weights of all four points.
+fn point(sides: &[Side<'_>; 2], weights: &[f64; 4], t: f64) -> Point {
+    let [side, _] = sides;
+    let part = |i: usize| side.position(i, t).coords * weights[i];
+    let rest = (1..side.number_of_points()).map(part);
+    Point::from(rest.fold(part(0), |sum, part| sum + part))
 }
 
 fn positions(sides: &[Side<'_>; 2], t: f64) -> [Point; 4] {
@@ -345,60 +351,50 @@ impl RigidQuery {
         }
     }
 
-    /// The query of lists of points and poses, as files and arrays have them: of two edges, or a vertex
-    /// and a face.
-    ///
-    /// With two poses, those of the body at the start and at the end, `points` are in space, all at
-    /// the start and then all at the end, and `local` in the body's frame. With four poses, those of
-    /// the first body and then of the second one, `points` is empty and `local` has the points of the
-    /// first body, then those of the second one.
+    /// The query of a kind from lists of points and poses, as files and arrays have them; what is in
+    /// which, and how long they are, says [`RigidQueryKind::lengths`].
     ///
     /// # Errors
     ///
-    /// [`RigidError`] if there are not so many points or poses, or as [`RigidMotion::new`] and the
-    /// kind's own `with_radius`.
+    /// [`RigidError`] if a list has another length, or as [`RigidMotion::new`] and the kind's own
+    /// `with_radius`.
     pub fn from_lists(
-        kind: QueryKind,
+        kind: RigidQueryKind,
         points: &[Point],
         local: &[Point],
         poses: &[Pose],
         radius: impl Into<Radius>,
     ) -> Result<Self, RigidError> {
-        let first = match kind {
-            QueryKind::EdgeEdge => 2,
-            QueryKind::VertexFace => 1,
+        let lengths = Lengths {
+            points: points.len(),
+            local: local.len(),
+            poses: poses.len(),
         };
-        let (in_space, of_bodies) = match poses.len() {
-            2 => (2 * first, 4 - first),
-            4 => (0, 4),
-            count => return Err(RigidError::NumberOfPoses { count }),
+        if lengths != kind.lengths() {
+            return Err(RigidError::Lengths { kind, lengths });
+        }
+        let motions = poses.chunks_exact(2);
+        let motions = motions.map(|pair| RigidMotion::new(pair[0], pair[1]));
+        let motions: Vec<RigidMotion> = motions.collect::<Result<_, _>>()?;
+        let (start, end) = points.split_at(points.len() / 2);
+        let sides = match &motions[..] {
+            [motion] => [Side::Straight { start, end }, turning(local, motion)],
+            [first, second, ..] => {
+                let (own, other) = local.split_at(kind.first());
+                [turning(own, first), turning(other, second)]
+            }
+            [] => return Err(RigidError::Lengths { kind, lengths }),
         };
-        if points.len() != in_space || local.len() != of_bodies {
-            return Err(RigidError::NumberOfPoints {
-                first: points.len(),
-                second: local.len(),
-            });
-        }
-        let motion = |at: usize| RigidMotion::new(poses[at], poses[at + 1]);
-        let (own, last) = (motion(0)?, motion(poses.len() - 2)?);
-        if poses.len() == 2 {
-            let (start, end) = points.split_at(first);
-            return Self::new(
-                [Side::Straight { start, end }, turning(local, &own)],
-                radius,
-            );
-        }
-        let (of_first, of_second) = local.split_at(first);
-        Self::new([turning(of_first, &own), turning(of_second, &last)], radius)
+        Self::new(sides, radius)
     }
 
-    /// The name of its kind.
-    pub fn kind(&self) -> &'static str {
+    /// Which kind it is.
+    pub fn kind(&self) -> RigidQueryKind {
         match self {
-            RigidQuery::EdgeTurningEdge(_) => "edge-turning-edge",
-            RigidQuery::VertexTurningFace(_) => "vertex-turning-face",
-            RigidQuery::TurningEdgeTurningEdge(_) => "turning-edge-turning-edge",
-            RigidQuery::TurningVertexTurningFace(_) => "turning-vertex-turning-face",
+            RigidQuery::EdgeTurningEdge(_) => RigidQueryKind::EdgeTurningEdge,
+            RigidQuery::VertexTurningFace(_) => RigidQueryKind::VertexTurningFace,
+            RigidQuery::TurningEdgeTurningEdge(_) => RigidQueryKind::TurningEdgeTurningEdge,
+            RigidQuery::TurningVertexTurningFace(_) => RigidQueryKind::TurningVertexTurningFace,
         }
     }
 
@@ -422,16 +418,14 @@ impl RigidQuery {
         }
     }
 
-    /// The kind of the linear query of such sides: two edges, or a vertex and a face.
-    pub fn linear_kind(&self) -> QueryKind {
-        match self.sides()[0].number_of_points() {
-            1 => QueryKind::VertexFace,
-            _ => QueryKind::EdgeEdge,
-        }
-    }
-
     /// All four points in space at a time in `[0, 1]`, rounded.
     pub fn positions(&self, t: f64) -> [Point; 4] {
         positions(&self.sides(), t)
+    }
+
+    /// The point in space of the first side with these
+    /// [weights](crate::contact::Place::weights) of A, B, C and D, at a time in `[0, 1]`, rounded.
+    pub fn point(&self, weights: &[f64; 4], t: f64) -> Point {
+        point(&self.sides(), weights, t)
     }
 }

@@ -167,7 +167,7 @@ fn rigid_query_new_takes_sides_of_two_and_two_or_one_and_three_points() {
         ([turning(1), turning(3)], "turning-vertex-turning-face"),
     ] {
         let query = RigidQuery::new(sides, [0.5, 0.25]).unwrap();
-        assert_eq!(query.kind(), kind);
+        assert_eq!(query.kind().name(), kind);
         assert_eq!(query.sides(), sides);
         assert_eq!(query.radius().parts(), [0.5, 0.25]);
     }
@@ -192,31 +192,57 @@ fn rigid_query_new_takes_sides_of_two_and_two_or_one_and_three_points() {
 }
 
 #[test]
-fn rigid_query_from_lists_takes_one_body_or_two() {
+fn rigid_query_from_lists_takes_what_the_kind_has() {
     let pose = pose([1.0, 0.0, 0.0, 0.0]);
-    let points = [Point::origin(); 4];
-    let of = |kind, in_space: usize, local: usize, poses: usize| {
+    let points = [Point::origin(); 6];
+    let of = |kind,
+              Lengths {
+                  points: in_space,
+                  local,
+                  poses,
+              }| {
         let (in_space, local) = (&points[..in_space], &points[..local]);
         RigidQuery::from_lists(kind, in_space, local, &[pose; 6][..poses], 0.0)
     };
-    for (kind, in_space, local, poses, name) in [
-        (QueryKind::EdgeEdge, 4, 2, 2, "edge-turning-edge"),
-        (QueryKind::VertexFace, 2, 3, 2, "vertex-turning-face"),
-        (QueryKind::EdgeEdge, 0, 4, 4, "turning-edge-turning-edge"),
-        (
-            QueryKind::VertexFace,
-            0,
-            4,
-            4,
-            "turning-vertex-turning-face",
-        ),
-    ] {
-        let query = of(kind, in_space, local, poses).unwrap();
-        assert_eq!((query.kind(), query.linear_kind()), (name, kind));
+    for kind in RigidQueryKind::ALL {
+        let query = of(kind, kind.lengths()).unwrap();
+        assert_eq!(query.kind(), kind);
+        assert_eq!(RigidQueryKind::from_name(kind.name()), Some(kind));
+        let [first, second] = query.sides().map(|side| side.number_of_points());
+        let counts = match kind.linear() {
+            QueryKind::EdgeEdge => (2, 2),
+            QueryKind::VertexFace => (1, 3),
+        };
+        assert_eq!((first, second), counts);
+        for change in [[1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, 2]] {
+            let Lengths {
+                points,
+                local,
+                poses,
+            } = kind.lengths();
+            let lengths = Lengths {
+                points: points + change[0],
+                local: local + change[1],
+                poses: poses + change[2],
+            };
+            assert_eq!(
+                of(kind, lengths),
+                Err(RigidError::Lengths { kind, lengths })
+            );
+        }
     }
-    for (in_space, local, poses) in [(4, 3, 2), (2, 2, 2), (4, 4, 4), (0, 3, 4), (4, 2, 3)] {
-        assert!(of(QueryKind::EdgeEdge, in_space, local, poses).is_err());
-    }
+    let lengths = Lengths {
+        points: 4,
+        local: 3,
+        poses: 2,
+    };
+    assert_eq!(
+        of(RigidQueryKind::EdgeTurningEdge, lengths)
+            .unwrap_err()
+            .to_string(),
+        "there are 4 points in space, 3 of bodies and 2 poses; edge-turning-edge has 4 points in \
+         space, 2 of bodies and 2 poses"
+    );
 }
 
 #[test]

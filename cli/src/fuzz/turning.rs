@@ -6,7 +6,7 @@
 //! and then takes ten seconds, which a fuzzer calls a hang.
 
 use arbitrary::Unstructured;
-use tunnelproof::rigid::RigidQuery;
+use tunnelproof::rigid::{Lengths, RigidQuery, RigidQueryKind};
 use tunnelproof_reference::certify::verdict::judge;
 use tunnelproof_reference::corpus::jsonl::Numbers as Format;
 use tunnelproof_reference::corpus::turning::{self, Fields, TurningEntry};
@@ -92,12 +92,17 @@ fn of_numbers(
     mut number: impl FnMut(&mut Unstructured) -> f64,
 ) -> Option<RigidQuery> {
     let more = byte(bytes);
-    let (kind, [points, local, poses]) = match more & 0b1001 {
-        0 => ("edge-turning-edge", [4, 2, 2]),
-        1 => ("vertex-turning-face", [2, 3, 2]),
-        8 => ("turning-edge-turning-edge", [0, 4, 4]),
-        _ => ("turning-vertex-turning-face", [0, 4, 4]),
+    let kind = match more & 0b1001 {
+        0 => RigidQueryKind::EdgeTurningEdge,
+        1 => RigidQueryKind::VertexTurningFace,
+        8 => RigidQueryKind::TurningEdgeTurningEdge,
+        _ => RigidQueryKind::TurningVertexTurningFace,
     };
+    let Lengths {
+        points,
+        local,
+        poses,
+    } = kind.lengths();
     let mut row = || [0; 3].map(|_| number(bytes));
     let points = (0..points).map(|_| row()).collect();
     let local = (0..local).map(|_| row()).collect();

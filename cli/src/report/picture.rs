@@ -50,7 +50,7 @@ pub fn draw_any(title: &str, query: &AnyQuery, answer: &ExactAnswer) -> String {
 pub fn draw_turning(title: &str, query: &RigidQuery, answer: &ExactAnswer) -> String {
     let times: Vec<_> = (0..=ARC).map(|i| f64::from(i) / f64::from(ARC)).collect();
     let at = |t: f64| query.positions(t).map(|point| point.coords);
-    draw_motion(title, query.linear_kind(), &times, &at, answer)
+    draw_motion(title, query.kind().linear(), &times, &at, answer)
 }
 
 /// How many chords an arc is drawn by.

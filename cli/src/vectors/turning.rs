@@ -128,7 +128,7 @@ impl Vector {
         let length = numbers.chain(poses.iter().flatten());
         Vector {
             id: format!("{}:{SEED}:{index}", family.name()),
-            kind: query.kind(),
+            kind: query.kind().name(),
             radius: jsonl::radius(query.radius(), Numbers::Decimal),
             radius_hex: jsonl::radius(query.radius(), Numbers::Hexadecimal),
             points_hex: hex(&points),
@@ -145,7 +145,7 @@ impl Vector {
             fraction: decision
                 .toi()
                 .and_then(|toi| ExactTime::new(toi).into_fraction()),
-            class: class(query.kind(), &answer),
+            class: class(query.kind().name(), &answer),
         }
     }
 }

@@ -4,9 +4,8 @@ use std::io::Cursor;
 
 use serde_json::Value;
 use tunnelproof::query::{Query, QueryKind, Radius};
-use tunnelproof::rigid::RigidQuery;
+use tunnelproof::rigid::{RigidQuery, RigidQueryKind};
 
-use super::tally::Sort;
 use crate::answer::ExactAnswer;
 use crate::corpus::jsonl::{self, Numbers};
 use crate::corpus::turning::{self, Fields, TurningEntry};
@@ -22,6 +21,31 @@ pub enum AnyQuery {
     Turning(RigidQuery),
 }
 
+/// The kind of such a query.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum AnyKind {
+    /// Of linear motion.
+    Linear(QueryKind),
+    /// Of bodies that turn.
+    Turning(RigidQueryKind),
+}
+
+impl AnyKind {
+    /// The name used in files and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            AnyKind::Linear(kind) => kind.name(),
+            AnyKind::Turning(kind) => kind.name(),
+        }
+    }
+
+    /// The kind with this [`name`](Self::name), if any.
+    pub fn from_name(name: &str) -> Option<Self> {
+        let linear = QueryKind::from_name(name).map(AnyKind::Linear);
+        linear.or_else(|| RigidQueryKind::from_name(name).map(AnyKind::Turning))
+    }
+}
+
 impl From<Query> for AnyQuery {
     fn from(query: Query) -> Self {
         AnyQuery::Linear(query)
@@ -35,11 +59,19 @@ impl From<RigidQuery> for AnyQuery {
 }
 
 impl AnyQuery {
+    /// Which kind it is.
+    pub fn kind(&self) -> AnyKind {
+        match self {
+            AnyQuery::Linear(query) => AnyKind::Linear(query.kind()),
+            AnyQuery::Turning(query) => AnyKind::Turning(query.kind()),
+        }
+    }
+
     /// What it is about, of a body that turns that of the same query of linear motion.
     pub fn shape(&self) -> QueryKind {
         match self {
             AnyQuery::Linear(query) => query.kind(),
-            AnyQuery::Turning(query) => query.linear_kind(),
+            AnyQuery::Turning(query) => query.kind().linear(),
         }
     }
 
@@ -129,11 +161,11 @@ impl AnyQuery {
     pub fn parse(line: &str) -> Result<Self, String> {
         let kind = serde_json::from_str::<Value>(line).map_err(|error| error.to_string())?;
         let kind = kind["kind"].as_str().unwrap_or_default();
-        match Sort::from_name(kind, false).is_some_and(|sort| sort.turns) {
-            true => turning::parse(line)
+        match AnyKind::from_name(kind) {
+            Some(AnyKind::Turning(_)) => turning::parse(line)
                 .map(|entry| entry.query.into())
                 .map_err(|problem| problem.to_string()),
-            false => linear(line).map_err(|error| error.to_string()),
+            _ => linear(line).map_err(|error| error.to_string()),
         }
     }
 
@@ -143,13 +175,13 @@ impl AnyQuery {
             AnyQuery::Linear(query) => {
                 let points = query.start().iter().chain(query.end());
                 let numbers = points.flat_map(|point| <[f64; 3]>::from(*point));
-                (query.kind().name(), numbers.collect())
+                (self.kind().name(), numbers.collect())
             }
             AnyQuery::Turning(query) => {
                 let fields = Fields::of(query);
                 let points = fields.points.iter().chain(&fields.local).flatten();
                 let numbers = points.chain(fields.poses.iter().flatten());
-                (query.kind(), numbers.copied().collect())
+                (self.kind().name(), numbers.copied().collect())
             }
         }
     }
@@ -182,8 +214,12 @@ mod tests {
             Ok(any)
         );
 
-        for index in 0..20 {
-            let rigid = rigid_by_name("turning_lattice").unwrap().query(1, index);
+        let families = ["turning_lattice", "turning_bodies_thick_lattice"];
+        for (family, index) in families
+            .iter()
+            .flat_map(|f| (0..20).map(move |index| (f, index)))
+        {
+            let rigid = rigid_by_name(family).unwrap().query(1, index);
             let any = AnyQuery::from(rigid);
             assert_eq!(any.decide(), oracle::decide_rigid_query(&rigid));
             assert!(any.turns() && !any.comes_within(1e9));
@@ -192,7 +228,12 @@ mod tests {
                 Ok(any)
             );
             let (name, numbers) = any.fields();
-            let count = if name == "edge-turning-edge" { 32 } else { 29 };
+            assert_eq!(AnyKind::from_name(name), Some(any.kind()));
+            let count = match name {
+                "edge-turning-edge" => 32,
+                "vertex-turning-face" => 29,
+                _ => 40,
+            };
             assert_eq!(numbers.len(), count);
         }
     }

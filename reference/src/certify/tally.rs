@@ -4,12 +4,11 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::Value;
-use tunnelproof::query::QueryKind;
 
 use crate::answer::ExactAnswer;
 use crate::subject::{Answer, Lapse, LapseKind};
 
-use super::query::AnyQuery;
+use super::query::{AnyKind, AnyQuery};
 use super::verdict::{Judgement, Outline, Verdict};
 
 /// What can be wrong with an answer.
@@ -81,10 +80,8 @@ pub struct Finding {
 /// What a subject may take or not as a whole: queries of a kind, with a radius or without.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Sort {
-    /// Their kind; of bodies that turn that of the same query of linear motion.
-    pub kind: QueryKind,
-    /// Whether they are of bodies that turn.
-    pub turns: bool,
+    /// Their kind.
+    pub kind: AnyKind,
     /// Whether they have a radius above 0.
     pub has_radius: bool,
 }
@@ -93,32 +90,9 @@ impl Sort {
     /// The sort of a query.
     pub fn of(query: &AnyQuery) -> Self {
         Sort {
-            kind: query.shape(),
-            turns: query.turns(),
+            kind: query.kind(),
             has_radius: !query.radius().is_zero(),
         }
-    }
-
-    /// The word of the kind, as queries state it.
-    pub fn name(&self) -> &'static str {
-        match (self.kind, self.turns) {
-            (kind, false) => kind.name(),
-            (QueryKind::EdgeEdge, true) => "edge-turning-edge",
-            (QueryKind::VertexFace, true) => "vertex-turning-face",
-        }
-    }
-
-    /// The sort with this [`name`](Self::name), with a radius or without.
-    pub fn from_name(name: &str, has_radius: bool) -> Option<Self> {
-        let kinds = [QueryKind::EdgeEdge, QueryKind::VertexFace].into_iter();
-        let sorts = kinds.flat_map(|kind| {
-            [false, true].map(|turns| Sort {
-                kind,
-                turns,
-                has_radius,
-            })
-        });
-        sorts.into_iter().find(|sort| sort.name() == name)
     }
 }
 

@@ -5,7 +5,7 @@ use std::io;
 
 use crate::figures::FIGURES;
 use tunnelproof::query::{QueryError, QueryKind};
-use tunnelproof::rigid::RigidError;
+use tunnelproof::rigid::{RigidError, RigidQueryKind};
 
 use super::csv::LONGEST_INTEGER;
 use super::dyadic::NotF64;
@@ -50,11 +50,7 @@ pub enum Problem {
     #[error("kind is {}, neither edge-edge nor vertex-face", quoted(.0))]
     KindUnknown(String),
     /// The kind is none of bodies that turn.
-    #[error(
-        "kind is {}, not edge-turning-edge, vertex-turning-face, turning-edge-turning-edge or \
-         turning-vertex-turning-face",
-        quoted(.0)
-    )]
+    #[error("kind is {}, not {}", quoted(.0), RigidQueryKind::ALL.map(RigidQueryKind::name).join(", "))]
     TurningKindUnknown(String),
     /// The poses, the points and the radius are no query of a body that turns.
     #[error(transparent)]

@@ -22,8 +22,8 @@ use nalgebra::Quaternion;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::json;
-use tunnelproof::query::{Point, QueryKind, Radius};
-use tunnelproof::rigid::{Pose, RigidQuery, Side};
+use tunnelproof::query::{Point, Radius};
+use tunnelproof::rigid::{Pose, RigidQuery, RigidQueryKind, Side};
 
 use super::error::{CorpusError, Problem, shortened};
 use super::jsonl::{self, Label, Number, Numbers, Radii, given, number};
@@ -78,35 +78,30 @@ impl Fields {
         fields
     }
 
-    /// The query of these numbers, if there is one of this kind.
+    /// The query of this kind with these numbers.
     ///
     /// # Errors
     ///
     /// [`Problem`] says what is wrong with them.
-    pub fn query(&self, kind: &str, radius: Radius) -> Result<RigidQuery, Problem> {
-        // The linear kind, how many points of it are in space, and how many poses there are.
-        let (linear, straight, number_of_poses) = match kind {
-            "edge-turning-edge" => (QueryKind::EdgeEdge, 2, 2),
-            "vertex-turning-face" => (QueryKind::VertexFace, 1, 2),
-            "turning-edge-turning-edge" => (QueryKind::EdgeEdge, 0, 4),
-            "turning-vertex-turning-face" => (QueryKind::VertexFace, 0, 4),
-            _ => return Err(Problem::TurningKindUnknown(kind.to_owned())),
-        };
-        let length = |place: &str, count, expected| match count == expected {
-            true => Ok(()),
-            false => Err(Problem::Length {
-                place: place.to_owned(),
-                count,
-                expected,
-            }),
-        };
-        length("points", self.points.len(), 2 * straight)?;
-        length("local", self.local.len(), 4 - straight)?;
-        length("poses", self.poses.len(), number_of_poses)?;
+    pub fn query(&self, kind: RigidQueryKind, radius: Radius) -> Result<RigidQuery, Problem> {
+        let lengths = kind.lengths();
+        for (place, count, expected) in [
+            ("points", self.points.len(), lengths.points),
+            ("local", self.local.len(), lengths.local),
+            ("poses", self.poses.len(), lengths.poses),
+        ] {
+            if count != expected {
+                return Err(Problem::Length {
+                    place: place.to_owned(),
+                    count,
+                    expected,
+                });
+            }
+        }
         let points = |rows: &[[f64; 3]]| rows.iter().copied().map(Point::from).collect::<Vec<_>>();
         let poses: Vec<Pose> = self.poses.iter().copied().map(pose).collect();
         let query = RigidQuery::from_lists(
-            linear,
+            kind,
             &points(&self.points),
             &points(&self.local),
             &poses,
@@ -271,7 +266,9 @@ fn entry(line: &Line) -> Result<TurningEntry, Problem> {
         Some(radii) => radii.sum()?,
         None => Radius::ZERO,
     };
-    let query = fields.query(&record.kind, radius)?;
+    let kind = RigidQueryKind::from_name(&record.kind)
+        .ok_or_else(|| Problem::TurningKindUnknown(record.kind.clone()))?;
+    let query = fields.query(kind, radius)?;
     Ok(TurningEntry {
         id: record.id.unwrap_or_else(|| line.number.to_string()),
         query,

@@ -173,7 +173,7 @@ mod tests {
             let mut counts = [[0; 2]; 2];
             for index in 0..400 {
                 let query = family.query(1, index);
-                let kind = usize::from(query.linear_kind() == QueryKind::EdgeEdge);
+                let kind = usize::from(query.kind().linear() == QueryKind::EdgeEdge);
                 let is_hit = decide_rigid_query(&query).hit.is_some();
                 counts[kind][usize::from(is_hit)] += 1;
             }

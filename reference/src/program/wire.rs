@@ -112,7 +112,7 @@ impl AskedQuery for RigidQuery {
     }
 
     fn refusal(&self) -> Unsupported {
-        refusal(self.linear_kind(), self.radius())
+        refusal(self.kind().linear(), self.radius())
     }
 }
 

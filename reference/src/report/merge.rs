@@ -7,7 +7,7 @@ use crate::certify::block::{Agreement, Block};
 use crate::certify::findings::{Findings, Settings};
 use crate::certify::judged::Judged;
 use crate::certify::named::Named;
-use crate::certify::query::AnyQuery;
+use crate::certify::query::{AnyKind, AnyQuery};
 use crate::certify::run::Panel;
 use crate::certify::shard::Shard;
 use crate::certify::tally::{Explained, Fault, Finding, Sort, Statement, Tally, Witness};
@@ -340,8 +340,9 @@ fn tally(row: &SubjectRow) -> Result<Tally, MergeError> {
 }
 
 fn sort(row: &SortRow) -> Result<Sort, MergeError> {
-    word("kind", &row.kind, |name| {
-        Sort::from_name(name, row.has_radius)
+    Ok(Sort {
+        kind: word("kind", &row.kind, AnyKind::from_name)?,
+        has_radius: row.has_radius,
     })
 }
 

@@ -298,7 +298,7 @@ pub fn written(kind: QueryKind, answer: &Statement) -> Value {
 impl From<&Sort> for SortRow {
     fn from(sort: &Sort) -> Self {
         SortRow {
-            kind: sort.name().to_owned(),
+            kind: sort.kind.name().to_owned(),
             has_radius: sort.has_radius,
         }
     }

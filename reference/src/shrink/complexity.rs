@@ -2,6 +2,7 @@
 
 use tunnelproof::query::Query;
 
+use super::turning::MOST;
 use crate::algebraic::decompose;
 use crate::shape::Shape;
 
@@ -26,8 +27,8 @@ pub struct Complexity {
     signs: u64,
 }
 
-/// The most numbers of any query: 32 of an edge and one of a body that turns, and two radii.
-const NUMBERS: usize = 34;
+/// The most numbers of any query: 40 of two bodies that turn, and two radii.
+const NUMBERS: usize = MOST + 2;
 
 impl Complexity {
     /// How complex this query is.

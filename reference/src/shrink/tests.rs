@@ -225,7 +225,12 @@ impl Subject for Blind {
 #[test]
 fn shrunk_query_of_a_body_that_turns_shows_the_same_in_few_small_integers() {
     let disagreement = Disagreement::with_oracle(&Blind);
-    for name in ["turning_uniform", "turning_thick_lattice"] {
+    for name in [
+        "turning_uniform",
+        "turning_thick_lattice",
+        "turning_bodies_lattice",
+        "turning_bodies_thick_lattice",
+    ] {
         let family = crate::generate::rigid_by_name(name).unwrap();
         let mut kinds = std::collections::BTreeSet::new();
         for query in (0..400).map(|index| family.query(2, index)) {
@@ -265,4 +270,17 @@ fn turning_forms_are_the_queries_that_they_were_made_of() {
             );
         }
     }
+}
+
+/// Every number counts: of two bodies there are the most.
+#[test]
+fn turning_complexity_is_of_all_numbers_and_both_radii() {
+    let family = crate::generate::rigid_by_name("turning_bodies_uniform").unwrap();
+    let query = family.query(1, 0);
+    let of = |radii: [f64; 2]| {
+        let query = RigidQuery::new(query.sides(), radii).unwrap();
+        query.form().complexity()
+    };
+    let [none, one, two] = [[0.0, 0.0], [1.0, 0.0], [1.0, 3.0]].map(of);
+    assert_eq!([one.bits() - none.bits(), two.bits() - one.bits()], [1, 2]);
 }

@@ -4,7 +4,7 @@ use std::hash::{Hash, Hasher};
 use std::iter;
 use std::ops::Range;
 
-use tunnelproof::rigid::RigidQuery;
+use tunnelproof::rigid::{RigidQuery, RigidQueryKind};
 
 use super::Complexity;
 use super::form::{Form, Shrinkable, Step};
@@ -12,13 +12,13 @@ use super::steps::{BITS, lowest_bit, rounding, simpler};
 use crate::corpus::turning::Fields;
 
 /// The most numbers that a query has: of two bodies four points and four poses.
-const MOST: usize = 40;
+pub(super) const MOST: usize = 40;
 
 /// The numbers of a query of bodies that turn: the points in space at both ends of the step, those
 /// in frames of bodies, and the poses, seven numbers each; the rest are 0.
 #[derive(Clone, Copy, Debug)]
 pub struct TurningForm {
-    kind: &'static str,
+    kind: RigidQueryKind,
     /// How many of the numbers are of points in space, of points in frames, and of poses.
     counts: [usize; 3],
     numbers: [f64; MOST],
@@ -140,7 +140,7 @@ impl TurningForm {
             .collect()
     }
 
-    fn bits(&self) -> (&'static str, [u64; MOST], [u64; 2]) {
+    fn bits(&self) -> (RigidQueryKind, [u64; MOST], [u64; 2]) {
         let numbers = self.numbers.map(f64::to_bits);
         (self.kind, numbers, self.radii.map(f64::to_bits))
     }

@@ -127,7 +127,7 @@ fn at_some_time(rng: &mut dyn Rng, query: &RigidQuery) -> Query {
         _ => rng.random_range(0.0..1.0),
     };
     let points = query.positions(t);
-    Query::new(query.linear_kind(), points, points, 0.0).expect("positions are finite")
+    Query::new(query.kind().linear(), points, points, 0.0).expect("positions are finite")
 }
 
 fn with_radius(query: &RigidQuery, radius: Radius) -> Option<RigidQuery> {

@@ -5,9 +5,10 @@
 //! frame, and a point of the body stays there. All differences of the four points, taken there and
 //! times `D`, are polynomials of degree 3 ([`motion`]). The first side may be of a body of its own,
 //! which turns by `M1 / D1`: then `A` is `M^T (D1 (c1 - c) + M1 x) / D1 D` in the second body's frame,
-//! `D` below stands for `D1 D`, and the differences have the degree 5. `D` is above 0: the two quaternions are at
-//! less than a right angle, so that no sum of shares of them is 0. So the signs of all predicates
-//! that are homogeneous in the differences are those of polynomials with integer coefficients.
+//! `D` below stands for `D1 D`, and the differences have the degree 5. `D` is above 0: the two
+//! quaternions are at less than a right angle, so that no sum of shares of them is 0. So the signs
+//! of all predicates that are homogeneous in the differences are those of polynomials with integer
+//! coefficients.
 //!
 //! The rest is as for linear motion ([`super`]), for none of its reasons needs more than that the
 //! points move continuously:
@@ -19,10 +20,9 @@
 //!    strictly inside a face with an area. Their parameters are continuous and the points coplanar
 //!    throughout, so that the same is so shortly before `s`: a contradiction. So the first contact is
 //!    at 0 or at a time at which a vertex comes onto an edge ([`confined`]).
-//! 3. Multiple roots may have any order up to the degree. A vertex passes through the line of an edge where the
-//!    least order of the components of `G = (Y - X) x (Z - X)` is odd: with `m` that order,
+//! 3. Multiple roots may have any order up to the degree. A vertex passes through the line of an edge
+//!    where the least order of the components of `G = (Y - X) x (Z - X)` is odd: with `m` that order,
 //!    `G / (t - s)^m` is continuous and not 0 at `s`.
-
 //!
 //! A radius `R` is `D R` there. The squared distances of two features are those of linear motion
 //! with other vectors ([`thick`](super::thick)), so that the excess of a pair is

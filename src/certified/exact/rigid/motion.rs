@@ -1,4 +1,5 @@
-//! The motion of a query in the frame of the second side's body, as polynomials with integer coefficients.
+//! The motion of a query in the frame of the second side's body, as polynomials with integer
+//! coefficients.
 
 use crate::certified::exact::integer::Integer;
 use crate::certified::exact::near::{in_unit, integer, unit};

@@ -73,7 +73,11 @@ const LATE: Change = |_, truth| {
 };
 
 fn turning_lattice() -> AnySource {
-    let family = rigid_by_name("turning_lattice").unwrap();
+    first_queries("turning_lattice")
+}
+
+fn first_queries(family: &str) -> AnySource {
+    let family = rigid_by_name(family).unwrap();
     let [seed, count] = [1, 150];
     TurningSource::Family {
         family,
@@ -149,7 +153,7 @@ fn turning_and_linear_queries_are_judged_together() {
     let names: Vec<_> = findings.total.tallies[0]
         .taken
         .iter()
-        .map(|sort| sort.name())
+        .map(|sort| sort.kind.name())
         .collect();
     assert!(
         names.contains(&"edge-edge") && names.contains(&"vertex-turning-face"),
@@ -162,19 +166,42 @@ fn turning_results_are_read_back_and_parts_make_the_whole() {
     let misses: Change = |_, _| Ok(Answer::Said(Said::default()));
     let (right, wrong) = (changed("second", RIGHT), changed("engine", misses));
     let panel = panel(&right, &wrong);
-    let whole = panel.run(&turning_lattice(), |_| {}).unwrap();
-    let mut joined = Block::default();
-    for shard in ["2/2", "1/2"] {
-        let shard = shard.parse().unwrap();
-        joined.join(panel.run_shard(&turning_lattice(), shard, |_| {}).unwrap());
+    for (family, kind) in [
+        ("turning_lattice", "edge-turning-edge"),
+        ("turning_bodies_thick_lattice", "turning-edge-turning-edge"),
+    ] {
+        let source = first_queries(family);
+        let whole = panel.run(&source, |_| {}).unwrap();
+        let mut joined = Block::default();
+        for shard in ["2/2", "1/2"] {
+            let shard = shard.parse().unwrap();
+            joined.join(panel.run_shard(&source, shard, |_| {}).unwrap());
+        }
+        joined.name = whole.name.clone();
+        let [whole, joined] = [whole, joined].map(|block| findings(panel.clone(), vec![block]));
+        let text = Results::new(&whole).text();
+        assert_eq!(Results::new(&joined).text(), text);
+        assert!(text.contains(&format!("\"kind\": \"{kind}\"")), "{text}");
+        let kept = Kept::new(&Results::read(&text).unwrap()).unwrap();
+        assert_eq!(Results::new(&kept.findings()).text(), text);
     }
-    joined.name = whole.name.clone();
-    let [whole, joined] = [whole, joined].map(|block| findings(panel.clone(), vec![block]));
-    let text = Results::new(&whole).text();
-    assert_eq!(Results::new(&joined).text(), text);
-    assert!(text.contains("\"kind\": \"edge-turning-edge\""), "{text}");
-    let kept = Kept::new(&Results::read(&text).unwrap()).unwrap();
-    assert_eq!(Results::new(&kept.findings()).text(), text);
+}
+
+/// Who takes bodies against wires alone is not asked to take two bodies.
+#[test]
+fn turning_queries_of_one_body_and_of_two_are_sorts_of_their_own() {
+    let one_body: Change = |query, truth| match query.kind().lengths().poses {
+        2 => Ok(Answer::Exact(truth)),
+        _ => Err(Unsupported::Kind(query.kind().linear()).into()),
+    };
+    let (right, engine) = (changed("second", RIGHT), changed("engine", one_body));
+    let panel = panel(&right, &engine);
+    let sources = [turning_lattice(), first_queries("turning_bodies_lattice")];
+    let blocks = sources.map(|source| panel.run(&source, |_| {}).unwrap());
+    let findings = findings(panel, blocks.to_vec());
+    assert_eq!(failures(&findings.panel, &findings.total), [""; 0]);
+    let tally = &findings.total.tallies[0];
+    assert_eq!((tally.taken.len(), tally.refused.len()), (2, 2));
 }
 
 #[test]
@@ -191,7 +218,7 @@ fn turning_subject_fails_by_each_fault() {
         Ok(Answer::Exact(truth))
     };
     let silent: Change = |_, _| Err(Lapse::new(LapseKind::Crashed, "gone").into());
-    let refusing: Change = |query, _| Err(Unsupported::Kind(query.linear_kind()).into());
+    let refusing: Change = |query, _| Err(Unsupported::Kind(query.kind().linear()).into());
     for (change, words) in [
         (of_misses, "tunnels"),
         (of_misses, "missed grazes"),
