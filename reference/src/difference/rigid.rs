@@ -35,7 +35,7 @@ type Vector<Z> = [Poly<Z>; 3];
 /// The exact answer to a query of bodies that turn.
 pub fn decide_rigid<Z: Integer>(query: &RigidQuery) -> ExactAnswer {
     let points = ScaledRigid::<Z>::new(query);
-    let polygon = polygon(query.linear_kind(), &points);
+    let polygon = polygon(query.kind().linear(), &points);
     decide_polygon(&polygon, query.radius(), points.exponent)
 }
 
@@ -116,6 +116,9 @@ fn against_body<Z: Integer>(kind: QueryKind, first: &Body<Z>, second: &Body<Z>) 
     let count = first.local.len();
     let way = sub(&second.centre, &first.centre);
     let both = first.size.mul(&second.size);
+    let square = dot(&way, &way);
+    let along = |body: &Body<Z>| body.turned.iter().map(|x| dot(&way, x)).collect::<Vec<_>>();
+    let (along_first, along_second) = (along(first), along(second));
     let corner = |&(from, to): &(usize, usize)| -> Vector<Z> {
         let (x, y) = (&first.turned[from], &second.turned[to - count]);
         [0, 1, 2].map(|h| {
@@ -129,11 +132,12 @@ fn against_body<Z: Integer>(kind: QueryKind, first: &Body<Z>, second: &Body<Z>) 
         let (i, j) = (to - count, other_to - count);
         let own = dot(&first.local[from], &first.local[other_from])
             .add(&dot(&second.local[i], &second.local[j]));
-        let mut sum = both.mul(&dot(&way, &way).add(&own));
-        let of_second = dot(&way, &second.turned[i]).add(&dot(&way, &second.turned[j]));
-        sum.add_product(&first.size, &of_second);
-        let of_first = dot(&way, &first.turned[from]).add(&dot(&way, &first.turned[other_from]));
-        sum.sub_product(&second.size, &of_first);
+        let mut sum = both.mul(&square.add(&own));
+        sum.add_product(&first.size, &along_second[i].add(&along_second[j]));
+        sum.sub_product(
+            &second.size,
+            &along_first[from].add(&along_first[other_from]),
+        );
         let mixed = dot(&first.turned[from], &second.turned[j])
             .add(&dot(&first.turned[other_from], &second.turned[i]));
         sum.sub(&mixed)

@@ -36,7 +36,7 @@ pub fn decide_rigid<Z: Integer>(query: &RigidQuery) -> Decision<Z> {
     let scaled = ScaledRigid::new(query);
     let InBody { points, size } = InBody::<Z>::new(&scaled);
     let way = |from: usize, to: usize| points[to].sub(&points[from]);
-    let motion: Box<dyn Motion<Z>> = match query.linear_kind() {
+    let motion: Box<dyn Motion<Z>> = match query.kind().linear() {
         QueryKind::EdgeEdge => Box::new(Edges::of(way(0, 1), way(2, 3), way(0, 2))),
         QueryKind::VertexFace => Box::new(Face::of(way(1, 0), way(1, 2), way(1, 3))),
     };
@@ -66,7 +66,8 @@ impl<Z: Integer> InBody<Z> {
                 |point: &[Z; 3], centre: &[Z; 3]| [0, 1, 2].map(|h| point[h].sub(&centre[h]));
             Vector::linear(&difference(start, c0), &difference(end, c1))
         };
-        let into_frame = |way: Vector<Z>| q.conjugate().turned(way);
+        let back = q.conjugate();
+        let into_frame = |way: Vector<Z>| back.turned(way);
         let mut size = q.size();
         let first: Vec<Vector<Z>> = match &points.first {
             ScaledSide::Straight(points) => {
@@ -75,14 +76,13 @@ impl<Z: Integer> InBody<Z> {
             }
             ScaledSide::Turning(own) => {
                 let p = Quaternion::of(own);
+                let own_size = p.size();
                 let Vector(way) = from_centre(own.centres.each_ref());
-                let centre = Vector(way.map(|x| x.mul(&p.size())));
-                size = size.mul(&p.size());
+                let centre = way.map(|x| x.mul(&own_size));
+                size = size.mul(&own_size);
                 let turned = |x: &[Z; 3]| {
                     let Vector(x) = p.turned(Vector(x.clone().map(Poly::constant)));
-                    let [h, i, j] = &centre.0;
-                    let [a, b, c] = &x;
-                    into_frame(Vector([h.add(a), i.add(b), j.add(c)]))
+                    into_frame(Vector([0, 1, 2].map(|h| centre[h].add(&x[h]))))
                 };
                 own.local.iter().map(turned).collect()
             }

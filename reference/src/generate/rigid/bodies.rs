@@ -1,12 +1,11 @@
 //! Two bodies that both turn.
 
-use nalgebra::{Quaternion, Vector3};
+use nalgebra::Vector3;
 use rand::{Rng, RngExt};
-use tunnelproof::query::Point;
-use tunnelproof::rigid::{Pose, RigidMotion, RigidQuery, Side};
+use tunnelproof::rigid::{RigidQuery, Side};
 
 use super::RigidFamily;
-use super::draft::{integers, mean, nudge, sides, turn};
+use super::draft::{first_query, integers, motion, nudge, points, sides, turn, way_to_contact};
 use super::one::{EXACT, nearer, turned};
 use crate::generate::motion::{not_zero, real_vector, vector};
 
@@ -60,18 +59,6 @@ struct Body {
 }
 
 impl Body {
-    fn motion(&self) -> Option<RigidMotion> {
-        let pose = |i: usize| {
-            let [w, x, y, z] = self.quaternions[i];
-            Pose::new(Point::from(self.centres[i]), Quaternion::new(w, x, y, z))
-        };
-        RigidMotion::new(pose(0), pose(1)).ok()
-    }
-
-    fn points(&self) -> Vec<Point> {
-        self.local.iter().copied().map(Point::from).collect()
-    }
-
     fn numbers(&mut self) -> impl Iterator<Item = &mut f64> {
         let lengths = self.centres.iter_mut().chain(&mut self.local);
         lengths
@@ -83,8 +70,9 @@ impl Body {
 impl Draft {
     /// `None` if a body turns too far.
     fn query(&self) -> Option<RigidQuery> {
-        let (first, second) = (self.first.points(), self.second.points());
-        let motions = [self.first.motion()?, self.second.motion()?];
+        let motion = |body: &Body| motion(&body.centres, &body.quaternions);
+        let motions = [motion(&self.first)?, motion(&self.second)?];
+        let (first, second) = (points(&self.first.local), points(&self.second.local));
         let sides = [(&first, &motions[0]), (&second, &motions[1])];
         let sides = sides.map(|(local, motion)| Side::Turning { local, motion });
         RigidQuery::new(sides, 0.0).ok()
@@ -92,13 +80,9 @@ impl Draft {
 
     /// Half of them with the first body moved so that the two about meet at some time.
     fn aimed(mut self, rng: &mut dyn Rng) -> Self {
-        let Some(query) = self.query().filter(|_| rng.random()) else {
-            return self;
-        };
-        let points = query.positions(rng.random_range(0.0..1.0));
-        let (first, second) = points.split_at(self.first.local.len());
-        let way = mean(rng, second) - mean(rng, first);
-        self.first.centres.iter_mut().for_each(|c| *c += way);
+        if let Some(way) = way_to_contact(rng, self.query()) {
+            self.first.centres.iter_mut().for_each(|c| *c += way);
+        }
         self
     }
 
@@ -112,11 +96,7 @@ impl Draft {
 
 /// Draws until no body turns by more than it may.
 fn first(rng: &mut dyn Rng, draft: impl Fn(&mut dyn Rng) -> Draft) -> RigidQuery {
-    loop {
-        if let Some(query) = draft(rng).query() {
-            return query;
-        }
-    }
+    first_query(rng, |rng| draft(rng).query())
 }
 
 fn anywhere(rng: &mut dyn Rng, degrees: f64, speed: f64) -> Draft {

@@ -22,15 +22,8 @@ pub(super) struct Draft {
 impl Draft {
     /// `None` if the body turns too far.
     pub(super) fn query(&self) -> Option<RigidQuery> {
-        let pose = |i: usize| {
-            let [w, x, y, z] = self.quaternions[i];
-            Pose::new(Point::from(self.centres[i]), Quaternion::new(w, x, y, z))
-        };
-        let motion = RigidMotion::new(pose(0), pose(1)).ok()?;
+        let motion = motion(&self.centres, &self.quaternions)?;
         let [start, end] = &self.world;
-        let points = |points: &[Vector3<f64>]| -> Vec<Point> {
-            points.iter().copied().map(Point::from).collect()
-        };
         let (start, end, local) = (points(start), points(end), points(&self.local));
         let first = Side::Straight {
             start: &start,
@@ -46,14 +39,9 @@ impl Draft {
     /// Half of them moved in space so that a point of the first side is about on one of the body at
     /// some time.
     pub(super) fn aimed(mut self, rng: &mut dyn Rng) -> Self {
-        let Some(query) = self.query().filter(|_| rng.random()) else {
-            return self;
-        };
-        let t = rng.random_range(0.0..1.0);
-        let points = query.positions(t);
-        let (first, second) = points.split_at(self.world[0].len());
-        let way = mean(rng, second) - mean(rng, first);
-        self.world.iter_mut().flatten().for_each(|p| *p += way);
+        if let Some(way) = way_to_contact(rng, self.query()) {
+            self.world.iter_mut().flatten().for_each(|p| *p += way);
+        }
         self
     }
 
@@ -76,8 +64,33 @@ impl Draft {
     }
 }
 
+/// `None` if the body turns too far.
+pub(super) fn motion(
+    centres: &[Vector3<f64>; 2],
+    quaternions: &[[f64; 4]; 2],
+) -> Option<RigidMotion> {
+    let pose = |i: usize| {
+        let [w, x, y, z] = quaternions[i];
+        Pose::new(Point::from(centres[i]), Quaternion::new(w, x, y, z))
+    };
+    RigidMotion::new(pose(0), pose(1)).ok()
+}
+
+pub(super) fn points(vectors: &[Vector3<f64>]) -> Vec<Point> {
+    vectors.iter().copied().map(Point::from).collect()
+}
+
+/// For half of the queries how to move the first side so that a point of it is about on one of the
+/// second side at some time.
+pub(super) fn way_to_contact(rng: &mut dyn Rng, query: Option<RigidQuery>) -> Option<Vector3<f64>> {
+    let query = query.filter(|_| rng.random())?;
+    let points = query.positions(rng.random_range(0.0..1.0));
+    let (first, second) = points.split_at(query.sides()[0].number_of_points());
+    Some(mean(rng, second) - mean(rng, first))
+}
+
 /// A mean of the points with random weights.
-pub(super) fn mean(rng: &mut dyn Rng, points: &[Point]) -> Vector3<f64> {
+fn mean(rng: &mut dyn Rng, points: &[Point]) -> Vector3<f64> {
     let weights: Vec<f64> = points.iter().map(|_| rng.random_range(0.0..1.0)).collect();
     let all: f64 = weights.iter().sum();
     let parts = points
@@ -102,8 +115,16 @@ pub(super) fn nudge(rng: &mut dyn Rng, mut numbers: Vec<&mut f64>) {
 
 /// Draws until the body turns by no more than it may.
 pub(super) fn first(rng: &mut dyn Rng, draft: impl Fn(&mut dyn Rng) -> Draft) -> RigidQuery {
+    first_query(rng, |rng| draft(rng).query())
+}
+
+/// Draws until it is a query.
+pub(super) fn first_query(
+    rng: &mut dyn Rng,
+    draw: impl Fn(&mut dyn Rng) -> Option<RigidQuery>,
+) -> RigidQuery {
     loop {
-        if let Some(query) = draft(rng).query() {
+        if let Some(query) = draw(rng) {
             return query;
         }
     }
