@@ -24,25 +24,41 @@ impl Energy {
 }
 
 impl World {
-    /// The energies of all that forces move. Nodes that are fixed do not count, those on dynamic
-    /// bodies do, and so does what slides over contact nodes.
+    /// The energies of all that forces move, as everything lies and moves at present. Nodes that are
+    /// fixed do not count, those on dynamic bodies do, and so does what slides over contact nodes.
+    ///
+    /// A step moves with the velocity at its end, and a step that ends with a stiff wire stretched
+    /// by a hair shows elastic energy that no force has ever given it. What a step came to is in
+    /// [`StepRecord::energy`](super::StepRecord::energy).
     pub fn energy(&self) -> Energy {
-        let gravity = &self.settings.gravity;
-        let mut energy = Energy::default();
+        Energy {
+            kinetic: self.kinetic_energy(),
+            potential: self.potential_energy(),
+            elastic: self.wires.iter().map(elastic).sum(),
+        }
+    }
+
+    pub(in crate::wire) fn kinetic_energy(&self) -> f64 {
+        let mut energy = 0.0;
         for body in self.bodies.iter().filter(|body| body.dynamic) {
             let spin = body
                 .angular_velocity
                 .dot(&(body.world_inertia() * body.angular_velocity));
-            energy.kinetic += body.mass * body.velocity.norm_squared() / 2.0 + spin / 2.0;
-            energy.potential -= body.mass * body.position.coords.dot(gravity);
+            energy += body.mass * body.velocity.norm_squared() / 2.0 + spin / 2.0;
         }
         for (mass, node) in self.moving_nodes() {
-            energy.kinetic += mass * node.velocity.norm_squared() / 2.0;
-            energy.potential -= mass * node.position.coords.dot(gravity);
+            energy += mass * node.velocity.norm_squared() / 2.0;
         }
-        energy.kinetic += self.wires.iter().map(sliding).sum::<f64>();
-        energy.elastic = self.wires.iter().map(elastic).sum();
-        energy
+        energy + self.wires.iter().map(sliding).sum::<f64>()
+    }
+
+    pub(in crate::wire) fn potential_energy(&self) -> f64 {
+        let gravity = &self.settings.gravity;
+        let bodies = self.bodies.iter().filter(|body| body.dynamic);
+        let bodies = bodies.map(|body| body.mass * body.position.coords.dot(gravity));
+        let nodes = self.moving_nodes();
+        let nodes = nodes.map(|(mass, node)| mass * node.position.coords.dot(gravity));
+        -bodies.chain(nodes).sum::<f64>()
     }
 
     /// Linear momentum of all that forces move, in N s.

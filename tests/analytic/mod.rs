@@ -7,6 +7,7 @@ mod contact;
 mod drum;
 mod motion;
 mod statics;
+mod swing;
 
 use std::error::Error;
 
@@ -59,11 +60,14 @@ impl Comparison {
 }
 
 /// All cases.
-pub(crate) const CASES: [Case; 15] = [
+pub(crate) const CASES: [Case; 18] = [
     motion::FREE_FALL,
     statics::STRETCH,
     motion::PENDULUM,
     motion::STRING,
+    swing::SWAY,
+    swing::LIGHT_PENDULUM,
+    swing::TAUT_STRING,
     statics::CATENARY,
     statics::CANTILEVER,
     drum::CAPSTAN,

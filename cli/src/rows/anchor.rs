@@ -1,6 +1,10 @@
 //! Scene 2: a pulled wire catches another one on which a cylinder hangs.
 
+use std::error::Error;
+
 use super::{First, Row, Rows, SceneRows, between_wires, pushing, run_guarded};
+use crate::perturb::{USUAL, perturbed};
+use crate::scenes::Scene;
 use tunnelproof::wire::{BodyId, ContactSite, WireId};
 
 pub(super) const ROWS: SceneRows = SceneRows {
@@ -10,38 +14,76 @@ pub(super) const ROWS: SceneRows = SceneRows {
 
 const NAME: &str = "pulling-anchor";
 
+/// From how many starts the end of the scene is looked at. Whether the cylinder is caught hangs on
+/// the last millimetre: the sharp turn of a wire over another one holds, or lets go.
+const STARTS: u64 = 8;
+
 fn rows() -> Rows {
-    let (mut collided, mut caught) = (First::never(), First::never());
-    let mut places = Vec::new();
-    let crossed = run_guarded(NAME, |_, record| {
-        let arcs = pushing(record, between_wires);
-        if let Some(arcs) = arcs.first() {
-            collided.note(record);
-            places.push((record.time, arcs[0]));
-        }
-        let pulled_on_cylinder = |a: &ContactSite, b: &ContactSite| match (*a, *b) {
-            (ContactSite::Wire { wire, .. }, ContactSite::Body { body, .. }) => {
-                Some((wire, body)).filter(|pair| *pair == (WireId(1), BodyId(0)))
-            }
-            _ => None,
-        };
-        let at_its_end = arcs.iter().any(|arcs| arcs[0] > 24.5);
-        if at_its_end && !pushing(record, pulled_on_cylinder).is_empty() {
-            caught.note(record);
-        }
-    })?;
-    let slips = slips(&places) as f64;
+    let scene = Scene::embedded(NAME)?;
+    let mut first = Outcome::of(&scene)?;
+    let mut caught = vec![first.caught];
+    for seed in 1..STARTS {
+        let other = Outcome::of(&perturbed(&scene, seed, USUAL))?;
+        first.crossed.ours += other.crossed.ours;
+        caught.push(other.caught);
+    }
+    caught.retain(|time| !time.is_nan());
+    caught.sort_by(f64::total_cmp);
+    let median = caught.get(caught.len() / 2).copied().unwrap_or(f64::NAN);
+    let slips = slips(&first.places) as f64;
     Ok(vec![
-        crossed,
-        Row::near("the wires collide, s", 8.85, collided.0, 0.5),
+        first.crossed,
+        Row::near("the wires collide, s", 8.85, first.collided, 0.5),
         Row::near("slips", 2.0, slips, 1.0),
-        Row::near(
-            "the cylinder is caught between the wires, s",
-            31.6,
-            caught.0,
-            1.5,
+        Row::between(
+            "starts of 8 from which the cylinder is caught",
+            "caught",
+            caught.len() as f64,
+            [2.0, 8.0],
         ),
+        Row::near("median of when it is caught, s", 31.6, median, 1.5),
     ])
+}
+
+/// What happens from one start.
+struct Outcome {
+    crossed: Row,
+    /// When the wires collide, in s.
+    collided: f64,
+    /// When the cylinder is caught between them, in s; NaN if it is not.
+    caught: f64,
+    /// Times and places at which they push on each other.
+    places: Vec<(f64, f64)>,
+}
+
+impl Outcome {
+    fn of(scene: &Scene) -> Result<Self, Box<dyn Error>> {
+        let (mut collided, mut caught) = (First::never(), First::never());
+        let mut places = Vec::new();
+        let crossed = run_guarded(scene, |_, record| {
+            let arcs = pushing(record, between_wires);
+            if let Some(arcs) = arcs.first() {
+                collided.note(record);
+                places.push((record.time, arcs[0]));
+            }
+            let pulled_on_cylinder = |a: &ContactSite, b: &ContactSite| match (*a, *b) {
+                (ContactSite::Wire { wire, .. }, ContactSite::Body { body, .. }) => {
+                    Some((wire, body)).filter(|pair| *pair == (WireId(1), BodyId(0)))
+                }
+                _ => None,
+            };
+            let at_its_end = arcs.iter().any(|arcs| arcs[0] > 24.5);
+            if at_its_end && !pushing(record, pulled_on_cylinder).is_empty() {
+                caught.note(record);
+            }
+        })?;
+        Ok(Outcome {
+            crossed,
+            collided: collided.0,
+            caught: caught.0,
+            places,
+        })
+    }
 }
 
 /// How often a place that had stayed within 5 cm for half a second goes more than half a metre in

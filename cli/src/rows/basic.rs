@@ -1,6 +1,7 @@
 //! Scene 1: a wire that falls through two others within a step, or on them.
 
 use super::{Row, Rows, SceneRows, outcomes, run, run_guarded};
+use crate::scenes::Scene;
 use tunnelproof::wire::{CrossingOutcome, Mode, Vector, World};
 
 pub(super) const ROWS: SceneRows = SceneRows {
@@ -15,14 +16,14 @@ const WEIGHT: f64 = 193.48;
 
 fn rows() -> Rows {
     let (mut tunnels, mut returns, mut thesis) = (0, 0, Rest::default());
-    run(NAME, Mode::Thesis, |world, record| {
+    run(&Scene::embedded(NAME)?, Mode::Thesis, |world, record| {
         let count = |outcome| outcomes(record).filter(|other| *other == outcome).count();
         tunnels += count(CrossingOutcome::Tunnelled);
         returns += count(CrossingOutcome::Returned);
         thesis = Rest::of(world);
     })?;
     let (mut force, mut held, mut guard) = (Vector::zeros(), 0, Rest::default());
-    let crossed = run_guarded(NAME, |world, record| {
+    let crossed = run_guarded(&Scene::embedded(NAME)?, |world, record| {
         // B of each contact is the falling wire, which was added last.
         force = record.contacts.iter().map(|contact| -contact.force).sum();
         held += record.collisions.scaled_islands.len();

@@ -1,6 +1,7 @@
 //! Scene 4: a box drags its chain across another one on a deck.
 
 use super::{First, Row, Rows, SceneRows, between_wires, pushing, run_guarded};
+use crate::scenes::Scene;
 
 pub(super) const ROWS: SceneRows = SceneRows {
     scene: NAME,
@@ -16,7 +17,7 @@ const SECOND_PULL: [f64; 2] = [7.0, 8.3];
 fn rows() -> Rows {
     let (mut touched, mut near) = (First::never(), First::never());
     let mut tensions = Vec::new();
-    let crossed = run_guarded(NAME, |_, record| {
+    let crossed = run_guarded(&Scene::embedded(NAME)?, |_, record| {
         let arcs = pushing(record, between_wires);
         if !arcs.is_empty() {
             touched.note(record);

@@ -71,13 +71,12 @@ impl Row {
 /// All scenes, in the thesis' order.
 pub const SCENES: [SceneRows; 4] = [basic::ROWS, anchor::ROWS, twist::ROWS, chains::ROWS];
 
-/// Runs a scene of the thesis with the certified path and shows every step.
+/// Runs a scene with the certified path and shows every step.
 fn run(
-    name: &str,
+    scene: &Scene,
     mode: Mode,
     mut look: impl FnMut(&World, &StepRecord),
 ) -> Result<(), Box<dyn Error>> {
-    let scene = Scene::embedded(name)?;
     let mut world = scene.world()?;
     let mut collisions = scene.collisions(mode, &Certified)?;
     for _ in 0..scene.steps() {
@@ -89,11 +88,11 @@ fn run(
 
 /// [`run`] in guard mode. The row that it returns counts the crossings in motions that were made.
 fn run_guarded(
-    name: &str,
+    scene: &Scene,
     mut look: impl FnMut(&World, &StepRecord),
 ) -> Result<Row, Box<dyn Error>> {
     let mut crossed = 0;
-    run(name, Mode::Guard, |world, record| {
+    run(scene, Mode::Guard, |world, record| {
         let made = |outcome: &CrossingOutcome| *outcome != CrossingOutcome::Prevented;
         crossed += outcomes(record).filter(made).count();
         look(world, record);

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::{First, Row, Rows, SceneRows, between_wires, pushing, run_guarded};
+use crate::scenes::Scene;
 
 pub(super) const ROWS: SceneRows = SceneRows {
     scene: NAME,
@@ -16,7 +17,7 @@ const ROUNDING: f64 = 1e-9;
 
 fn rows() -> Rows {
     let (mut touched, mut speed, mut turns) = (First::never(), 0.0, 0.0);
-    let crossed = run_guarded(NAME, |world, record| {
+    let crossed = run_guarded(&Scene::embedded(NAME)?, |world, record| {
         if !pushing(record, between_wires).is_empty() {
             touched.note(record);
         }

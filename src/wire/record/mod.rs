@@ -40,12 +40,30 @@ pub struct StepRecord {
     pub slides: Vec<Slide>,
     /// Changes of resolution, after the motion.
     pub remeshes: Vec<Remesh>,
-    /// Energies after the motion.
+    /// Energies of the motion: kinetic of the velocities with which everything moved, potential
+    /// halfway, elastic of the forces that wires had. Free fall keeps their sum to rounding, and
+    /// what swings to the second order of the step.
     pub energy: Energy,
+    /// Energies as everything lies and moves at the end, as of [`World::energy`].
+    pub energy_at_end: Energy,
+    /// What acted beside forces and masses.
+    pub added_inertia: AddedInertia,
     /// How the system was solved.
     pub solver: SolverRecord,
     /// How long the phases took.
     pub phases: Phases,
+}
+
+/// What keeps a step stable beside segments that are too short for their tension. It acts on what a step cannot follow.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct AddedInertia {
+    /// At how many nodes or segments it acts.
+    pub places: usize,
+    /// What it took from the motion in this step, in J, to first order in what it changed.
+    pub damped: f64,
+    /// Its kinetic energy in J, of far too short segments; [`StepRecord::energy`] does not count it.
+    pub kinetic: f64,
 }
 
 /// A wire in a step. Its nodes move on straight lines.
@@ -204,7 +222,7 @@ impl StepRecord {
             record.after = pose;
         }
         self.time = world.time();
-        self.energy = world.energy();
+        self.energy_at_end = world.energy();
     }
 }
 

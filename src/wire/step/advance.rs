@@ -8,9 +8,10 @@ use super::solve_step::Candidate;
 use super::system::System;
 use crate::wire::clock::Clock;
 use crate::wire::contact::{ContactConstraint, check};
+use crate::wire::energy::Energy;
 use crate::wire::error::{Reason, StepError};
 use crate::wire::model::wire::TENSION_HISTORY;
-use crate::wire::record::{Phases, StepRecord};
+use crate::wire::record::{AddedInertia, Phases, StepRecord};
 use crate::wire::resolution::{self, Permit, RemeshGuard};
 use crate::wire::solver_cache::WarmStart;
 use crate::wire::sparse::Structure;
@@ -60,8 +61,10 @@ impl World {
         let impulses = candidate.swept.impulses.iter().copied();
         self.cache.warm_start = WarmStart::new(keys.zip(impulses));
         let slid = self.commit(&system, &candidate, motion);
-        self.cache.structure = system.into_structure();
         record.after(self);
+        record.energy = self.energy_of_motion(&system, &candidate);
+        record.added_inertia = added_inertia(self, &system);
+        self.cache.structure = system.into_structure();
         phases.commit = clock.lap();
         record.slides = capstan::slides(self, &slid);
         record.slides.extend(contact_nodes::release(self));
@@ -102,6 +105,18 @@ impl World {
         }
     }
 
+    /// The energies of the motion that was made; see [`StepRecord::energy`].
+    fn energy_of_motion(&self, system: &System, candidate: &Candidate) -> Energy {
+        let step = self.settings.step;
+        let rows = system.rows.iter();
+        Energy {
+            potential: self.potential_energy()
+                + step / 2.0 * self.settings.gravity.dot(&self.momentum()),
+            kinetic: self.kinetic_energy(),
+            elastic: rows.map(|row| row.elastic_energy(&candidate.x, step)).sum(),
+        }
+    }
+
     fn commit(
         &mut self,
         system: &System,
@@ -119,6 +134,23 @@ impl World {
         self.steps += 1;
         slid
     }
+}
+
+/// What there was beside the masses, at short segments, in the motion that was made.
+fn added_inertia(world: &World, system: &System) -> AddedInertia {
+    let mut added = AddedInertia {
+        places: system.inertias.len(),
+        ..AddedInertia::default()
+    };
+    for inertia in &system.inertias {
+        let energy = inertia.energy(world);
+        if inertia.damps {
+            added.damped += energy;
+        } else {
+            added.kinetic += energy / 2.0;
+        }
+    }
+    added
 }
 
 #[cfg(test)]

@@ -21,3 +21,4 @@ mod rows;
 mod solve_step;
 mod spin;
 mod system;
+pub(super) mod transverse;

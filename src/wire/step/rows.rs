@@ -20,6 +20,8 @@ pub(super) struct Row {
     pub(super) terms: SmallVec<[(Carrier, Vector); 3]>,
     /// Unknown speeds of sliding, and what they count.
     pub(super) slides: SmallVec<[(usize, f64); 2]>,
+    /// What it gives way to a force, in m/N, or to a moment, in 1/(N m); 0 for friction.
+    pub(super) compliance: f64,
     /// Regularisation in 1/kg.
     pub(super) sigma: f64,
     /// What the row asks for, in m/s or 1/s, prescribed velocities included on the left.
@@ -70,6 +72,12 @@ impl Row {
         let terms = self.terms.iter().map(|(carrier, _)| of(carrier));
         let slides = self.slides.iter().map(|&(column, _)| x[column].abs());
         terms.chain(slides).fold(self.target.abs(), f64::max)
+    }
+
+    /// The energy in J that the force of a solution stores: `eps f^2 / 2`.
+    pub(super) fn elastic_energy(&self, x: &[f64], step: f64) -> f64 {
+        let force = x[self.multiplier] / step;
+        self.compliance * force * force / 2.0
     }
 
     /// Whether the solution decides which branch holds.
@@ -196,6 +204,7 @@ fn stretch(
         multiplier,
         terms: smallvec![(start, -t), (end, t)],
         slides: SmallVec::new(),
+        compliance,
         sigma: spook.sigma,
         target: spook.target(length - rest, speed),
         law: if material.is_chain() {
@@ -242,6 +251,7 @@ fn bend(
             multiplier: multiplier + axis,
             terms: smallvec![term(0), term(1), term(2)],
             slides: SmallVec::new(),
+            compliance,
             sigma: spook.sigma,
             target: spook.target((t2 - t1)[axis], turning[axis]),
             law: ConstitutiveLaw::Linear,

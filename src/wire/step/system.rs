@@ -1,4 +1,5 @@
-//! The system of one step: `[[M~, G^T], [G, -Sigma]] [v+; -lambda] = [M v + h f; target]`.
+//! The system of one step: `[[M~, G^T], [G, -Sigma]] [v+; -lambda] = [M~ v + h f; target]`, where
+//! `M~` is the mass and what [short segments](super::transverse) have beside it.
 
 use super::capstan;
 use super::carrier::{Carrier, Columns, Layout};
@@ -7,10 +8,11 @@ use super::implicit::Implicit;
 use super::order::Block;
 use super::rows::{Row, rows};
 use super::spin::spin_freely;
+use super::transverse::{TransverseInertia, transverse_inertias};
 use crate::wire::contact::ContactConstraint;
 use crate::wire::error::Reason;
 use crate::wire::sparse::{Ldl, SparseColumns, Structure, Symmetric, Triplets};
-use crate::wire::vector::{Vector, frame, unit};
+use crate::wire::vector::Vector;
 use crate::wire::world::World;
 
 /// The largest backward error of a solution that is accepted.
@@ -21,6 +23,8 @@ const RESIDUAL: f64 = 1e-10;
 pub(super) struct System {
     pub(super) layout: Layout,
     pub(super) rows: Vec<Row>,
+    /// What there is beside the masses, at short segments.
+    pub(super) inertias: Vec<TransverseInertia>,
     /// Contacts that are solved with the rest.
     pub(super) implicit: Vec<Implicit>,
     /// Entries: first those of masses, then those of contacts and rows.
@@ -46,6 +50,7 @@ impl System {
             structure,
             layout,
             rows,
+            inertias: transverse_inertias(world),
             implicit: Vec::new(),
         };
         for row in &system.rows {
@@ -53,7 +58,7 @@ impl System {
         }
         system.add_nodes(world);
         system.add_bodies(world);
-        system.add_geometric_stiffness(world);
+        system.add_transverse_inertias(world);
         system.mass_entries = system.triplets.index.len();
         system
     }
@@ -111,35 +116,28 @@ impl System {
         }
     }
 
-    /// `M~ = M + h^2 sum (T/l) P` over the segments that are shorter than their tension allows.
-    fn add_geometric_stiffness(&mut self, world: &World) {
-        for (w, wire) in world.wires.iter().enumerate() {
-            let first = self.layout.first_node[w];
-            let mass_per_length = wire.material.mass_per_length();
-            let shortest = |tension: f64| world.settings.shortest_stable(tension, mass_per_length);
-            for segment in 0..wire.segments.len() {
-                let tension = wire.segments[segment].tension;
-                let (t, length) = unit(&wire.span(segment));
-                if length > 0.0 && wire.rest_length(segment) < shortest(tension) {
-                    let step = world.settings.step;
-                    let weight = step * step * tension / length;
-                    self.stiffen(first + segment, &t, weight);
+    /// The inertias, with the momentum of those that do not damp.
+    fn add_transverse_inertias(&mut self, world: &World) {
+        for inertia in &self.inertias {
+            let first = self.layout.first_node[inertia.wire];
+            let mut momentum = if inertia.damps {
+                Vector::zeros()
+            } else {
+                inertia.velocity(world)
+            };
+            let mut columns: [Columns; 3] = Default::default();
+            for (node, part) in &inertia.terms {
+                let carrier = self.layout.nodes[first + node];
+                momentum -= part * carrier.prescribed_velocity();
+                for (axis, columns) in columns.iter_mut().enumerate() {
+                    carrier.columns(&part.row(axis).transpose(), columns);
                 }
             }
-        }
-    }
-
-    fn stiffen(&mut self, node: usize, t: &Vector, weight: f64) {
-        let frame = frame(t);
-        for axis in [1, 2] {
-            let across = frame.row(axis).transpose();
-            let (start, end) = (self.layout.nodes[node], self.layout.nodes[node + 1]);
-            let mut columns = Columns::new();
-            start.columns(&-across, &mut columns);
-            end.columns(&across, &mut columns);
-            let given = (end.prescribed_velocity() - start.prescribed_velocity()).dot(&across);
-            self.triplets.add_outer(&columns, weight);
-            push(&mut self.right, &columns, -weight * given);
+            momentum *= inertia.mass;
+            for (columns, momentum) in columns.iter().zip(&momentum) {
+                self.triplets.add_outer(columns, inertia.mass);
+                push(&mut self.right, columns, *momentum);
+            }
         }
     }
 

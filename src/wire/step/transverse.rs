@@ -1,0 +1,215 @@
+//! What keeps a step stable beside segments that are too short for their tension.
+//!
+//! A row of stretch pulls along the segment as it lies where the step starts. Across the segment
+//! its tension `T` is therefore an explicit force. Moved by `d`, the ends of a segment of length
+//! `l` push back with `T/l P d`, where `P` takes the part across the segment. Let `K` be the sum of
+//! these stiffnesses. A step that moves with the velocities of its end is stable as long as `h^2 K <
+//! 4 M`. It is enough that this holds for each segment by itself (Irons and Treharne 1971), and a
+//! segment with half of its mass `m` at each end has `h^2 T/l < m`: no wave crosses it in a step.
+//!
+//! Beside segments for which that does not hold with a margin `s`, a step is
+//!
+//! ```text
+//! (M + W) v+ = M v + h f,   W = h^4 / (32 s^4) K M^-1 K
+//! ```
+//!
+//! where `K` and `M` are those of these segments alone. Such a step is stable where `h^2 K < 4 M + 2
+//! W`. With `A = h^2 M^-1/2 K M^-1/2` that holds for every tension up to `T / s^2`, since `4 + A^2 /
+//! 16 s^4 - A / s^2 = (2 - A / 4 s^2)^2` is nowhere below 0. `W` is a sum over nodes of `m |u|^2` with
+//!
+//! ```text
+//! u = h^2 / (sqrt(32) s^2 m) (K v)_node
+//! ```
+//!
+//! so it is zero for whatever swings as one line: a straight wire, and a load at its end. A mode of
+//! the wire itself loses the part `(omega h)^4 / (64 s^4)` of its amplitude in a step: nothing of what
+//! a step follows well, and quickly what it cannot follow. (Implicit Euler, with `h^2 K` in place
+//! of `W`, takes `(omega h)^2 / 2`, from a load that swings as well.) With `W v` on the right side,
+//! too, nothing would be damped, but a chain that whirls faster than a step can follow gains energy.
+//!
+//! A node on a body counts with the mass that the body has there, at least: what its mobility at the
+//! place leaves, shared by all nodes on it. A node whose motion is prescribed needs nothing.
+//!
+//! `W` grows with the square of `K`. Where `h^2 T/l` is more than [`STEEPEST`] times a mass, the
+//! masses would drown in its rounding. Such a segment is given inertia `w = (h^2 T / (l s^2) - m) / 4`
+//! against transverse motion of its ends relative to each other, with `w v` on the right side, too.
+//! That is stable as well, since `h^2 T / (l s^2) <= m + 4 w`, and damps nothing. It slows what a step
+//! can follow by the part `(omega h)^2 / (8 s^2)`, and a swinging load by a part of order `h^2 g /
+//! (s^2 L)` for `L` of wire.
+//!
+//! `T` is the largest tension of the last steps, by which resolution is chosen too. The margin is the
+//! room for what it grows to in this one.
+
+use nalgebra::Matrix3;
+use smallvec::{SmallVec, smallvec};
+
+use crate::wire::model::{Body, BodyId, NodeKind, Wire};
+use crate::wire::vector::{Vector, unit};
+use crate::wire::world::World;
+
+/// The largest `h^2 T / (l s^2)` over the mass of an end for which `W` is used.
+const STEEPEST: f64 = 500.0;
+
+/// What resists a velocity `u` that is linear in those of nodes, or its change, like a mass.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct TransverseInertia {
+    /// The wire.
+    pub(super) wire: usize,
+    /// The mass `m` in kg.
+    pub(super) mass: f64,
+    /// Whether it resists `u` itself, and not its change.
+    pub(super) damps: bool,
+    /// Nodes of the wire, and what their velocities give to `u`.
+    pub(super) terms: SmallVec<[(usize, Matrix3<f64>); 3]>,
+}
+
+impl TransverseInertia {
+    /// The velocity `u` of a world in m/s.
+    pub(super) fn velocity(&self, world: &World) -> Vector {
+        let nodes = &world.wires[self.wire].nodes;
+        let terms = self.terms.iter();
+        terms.map(|(node, part)| part * nodes[*node].velocity).sum()
+    }
+
+    /// `m |u|^2` of a world in J.
+    pub(super) fn energy(&self, world: &World) -> f64 {
+        self.mass * self.velocity(world).norm_squared()
+    }
+}
+
+/// The inertias of a world in its next step.
+pub(super) fn transverse_inertias(world: &World) -> Vec<TransverseInertia> {
+    let mut inertias = Vec::new();
+    let mut counts = None;
+    for (at, wire) in world.wires.iter().enumerate() {
+        // That of the segment before the node.
+        let mut before: Option<Short> = None;
+        for node in 0..wire.nodes.len() {
+            let short = (node < wire.segments.len()).then(|| Short::new(world, wire, node));
+            let mut after = short.flatten();
+            if let Some(short) = &after {
+                let counts = counts.get_or_insert_with(|| nodes_on_bodies(world));
+                let masses =
+                    [node, node + 1].map(|node| mass_of(world, counts, wire, node, short.half));
+                if short.needed > STEEPEST * masses[0].min(masses[1]) {
+                    inertias.push(between_ends(at, node, short));
+                    after = None;
+                }
+            }
+            let sides = [before, after];
+            let half = sides.iter().flatten().map(|short| short.half).sum();
+            if let (true, Some(counts)) = (half > 0.0, &counts) {
+                let mass = mass_of(world, counts, wire, node, half);
+                if mass.is_finite() {
+                    inertias.push(of_node(at, node, mass, sides));
+                }
+            }
+            before = after;
+        }
+    }
+    inertias
+}
+
+/// A segment that is too short for its tension.
+#[derive(Clone, Copy, Debug)]
+struct Short {
+    /// `P`.
+    across: Matrix3<f64>,
+    /// `h^2 T / (l s^2)` in kg.
+    needed: f64,
+    /// Half of its mass in kg.
+    half: f64,
+}
+
+impl Short {
+    /// None if the segment is long enough, or has no direction.
+    fn new(world: &World, wire: &Wire, segment: usize) -> Option<Short> {
+        let (t, length) = unit(&wire.span(segment));
+        if length <= 0.0 {
+            return None;
+        }
+        let reach = world.settings.step / world.settings.stability_margin;
+        let tension = wire.segments[segment].largest_tension();
+        let short = Short {
+            across: Matrix3::identity() - t * t.transpose(),
+            needed: reach * reach * tension / length,
+            half: wire.material.mass_per_length() * wire.rest_length(segment) / 2.0,
+        };
+        (short.needed > 2.0 * short.half).then_some(short)
+    }
+}
+
+/// `u = h^2 / (sqrt(32) s^2 m) (K v)_node`.
+fn of_node(
+    wire: usize,
+    node: usize,
+    mass: f64,
+    [before, after]: [Option<Short>; 2],
+) -> TransverseInertia {
+    let mut terms = SmallVec::new();
+    let mut own = Matrix3::zeros();
+    let before = before.map(|short| (node - 1, short));
+    for (neighbour, short) in before
+        .into_iter()
+        .chain(after.map(|short| (node + 1, short)))
+    {
+        let part = short.across * (short.needed / (32f64.sqrt() * mass));
+        own += part;
+        terms.push((neighbour, -part));
+    }
+    terms.push((node, own));
+    TransverseInertia {
+        wire,
+        mass,
+        damps: true,
+        terms,
+    }
+}
+
+/// `u = P (v_end - v_start)` with `w`.
+fn between_ends(wire: usize, segment: usize, short: &Short) -> TransverseInertia {
+    let mass = (short.needed - 2.0 * short.half) / 4.0;
+    TransverseInertia {
+        wire,
+        mass,
+        damps: false,
+        terms: smallvec![(segment, -short.across), (segment + 1, short.across)],
+    }
+}
+
+/// The mass in kg of a node of which `half` is on segments that are too short; infinite if its
+/// motion is prescribed.
+fn mass_of(world: &World, counts: &[f64], wire: &Wire, node: usize, half: f64) -> f64 {
+    let kind = wire.nodes[node].kind;
+    match kind.carrier() {
+        _ if kind == NodeKind::Free => half,
+        Some((body, local)) if world.bodies[body.0].dynamic => {
+            mass_at(&world.bodies[body.0], &local) / counts[body.0]
+        }
+        _ => f64::INFINITY,
+    }
+}
+
+/// How many nodes there are on each body.
+fn nodes_on_bodies(world: &World) -> Vec<f64> {
+    let mut counts = vec![0.0; world.bodies.len()];
+    let nodes = world.wires.iter().flat_map(|wire| &wire.nodes);
+    for (BodyId(body), _) in nodes.filter_map(|node| node.kind.carrier()) {
+        counts[body] += 1.0;
+    }
+    counts
+}
+
+/// A mass in kg, so that `mass v^2 <= V^T M V` for every motion `V` of a body and the velocity `v`
+/// of its place.
+fn mass_at(body: &Body, local: &Vector) -> f64 {
+    // The trace of a positive matrix is at least its largest eigenvalue.
+    let turning = body
+        .inertia
+        .try_inverse()
+        .map_or(f64::INFINITY, |m| m.trace());
+    1.0 / (1.0 / body.mass + local.norm_squared() * turning)
+}
+
+#[cfg(test)]
+mod tests;
