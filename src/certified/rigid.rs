@@ -43,6 +43,7 @@ mod contact;
 mod differences;
 mod features;
 mod guess;
+mod normal;
 mod place;
 mod root;
 mod rough;
@@ -56,6 +57,7 @@ use super::ends::{Ends, larger};
 use super::exact::{self, Passage};
 use super::kind::{Sealed, Stages};
 use super::motion::{Vector, largest};
+use super::normal::{HasNormal, Normal};
 use super::stage::Finding;
 use super::thick;
 use crate::contact::{EdgePlace, FacePlace, Hit, Place};
@@ -72,7 +74,9 @@ pub(super) use turning::{Body, First, Turning};
 /// [`TurningEdgeTurningEdge`], [`TurningVertexTurningFace`], or any of them as a [`RigidQuery`].
 ///
 /// The trait is sealed: no other type can be one.
-pub trait RigidKind: Sealed + Copy + Send + Sync + 'static {
+pub trait RigidKind:
+    Sealed + HasNormal<<Self as RigidKind>::Place> + Copy + Send + Sync + 'static
+{
     /// Where the two sides touch.
     type Place: Copy + std::fmt::Debug + PartialEq + Send + Sync + Into<Place> + 'static;
 
@@ -109,8 +113,20 @@ pub fn decide_rigid_exactly<K: RigidKind>(query: &K) -> Option<Hit<K::Place>> {
 }
 
 macro_rules! kind {
-    ($kind:ident, $linear:ident, $place:ident, $decide:ident, $passage:ident) => {
+    ($kind:ident, $linear:ident, $place:ident, $decide:ident, $passage:ident, $normal:ident) => {
         impl Sealed for $kind {}
+
+        impl HasNormal<$place> for $kind {
+            fn contact_radius(&self) -> Radius {
+                self.radius()
+            }
+
+            fn normal_of(&self, hit: &Hit<$place>) -> Option<Normal> {
+                let turning = self.turning();
+                let exactly = |toi| exact::$normal(&turning, toi);
+                turning.normal::<$linear>(hit, hit.place.error, exactly)
+            }
+        }
 
         impl RigidKind for $kind {
             type Place = $place;
@@ -133,28 +149,32 @@ kind!(
     EdgeEdge,
     EdgePlace,
     decide_turning_edges,
-    passage_of_turning_edges
+    passage_of_turning_edges,
+    normal_of_turning_edges
 );
 kind!(
     VertexTurningFace,
     VertexFace,
     FacePlace,
     decide_turning_face,
-    passage_of_turning_face
+    passage_of_turning_face,
+    normal_of_turning_face
 );
 kind!(
     TurningEdgeTurningEdge,
     EdgeEdge,
     EdgePlace,
     decide_turning_edges,
-    passage_of_turning_edges
+    passage_of_turning_edges,
+    normal_of_turning_edges
 );
 kind!(
     TurningVertexTurningFace,
     VertexFace,
     FacePlace,
     decide_turning_face,
-    passage_of_turning_face
+    passage_of_turning_face,
+    normal_of_turning_face
 );
 
 impl Sealed for RigidQuery {}
@@ -169,6 +189,34 @@ macro_rules! of_any_kind {
             RigidQuery::TurningVertexTurningFace($of) => $answer,
         }
     };
+}
+
+impl HasNormal<Place> for RigidQuery {
+    fn contact_radius(&self) -> Radius {
+        self.radius()
+    }
+
+    /// `None` also for the place of the other kind.
+    fn normal_of(&self, hit: &Hit<Place>) -> Option<Normal> {
+        match hit.place {
+            Place::Edges(place) => {
+                let hit = hit.map_place(|_| place);
+                match self {
+                    RigidQuery::EdgeTurningEdge(query) => query.normal_of(&hit),
+                    RigidQuery::TurningEdgeTurningEdge(query) => query.normal_of(&hit),
+                    _ => None,
+                }
+            }
+            Place::Face(place) => {
+                let hit = hit.map_place(|_| place);
+                match self {
+                    RigidQuery::VertexTurningFace(query) => query.normal_of(&hit),
+                    RigidQuery::TurningVertexTurningFace(query) => query.normal_of(&hit),
+                    _ => None,
+                }
+            }
+        }
+    }
 }
 
 impl RigidKind for RigidQuery {
