@@ -12,7 +12,7 @@ use tunnelproof_reference::oracle;
 use tunnelproof_reference::scaled::{ScaledBody, ScaledRigid, ScaledSide};
 
 use shortest::{
-    Vector, cross, deviation, direction, direction_before, dot, shortest, sub, times, to_f64,
+    Vector, cross, deviation, direction, direction_before, dot, shortest, times, to_f64,
 };
 
 mod shortest;
