@@ -6,8 +6,11 @@
 
 use num_bigint::BigInt;
 use tunnelproof::certified::{Normal, decide_rigid, decide_rigid_exactly};
-use tunnelproof::rigid::RigidQuery;
-use tunnelproof_reference::generate::{RIGID_FAMILIES, RigidFamily};
+use tunnelproof::nalgebra::{Quaternion, Vector3};
+use tunnelproof::query::QueryKind;
+use tunnelproof::rigid::{EdgeTurningEdge, Pose, RigidMotion, RigidQuery, Side};
+use tunnelproof::{EdgeEdge, Point, VertexFace, decide};
+use tunnelproof_reference::generate::{RIGID_FAMILIES, RigidFamily, rigid_by_name};
 use tunnelproof_reference::oracle;
 use tunnelproof_reference::scaled::{ScaledBody, ScaledRigid, ScaledSide};
 
@@ -188,4 +191,177 @@ fn rigid_normal_is_the_exact_one_on_every_family() {
         hits += tally.hits;
     }
     assert!(hits > 0);
+}
+
+/// A reversed normal, one in the body's frame, one of the time of the start, one off by three bounds
+/// and a missing one are seen.
+#[test]
+fn rigid_normal_comparison_sees_planted_faults() {
+    for name in [
+        "turning_uniform",
+        "turning_grazing",
+        "turning_thick_uniform",
+        "turning_bodies_uniform",
+    ] {
+        let family = rigid_by_name(name).expect("a family");
+        let mut seen = 0;
+        for index in 0..100 {
+            let query = family.query(seed(), index);
+            let Some(Some(expected)) = exact_normal(&query) else {
+                continue;
+            };
+            let expected = Some(expected);
+            let [found, _] = normals(&query).expect("a hit");
+            assert!(judge_normal(&found, &expected).is_ok());
+            assert!(judge_normal(&None, &expected).is_err());
+            let right = found.expect("a normal");
+            let is_seen = |direction: Vector3<f64>| {
+                let faulty = Normal { direction, ..right };
+                judge_normal(&Some(faulty), &expected).is_err()
+            };
+            assert!(is_seen(-right.direction));
+            let aside = right.direction.yzx().cross(&right.direction);
+            let aside = aside
+                .try_normalize(1e-3)
+                .map(|aside| aside * 3.0 * right.error);
+            assert!(aside.is_none_or(|aside| is_seen(right.direction + aside)));
+            let hit = decide_rigid(&query).expect("a hit");
+            let [_, second] = query.sides();
+            let turn = |t: f64| {
+                let at = |x: f64, y: f64, z: f64| -> Vector3<f64> {
+                    let Side::Turning { motion, .. } = second else {
+                        unreachable!("the second side turns");
+                    };
+                    motion.position(&Point::new(x, y, z), t) - motion.position(&Point::origin(), t)
+                };
+                [at(1.0, 0.0, 0.0), at(0.0, 1.0, 0.0), at(0.0, 0.0, 1.0)]
+            };
+            let in_body = Vector3::from(turn(hit.toi).map(|axis| axis.dot(&right.direction)));
+            let [x, y, z] = turn(0.0);
+            let at_start = x * in_body.x + y * in_body.y + z * in_body.z;
+            for other in [in_body, at_start] {
+                let is_other = (other - right.direction).norm() > 3.0 * right.error;
+                assert!(!is_other || is_seen(other), "{name} {index}");
+                seen += u32::from(is_other);
+            }
+        }
+        assert!(seen > 30, "{name}: {seen}");
+    }
+}
+
+fn are_near(x: &Option<Normal>, y: &Option<Normal>, sign: f64) -> bool {
+    match (x, y) {
+        (Some(x), Some(y)) => (x.direction - y.direction * sign).norm() <= x.error + y.error,
+        (x, y) => x.is_none() && y.is_none(),
+    }
+}
+
+/// The normal of the linear query of the same points; outside: of a miss.
+fn linear(query: &RigidQuery) -> Option<Option<Normal>> {
+    let (start, end, radius) = (query.positions(0.0), query.positions(1.0), query.radius());
+    match query.kind().linear() {
+        QueryKind::EdgeEdge => {
+            let query = EdgeEdge::new(start, end, radius).expect("finite");
+            decide(&query).map(|hit| hit.normal(&query))
+        }
+        QueryKind::VertexFace => {
+            let query = VertexFace::new(start, end, radius).expect("finite");
+            decide(&query).map(|hit| hit.normal(&query))
+        }
+    }
+}
+
+#[test]
+fn rigid_normal_of_a_translation_is_that_of_the_linear_query() {
+    for name in ["turning_translation", "turning_thick_still"] {
+        let family = rigid_by_name(name).expect("a family");
+        let mut hits = 0;
+        for index in 0..2000 {
+            let query = family.query(seed(), index);
+            let (own, linear) = (normals(&query), linear(&query));
+            let (Some(own), Some(linear)) = (own, linear) else {
+                assert!(own.is_none() && linear.is_none());
+                continue;
+            };
+            for own in own {
+                assert!(are_near(&own, &linear, 1.0), "{own:?} {linear:?} {query:?}");
+            }
+            hits += 1;
+        }
+        assert!(hits > 50, "{name}: {hits}");
+    }
+}
+
+/// Called the other way round, two edges have the reversed normal.
+#[test]
+fn rigid_normal_is_reversed_when_the_bodies_are_swapped() {
+    for name in [
+        "turning_bodies_uniform",
+        "turning_bodies_lattice",
+        "turning_bodies_confined",
+        "turning_bodies_grazing",
+        "turning_bodies_thick_lattice",
+    ] {
+        let family = rigid_by_name(name).expect("a family");
+        let mut hits = 0;
+        for index in 0..150 {
+            let query = family.query(seed(), index);
+            if query.kind().linear() == QueryKind::VertexFace {
+                continue;
+            }
+            let [first, second] = query.sides();
+            let other = RigidQuery::new([second, first], query.radius()).expect("finite");
+            if let (Some(own), Some(other)) = (normals(&query), normals(&other)) {
+                for (own, other) in own.iter().zip(&other) {
+                    assert!(are_near(own, other, -1.0), "{own:?} {other:?} {query:?}");
+                }
+                hits += 1;
+            }
+        }
+        assert!(hits > 5, "{name}: {hits}");
+    }
+}
+
+/// A wire at rest and a rod, which turns by 90 degrees about z.
+fn rod(wire: [Point; 2], rod: [Point; 2], size: f64, radius: f64) -> RigidQuery {
+    let pose = |z: f64| Pose::new(Point::origin(), Quaternion::new(1.0, 0.0, 0.0, z));
+    let motion = RigidMotion::new(pose(0.0), pose(1.0)).expect("90 degrees");
+    let scaled = |points: [Point; 2]| points.map(|p| p * size);
+    let (wire, rod) = (scaled(wire), scaled(rod));
+    EdgeTurningEdge::with_radius(wire, wire, rod, motion, radius * size)
+        .expect("finite")
+        .into()
+}
+
+/// A wire across the plane in which a rod turns, inside it or at its end; with a radius too; and one
+/// in that plane, which the tip of the rod meets.
+#[test]
+fn rigid_normal_is_the_known_one_at_every_scale() {
+    let p = Point::new;
+    let across = [p(1.0, 1.0, -1.0), p(1.0, 1.0, 1.0)];
+    let at_end = [p(1.5, 2.0, -1.0), p(1.5, 2.0, 1.0)];
+    let in_plane = [p(0.0, 2.0, 0.0), p(4.0, 2.0, 0.0)];
+    let own = [p(0.0, 0.0, 0.0), p(2.5, 0.0, 0.0)];
+    let half_root = 0.5f64.sqrt();
+    let known = [
+        (across, 0.0, [half_root, -half_root, 0.0]),
+        (at_end, 0.0, [0.8, -0.6, 0.0]),
+        (in_plane, 0.0, [0.0, -1.0, 0.0]),
+        (in_plane, 0.25, [0.0, -1.0, 0.0]),
+    ];
+    for (wire, radius, expected) in known {
+        for exponent in [-1000, -540, -300, 0, 300, 1000] {
+            let query = rod(wire, own, 2f64.powi(exponent), radius);
+            for normal in normals(&query).expect("a hit") {
+                let normal = normal.expect("a normal");
+                // The numbers that are expected are rounded.
+                let off = (normal.direction - Vector3::from(expected)).norm();
+                assert!(
+                    off <= normal.error + 1e-15,
+                    "{normal:?} {expected:?} {exponent}"
+                );
+                assert!(normal.error < 1e-12, "{normal:?} {exponent}");
+            }
+        }
+    }
 }
