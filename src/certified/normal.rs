@@ -36,6 +36,9 @@
 //! contact, is decided in integers: the first derivative of `w`'s numerator that is not 0 at the
 //! exact time (`exact::thick::normal`).
 //!
+//! Of bodies that turn it is the same, by the same two computations in the frame of a body
+//! (`rigid::normal`).
+//!
 //! The error is mostly 1e-15 to 1e-13 in `f64`, or that of the weights times size over radius;
 //! 2^-50 from integers. It is never above [`WORST`].
 

@@ -76,7 +76,8 @@ impl Step {
 }
 
 impl Bounded {
-    /// A vector from its components and bounds on their errors.
+    /// A vector from its components and bounds on their errors, of which the sum is at least the
+    /// Euclidean length.
     pub(in crate::certified) fn of(components: [(f64, f64); 3]) -> Self {
         let [a, b, c] = components.map(|(_, error)| error);
         let value = components.map(|(value, _)| value);

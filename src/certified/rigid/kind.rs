@@ -35,7 +35,8 @@ pub trait RigidKind:
 ///
 /// The query is of any [`RigidKind`]. The answer is as that of
 /// [`decide`](crate::decide): no hit is false, no contact is missed, [`toi`](Hit::toi) is the exact
-/// time of impact rounded down, and the place has an error of at most `2^-50`.
+/// time of impact rounded down, and the place has an error of at most `2^-50`. The contact normal is
+/// computed where [`Hit::normal`] asks for it.
 ///
 /// # Panics
 ///

@@ -1,10 +1,16 @@
 //! The contact normal: what [`normal`](crate::certified::normal) says of linear motion, here in the
 //! frame of the second side's body, and turned into space by `M(q)`.
 //!
-//! All vectors are times something above 0, which no direction depends on. The exact time is between
-//! `toi` and `toi_above`; errors are counted from there on ([`Rough`]). The time is off by an ulp and
-//! turns a vector by about as much as the roundings do, so that numbers of twice the precision would
-//! add little.
+//! All vectors are times something above 0, on which no direction depends. Where contact is inside
+//! both sides it is the perpendicular `N = K x L` with the sign of `f = M . N` just before, which is
+//! [`Hit::side`]: `N` is not 0 at the contact, and the points move continuously, so that the feet of
+//! the perpendicular are inside just before as well. With a radius it is also the vector between
+//! the nearest points, `M + v L - u K`. What neither shows is decided in integers
+//! (`exact::thick::normal`).
+//!
+//! The exact time is within `toi_above - toi` of `toi`, and `u` and `v` are within the error of the
+//! place; [`Rough`] carries both to the result. The time is off by an ulp, which turns a vector by
+//! about as much as roundings do: numbers of twice the precision would add little.
 
 use super::differences::{Arm, Differences, into_space};
 use super::rough::Rough;
