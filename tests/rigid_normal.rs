@@ -6,6 +6,7 @@
 
 use num_bigint::BigInt;
 use tunnelproof::certified::{Normal, decide_rigid, decide_rigid_exactly};
+use tunnelproof::contact::Place;
 use tunnelproof::nalgebra::{Quaternion, Vector3};
 use tunnelproof::query::QueryKind;
 use tunnelproof::rigid::{EdgeTurningEdge, Pose, RigidMotion, RigidQuery, Side};
@@ -363,5 +364,24 @@ fn rigid_normal_is_the_known_one_at_every_scale() {
                 assert!(normal.error < 1e-12, "{normal:?} {exponent}");
             }
         }
+    }
+}
+
+/// A normal of another query's hit means nothing, but ends; that of another kind of place is none.
+#[test]
+fn rigid_normal_of_a_hit_of_another_query_is_no_panic() {
+    for family in families() {
+        let hits = (0..60).filter_map(|index| decide_rigid(&family.query(seed(), index)));
+        let mut others = 0;
+        for (index, hit) in hits.enumerate() {
+            let query = family.query(seed() + 1, index as u64);
+            let normal = hit.normal(&query);
+            let is_edges = matches!(hit.place, Place::Edges(_));
+            if is_edges != (query.kind().linear() == QueryKind::EdgeEdge) {
+                assert_eq!(normal, None);
+                others += 1;
+            }
+        }
+        println!("{}: {others} of the other kind", family.name());
     }
 }

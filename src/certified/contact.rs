@@ -50,7 +50,8 @@ impl<P> Hit<P> {
     ///   integers. It takes from ten to some hundreds of microseconds there, and
     ///   milliseconds where exponents span the range of `f64`, else well under one microsecond.
     ///
-    /// Of [bodies that turn](crate::decide_rigid) it is the same, in space.
+    /// Of [bodies that turn](crate::decide_rigid) it is the same, in space; integers mostly take from
+    /// fifty to three hundred microseconds there.
     ///
     /// `None` if and only if the sides share a point at the start of the step: then there is no
     /// direction that they come from. Sides that start within the radius and apart have one. The
