@@ -85,5 +85,8 @@ FAULTS = [
     ("thick/turning", "let discriminant = square - product + 16.0 * U * size;", "let discriminant = square - product;", "by hand"),
     ("thick/nearness", "(first.most > SHORTEST && second.most > SHORTEST).then_some((fall, error))", "Some((fall, error))", "by hand"),
     ("normal/bounded", "let relative = self.error / largest / length;", "let relative = self.error / length;", "by hand"),
+    ("normal/bounded", "error: (a + b + c) * (1.0 + 16.0 * E)", "error: (a + b) * (1.0 + 16.0 * E)", "by hand"),
+    ("rigid/normal", "Rough::new(hit.toi, hit.toi_above - hit.toi)", "Rough::new(hit.toi, 0.0)", "by hand"),
+    ("rigid/normal", "Rough::new(share, error)", "Rough::new(share, 0.0)", "by hand"),
     ("refine", "cubic.curvature() * width * width", "cubic.curvature() * width", "by hand"),
 ]

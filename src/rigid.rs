@@ -15,7 +15,7 @@
 //! clock is another one: see [`RigidMotion`].
 //!
 //! ```
-//! use tunnelproof::nalgebra::Quaternion;
+//! use tunnelproof::nalgebra::{Quaternion, Vector3};
 //! use tunnelproof::rigid::{EdgeTurningEdge, Pose, RigidMotion};
 //! use tunnelproof::{Point, decide_rigid};
 //!
@@ -32,6 +32,10 @@
 //! // The square root of 2, less 1: rounded down and up.
 //! assert_eq!(hit.toi, 0.414_213_562_373_095_03);
 //! assert_eq!(hit.toi_above, 0.414_213_562_373_095_1);
+//! // From the wire to the rod, which comes from the x axis.
+//! let normal = hit.normal(&query).expect("they are apart at the start");
+//! let expected = Vector3::new(1.0, -1.0, 0.0).normalize();
+//! assert!((normal.direction - expected).norm() < 1e-15 && normal.error < 1e-14);
 //! # Ok::<(), tunnelproof::rigid::RigidError>(())
 //! ```
 

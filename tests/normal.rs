@@ -17,10 +17,10 @@ use tunnelproof_reference::scaled::Scaled;
 
 use corners::{all_scales, cases, lattice, nearly_degenerate, ordinary_scales, uniform};
 
-mod corners;
+use shortest::{Vector, deviation, direction, direction_before, shortest, to_f64};
 
-/// The bits of numbers in fixed point.
-const BITS: u64 = 200;
+mod corners;
+mod shortest;
 
 /// The largest bound that there may be.
 const WORST: f64 = 1.0 / (1u64 << 32) as f64;
@@ -28,200 +28,21 @@ const WORST: f64 = 1.0 / (1u64 << 32) as f64;
 /// The bound of the normals that integers give.
 const EXACT: f64 = 4.0 * f64::EPSILON;
 
-type Vector = [BigInt; 3];
-
-fn sub(x: &Vector, y: &Vector) -> Vector {
-    [0, 1, 2].map(|i: usize| &x[i] - &y[i])
-}
-
-fn times(factor: &BigInt, x: &Vector) -> Vector {
-    x.each_ref().map(|x| factor * x)
-}
-
-fn dot(x: &Vector, y: &Vector) -> BigInt {
-    &x[0] * &y[0] + &x[1] * &y[1] + &x[2] * &y[2]
-}
-
-fn cross(x: &Vector, y: &Vector) -> Vector {
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j): (usize, usize)| &x[i] * &y[j] - &x[j] * &y[i])
-}
-
-/// The vector `way / by`, `by` above 0.
-struct Candidate {
-    way: Vector,
-    by: BigInt,
-}
-
-impl Candidate {
-    fn is_shorter(&self, other: &Self) -> bool {
-        dot(&self.way, &self.way) * &other.by * &other.by
-            < dot(&other.way, &other.way) * &self.by * &self.by
-    }
-}
-
-/// From a point to the nearest one of a segment.
-fn to_segment(x: &Vector, y: &Vector, z: &Vector) -> Candidate {
-    let (edge, to_y, to_z) = (sub(z, y), sub(y, x), sub(z, x));
-    let (square, along) = (dot(&edge, &edge), -dot(&to_y, &edge));
-    let zero = BigInt::ZERO;
-    let one = BigInt::from(1);
-    if along <= zero {
-        Candidate { way: to_y, by: one }
-    } else if along >= square {
-        Candidate { way: to_z, by: one }
-    } else {
-        let foot = [0, 1, 2].map(|i: usize| &to_y[i] * &square + &edge[i] * &along);
-        Candidate {
-            way: foot,
-            by: square,
-        }
-    }
-}
-
-fn reversed(candidate: Candidate) -> Candidate {
-    Candidate {
-        way: candidate.way.map(|x| -x),
-        ..candidate
-    }
-}
-
-/// From the line of AB to that of CD, or from A to the plane of B, C and D, if that ends inside;
-/// the part of `m` along the perpendicular of `k` and `l`. `is_inside` is asked for the two shares
-/// of `k` and `l` that go to the nearest points, times the last number.
-fn perpendicular(
-    m: &Vector,
-    k: &Vector,
-    l: &Vector,
-    is_inside: impl Fn(&BigInt, &BigInt, &BigInt) -> bool,
-) -> Option<Candidate> {
-    let n = cross(k, l);
-    let square = dot(&n, &n);
-    if square == BigInt::ZERO {
-        return None;
-    }
-    // m = s k + t l + r n
-    let (s, t) = (dot(&cross(m, l), &n), dot(&cross(k, m), &n));
-    is_inside(&s, &t, &square).then(|| Candidate {
-        way: times(&dot(m, &n), &n),
-        by: square,
-    })
-}
-
-/// The shortest vector from the first side to the second.
-fn shortest(kind: QueryKind, [a, b, c, d]: &[Vector; 4]) -> Vector {
-    let is_in = |x: &BigInt, one: &BigInt| *x >= BigInt::ZERO && x <= one;
-    let candidates = match kind {
-        QueryKind::EdgeEdge => {
-            let cut = perpendicular(&sub(c, a), &sub(b, a), &sub(d, c), |s, t, one| {
-                // C - A = s K + t L + ..., so that C - t L is the point of CD
-                is_in(s, one) && is_in(&-t, one)
-            });
-            vec![
-                Some(to_segment(a, c, d)),
-                Some(to_segment(b, c, d)),
-                Some(reversed(to_segment(c, a, b))),
-                Some(reversed(to_segment(d, a, b))),
-                cut,
-            ]
-        }
-        QueryKind::VertexFace => {
-            let foot = perpendicular(&sub(a, b), &sub(c, b), &sub(d, b), |s, t, one| {
-                is_in(s, one) && is_in(t, one) && s + t <= *one
-            });
-            vec![
-                Some(to_segment(a, b, c)),
-                Some(to_segment(a, c, d)),
-                Some(to_segment(a, d, b)),
-                foot.map(reversed),
-            ]
-        }
-    };
-    let all = candidates.into_iter().flatten();
-    let shortest = all.reduce(|best, other| match other.is_shorter(&best) {
-        true => other,
-        false => best,
-    });
-    shortest.expect("there are candidates").way
-}
-
-/// The direction in fixed point; `None` of 0.
-fn direction(way: &Vector) -> Option<Vector> {
-    let bits = way.iter().map(BigInt::bits).max().expect("three");
-    let up = (4 * BITS).saturating_sub(bits);
-    let way = way.each_ref().map(|x| x << up);
-    let length = dot(&way, &way).sqrt();
-    (bits > 0).then(|| way.map(|x| (x << BITS) / &length))
-}
-
-fn to_f64(x: &BigInt) -> f64 {
-    let down = x.bits().saturating_sub(64);
-    let head = i128::try_from(x >> down).expect("64 bits");
-    head as f64 * 2f64.powi(down as i32 - BITS as i32)
-}
-
-fn distance(x: &Vector, y: &Vector) -> f64 {
-    let [x, y, z] = sub(x, y).each_ref().map(to_f64);
-    x.hypot(y).hypot(z)
-}
-
-fn fixed(normal: &Normal) -> Vector {
-    let fixed = |x: f64| {
-        let bits = x.to_bits();
-        let biased = (bits >> 52 & 0x7ff) as i64;
-        let mantissa = (bits & ((1 << 52) - 1)) | u64::from(biased != 0) << 52;
-        let shift = biased.max(1) - 1075 + BITS as i64;
-        let magnitude = match shift < 0 {
-            true => BigInt::from(mantissa) >> shift.unsigned_abs(),
-            false => BigInt::from(mantissa) << shift,
-        };
-        if x < 0.0 { -magnitude } else { magnitude }
-    };
-    [normal.direction.x, normal.direction.y, normal.direction.z].map(fixed)
-}
-
 /// The exact normal in fixed point; `None` where the sides touch at the start. Outside: of a miss.
 fn exact_normal(query: &Query) -> Option<Option<Vector>> {
     let decision = oracle::decide::<BigInt>(query);
     let toi = decision.toi()?;
     let points = Scaled::<BigInt>::new(query);
-    let direction_at = |numerator: BigInt, exponent: u64| {
-        let rest = (BigInt::from(1) << exponent) - &numerator;
+    let direction_at = |numerator: &BigInt, exponent: u64| {
+        let rest = (BigInt::from(1) << exponent) - numerator;
         let at = [0, 1, 2, 3].map(|p: usize| {
-            [0, 1, 2].map(|i: usize| &rest * &points.start[p][i] + &numerator * &points.end[p][i])
+            [0, 1, 2].map(|i: usize| &rest * &points.start[p][i] + numerator * &points.end[p][i])
         });
         direction(&shortest(query.kind(), &at))
     };
-    if toi.is_zero() {
-        return Some(direction_at(BigInt::ZERO, 0));
-    }
-    // 2^-least is below the time of impact.
-    let mut least = 64;
-    while {
-        toi.refine(least);
-        toi.bounds().0 == BigInt::ZERO
-    } {
-        least *= 2;
-    }
-    // So shortly before that no point moves by more than 2^-200 of the smallest unit of the
-    // coordinates.
     let all = points.start.iter().chain(&points.end).flatten();
     let span = all.map(BigInt::bits).max().expect("24");
-    let mut last: Option<Vector> = None;
-    let mut bits = least + span + 200;
-    loop {
-        toi.refine(bits);
-        let (low, _, exponent) = toi.bounds();
-        let common = exponent.max(bits);
-        let before = (low << (common - exponent)) - (BigInt::from(1) << (common - bits));
-        let here = direction_at(before, common).expect("apart before contact");
-        if let Some(last) = last
-            && distance(&last, &here) < 2f64.powi(-90)
-        {
-            return Some(Some(here));
-        }
-        last = Some(here);
-        bits *= 2;
-    }
+    Some(direction_before(toi, span, direction_at))
 }
 
 /// The normal of both stages' hits; outside: of a miss.
@@ -268,20 +89,17 @@ fn judge(query: &Query, tally: &mut Tally) -> Result<(), String> {
             }
             continue;
         };
-        let own = fixed(normal);
-        let off = distance(&own, expected);
-        let length = dot(&own, &own).sqrt() - (BigInt::from(1) << BITS);
-        let is_right = off <= normal.error && normal.error <= WORST;
-        if !is_right || to_f64(&length).abs() > 2f64.powi(-50) {
+        let (off, from_unit) = deviation(normal, expected);
+        if !(off <= 1.0 && normal.error <= WORST && from_unit <= 2f64.powi(-50)) {
             let [x, y, z] = expected.each_ref().map(to_f64);
             return Err(format!(
-                "{normal:?} instead of {:?}, off by {off:e}, for {query:?}",
+                "{normal:?} instead of {:?}, off by {off:e} bounds, for {query:?}",
                 [x, y, z]
             ));
         }
         tally.exact += u32::from(normal.error == EXACT);
         tally.worst_error = tally.worst_error.max(normal.error);
-        tally.worst_ratio = tally.worst_ratio.max(off / normal.error);
+        tally.worst_ratio = tally.worst_ratio.max(off);
     }
     Ok(())
 }

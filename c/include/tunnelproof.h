@@ -116,10 +116,10 @@ typedef struct tunnelproof_hit {
    * which is at most 2^-32. */
   double place_error;
   /* The unit vector along which they touch, from the first side to the second as they are just
-   * before the contact. 0, 0, 0 where there is none: they share a point at the start of the
-   * step. Of bodies that turn it is not computed, and always 0, 0, 0. */
+   * before the contact; of bodies that turn too, in space. 0, 0, 0 where there is none: they share a
+   * point at the start of the step. */
   double normal[3];
-  /* The distance of `normal` from the exact one is at most this. */
+  /* The distance of `normal` from the exact one is at most this, which is at most 2^-32. */
   double normal_error;
 } tunnelproof_hit;
 
@@ -158,7 +158,7 @@ int64_t tunnelproof_decide_vertex_face_batch(const double *points, const double 
  * given. Quaternions may have any length but 0; q and -q mean the same, and the shorter turn is
  * taken. It may be 90 degrees at most: divide the step otherwise.
  *
- * The answer is as above, but for the normal, which is 0, 0, 0; `place_error` is at most 2^-50.
+ * The answer is as above, with the normal in space; `place_error` is at most 2^-50.
  * Where the body does not turn, it is that of the functions above. Ordinary contacts take
  * microseconds; grazes, ends of edges and times that are doubles take up to some milliseconds. */
 int32_t tunnelproof_decide_edge_turning_edge(const double *points, const double *local,

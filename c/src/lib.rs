@@ -13,8 +13,8 @@ use std::slice;
 use tunnelproof::certified::Kind;
 use tunnelproof::contact::Place;
 use tunnelproof::{
-    Batch, Case, ContactKind, ContactPoint as EnginePoint, EdgeEdge, Hit as EngineHit, Point,
-    QueryError, Radius, VertexFace,
+    Batch, Case, ContactKind, ContactPoint as EnginePoint, EdgeEdge, Hit as EngineHit, Normal,
+    Point, QueryError, Radius, VertexFace,
 };
 use tunnelproof_float_env::with_default;
 
@@ -79,18 +79,15 @@ pub struct Hit {
 impl Hit {
     fn new<Q: Query>(query: &Q, hit: &EngineHit<Q::Place>) -> Self {
         let (first, second) = hit.points(query);
-        let normal = hit.normal(query);
-        Hit {
-            normal: normal.map_or([0.0; 3], |normal| normal.direction.into()),
-            normal_error: normal.map_or(0.0, |normal| normal.error),
-            ..Hit::without_normal(hit, first.into(), second.map(ContactPoint::from))
-        }
+        let points = (first.into(), second.map(ContactPoint::from));
+        Hit::at(hit, points, hit.normal(query))
     }
 
-    fn without_normal<P: Copy + Into<Place>>(
+    /// A hit with its point or points and its normal.
+    fn at<P: Copy + Into<Place>>(
         hit: &EngineHit<P>,
-        first: ContactPoint,
-        second: Option<ContactPoint>,
+        (first, second): (ContactPoint, Option<ContactPoint>),
+        normal: Option<Normal>,
     ) -> Self {
         let place: Place = hit.place.into();
         Hit {
@@ -105,8 +102,8 @@ impl Hit {
             first,
             second: second.unwrap_or(first),
             place_error: place.error(),
-            normal: [0.0; 3],
-            normal_error: 0.0,
+            normal: normal.map_or([0.0; 3], |normal| normal.direction.into()),
+            normal_error: normal.map_or(0.0, |normal| normal.error),
         }
     }
 }

@@ -72,11 +72,8 @@ fn decide(query: &RigidQuery, out: Option<&mut MaybeUninit<Hit>>) -> i32 {
             point: query.point(&weights, hit.toi).into(),
         };
         let (first, second) = hit.place.weights();
-        out.write(Hit::without_normal(
-            &hit,
-            contact(first),
-            second.map(contact),
-        ));
+        let points = (contact(first), second.map(contact));
+        out.write(Hit::at(&hit, points, hit.normal(query)));
     }
     HIT
 }

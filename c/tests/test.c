@@ -134,7 +134,9 @@ static void turning(void) {
   CHECK(fabs(weights[2] - 1 + half_root) < 1e-15 && fabs(weights[3] - half_root) < 1e-15);
   CHECK(is_near(hit.first.point, 1, 1, 0, 1e-15) && hit.place_error <= ldexp(1, -50));
   CHECK(memcmp(&hit.second, &hit.first, sizeof hit.first) == 0);
-  CHECK(is_near(hit.normal, 0, 0, 0, 0) && hit.normal_error == 0);
+  /* From the wire to the rod, which comes from the x axis. */
+  CHECK(is_near(hit.normal, half_root, -half_root, 0, 1e-14));
+  CHECK(hit.normal_error > 0 && hit.normal_error <= 1e-14);
   CHECK(tunnelproof_decide_edge_turning_edge(wire, rod, quarter, NULL, NULL) == TUNNELPROOF_HIT);
 
   CHECK(tunnelproof_decide_edge_turning_edge(wire, rod, quarter, radii, &hit) == TUNNELPROOF_HIT);
@@ -219,6 +221,7 @@ static void two_bodies(void) {
   CHECK(tunnelproof_decide_edge_turning_edge(wire, rod, quarter, NULL, &other) == TUNNELPROOF_HIT);
   CHECK(hit.toi == other.toi && hit.toi_above == other.toi_above && hit.side == other.side);
   CHECK(is_near(hit.first.point, 1, 1, 0, 1e-15));
+  CHECK(is_near(hit.normal, sqrt(0.5), -sqrt(0.5), 0, 1e-14) && hit.normal_error > 0);
   memcpy(many_local, local, sizeof local);
   memcpy(many_local + 12, local, sizeof local);
   memcpy(many_poses, poses, sizeof poses);

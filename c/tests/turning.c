@@ -82,6 +82,14 @@ static int is_between(double value, const char *line, const char *name, double e
   return below - error <= value && value <= above + error;
 }
 
+/* Whether the normal is a unit vector, or missing where they may share a point at the start. */
+static int is_normal(const tunnelproof_hit *hit) {
+  const double *n = hit->normal;
+  const double square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+  if (square == 0) return hit->toi_above == 0 && hit->normal_error == 0;
+  return fabs(square - 1) < 1e-14 && hit->normal_error > 0 && hit->normal_error <= ldexp(1, -32);
+}
+
 static int is_same(const tunnelproof_hit *hit, const query *of, const char *line) {
   static const char *cases[] = {"", "general", "coplanar", "parallel", "collinear", "shared-start",
                                 "degenerate"};
@@ -94,7 +102,7 @@ static int is_same(const tunnelproof_hit *hit, const query *of, const char *line
          hit->side == number(line, "\"side\":") && says(line, motion_case) &&
          hit->temporarily_parallel == says(line, "\"temporarily_parallel\":true") &&
          hit->temporarily_point == says(line, "\"temporarily_point\":true") &&
-         hit->place_error <= ldexp(1, -50) &&
+         hit->place_error <= ldexp(1, -50) && is_normal(hit) &&
          is_between(weights[of->is_face ? 2 : 1], line, "u", hit->place_error) &&
          is_between(weights[3], line, "v", hit->place_error);
 }

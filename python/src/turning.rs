@@ -109,14 +109,14 @@ fn written<'py>(
     columns(py, &each(py, &queries, row)?)
 }
 
-/// A hit with its points in space. There is no normal.
+/// A hit with its points and its normal in space.
 fn row(query: &RigidQuery, hit: Hit<Place>) -> Row {
     let contact = |weights| (weights, query.point(&weights, hit.toi));
     let (first, second) = hit.place.weights();
     Row {
-        hit,
+        normal: hit.normal(query),
         first: contact(first),
         second: second.map(contact),
-        normal: None,
+        hit,
     }
 }

@@ -93,7 +93,13 @@ def test_answers_are_those_of_the_oracle_to_the_last_bit(kind, lattice, tmp_path
         places = [1, 3] if kind == "edge-turning-edge" else [2, 3]
         for place, name in zip(places, "uv"):
             assert is_between(weights[place], exact[name], error + 2.0**-53)
-    assert (hits.normal[hits.hit] == 0).all() and (hits.normal_error[hits.hit] == 0).all()
+    length = np.linalg.norm(hits.normal[hits.hit], axis=1)
+    has_normal = length > 0
+    # There is none where they share a point at the start.
+    assert (has_normal | (hits.toi_above[hits.hit] == 0)).all() and has_normal.any()
+    assert np.abs(length[has_normal] - 1).max() < 1e-15
+    error = hits.normal_error[hits.hit]
+    assert (error <= 2.0**-32).all() and ((error > 0) == has_normal).all()
 
 
 def test_a_rod_that_turns_through_a_wire_has_every_column():
@@ -107,6 +113,9 @@ def test_a_rod_that_turns_through_a_wire_has_every_column():
     assert np.abs(hits.first.weights - [0.5, 0.5, 1 - math.sqrt(0.5), math.sqrt(0.5)]).max() < 1e-15
     assert np.abs(hits.first.point - [1, 1, 0]).max() < 1e-15
     assert not hits.has_second.any()
+    # From the wire to the rod, which comes from the x axis.
+    off = np.linalg.norm(hits.normal - np.array([[1, -1, 0]]) * math.sqrt(0.5))
+    assert off <= hits.normal_error[0] <= 1e-14
     thick = tunnelproof.decide_rigid("edge-turning-edge", [WIRE + WIRE], [ROD], QUARTER, [[0.1, 0.2]])
     assert thick.hit.all() and thick.toi[0] < hits.toi[0] - 0.1
 
@@ -125,6 +134,9 @@ def test_without_a_turn_the_answer_is_that_of_the_linear_query():
     assert 50 < linear.hit.sum() < 300
     for name in ("hit", "toi", "toi_above", "kind", "side", "case", "has_second"):
         assert getattr(turning, name).tobytes() == getattr(linear, name).tobytes(), name
+    off = np.linalg.norm(turning.normal - linear.normal, axis=1)
+    near = off <= turning.normal_error + linear.normal_error
+    assert (near | ~linear.hit).all() and (linear.normal_error[linear.hit] > 0).sum() > 20
     for end in ("first", "second"):
         found, expected = getattr(turning, end), getattr(linear, end)
         assert np.nanmax(np.abs(found.weights - expected.weights)) < 1e-9

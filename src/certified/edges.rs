@@ -7,7 +7,7 @@ use super::kind::{Kind, Sealed, Stages, query_parts};
 use super::locate::Place;
 use super::motion::{Motion, Positions};
 use super::nearest::{self, Gram, Spot};
-use super::normal::{self, Normal};
+use super::normal::{self, HasNormal, Normal};
 use super::refine::Root;
 use super::root::{Bracket, Half};
 use super::separate::SweptBoxes;
@@ -24,14 +24,21 @@ impl Kind for EdgeEdge {
     query_parts!();
 }
 
+impl HasNormal<EdgePlace> for EdgeEdge {
+    fn contact_radius(&self) -> Radius {
+        self.radius()
+    }
+
+    fn normal_of(&self, hit: &Hit<EdgePlace>) -> Option<Normal> {
+        let positions = Positions::of(self.start(), self.end());
+        normal::of_edges(&positions, self.radius(), hit)
+    }
+}
+
 impl Stages for EdgeEdge {
     type Place = EdgePlace;
 
     const FIRST: usize = 2;
-
-    fn normal(positions: &Positions, radius: Radius, hit: &Hit<EdgePlace>) -> Option<Normal> {
-        normal::of_edges(positions, radius, hit)
-    }
 
     fn weights(place: &EdgePlace) -> ([f64; 4], Option<[f64; 4]>) {
         (place.first.weights(), place.second.map(EdgePoint::weights))

@@ -7,7 +7,7 @@ use super::ends::Ends;
 use super::exact::Passage;
 use super::motion::{Motion, Positions};
 use super::nearest::{Gram, Spot};
-use super::normal::Normal;
+use super::normal::HasNormal;
 use super::root::{Bracket, Half};
 use super::separate::SweptBoxes;
 use super::stage::Stage;
@@ -18,7 +18,7 @@ use crate::query::{Point, Radius};
 /// [`VertexFace`](crate::query::VertexFace).
 ///
 /// The trait is sealed: no other type can be one. `decide(&query)` and `Batch` take either.
-pub trait Kind: Sealed + Copy + Send + Sync + 'static {
+pub trait Kind: Sealed + HasNormal<<Self as Kind>::Place> + Copy + Send + Sync + 'static {
     /// Where the two sides touch: [`EdgePlace`](crate::contact::EdgePlace) or
     /// [`FacePlace`](crate::contact::FacePlace).
     type Place: Copy + Debug + PartialEq + Send + Sync + Into<Place> + 'static;
@@ -51,9 +51,6 @@ pub(super) trait Stages: 'static {
 
     /// How many of the four points are of the first side.
     const FIRST: usize;
-
-    /// The direction in which they touch, and where they do.
-    fn normal(positions: &Positions, radius: Radius, hit: &Hit<Self::Place>) -> Option<Normal>;
 
     /// The weights of A, B, C and D in the places of a contact.
     fn weights(place: &Self::Place) -> ([f64; 4], Option<[f64; 4]>);

@@ -88,7 +88,7 @@ pub use discrete::{Proximity, decide_discrete};
 pub use kind::Kind;
 pub(crate) use motion::Positions;
 pub use narrow::Certified;
-pub use normal::Normal;
+pub use normal::{HasNormal, Normal};
 pub use rigid::{RigidKind, decide_rigid, decide_rigid_exactly};
 pub use stage::Stage;
 pub use step::{Advance, Blocked, Clearance, ClearanceError, advance, interpolate};

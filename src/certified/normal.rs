@@ -36,19 +36,24 @@
 //! contact, is decided in integers: the first derivative of `w`'s numerator that is not 0 at the
 //! exact time (`exact::thick::normal`).
 //!
+//! Of bodies that turn it is the same, by the same two computations in the frame of a body
+//! (`rigid::normal`).
+//!
 //! The error is mostly 1e-15 to 1e-13 in `f64`, or that of the weights times size over radius;
 //! 2^-50 from integers. It is never above [`WORST`].
 
 use nalgebra::Vector3;
 
 use super::exact::{normal_of_edges_exactly, normal_of_face_exactly};
+use super::kind::Sealed;
 use super::motion::{Positions, Vector, cross, sub};
 use crate::contact::{EdgePlace, EdgePoint, FacePlace, Hit};
 use crate::query::Radius;
 
 mod bounded;
 
-use bounded::{Bounded, Step};
+pub(super) use bounded::Bounded;
+use bounded::Step;
 
 /// A contact normal with a bound on its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,6 +62,20 @@ pub struct Normal {
     pub direction: Vector3<f64>,
     /// The distance of `direction` from the exact normal is at most this, which is at most 2^-32.
     pub error: f64,
+}
+
+/// A query whose hits have a contact normal: of any [`Kind`](super::Kind) or
+/// [`RigidKind`](super::RigidKind). `P` is where its sides touch.
+///
+/// The trait is sealed: no other type can be one.
+pub trait HasNormal<P>: Sealed {
+    /// The distance at which the two sides count as touching.
+    #[doc(hidden)]
+    fn contact_radius(&self) -> Radius;
+
+    /// [`Hit::normal`] of a hit whose times are those of a step, and above 0 without a radius.
+    #[doc(hidden)]
+    fn normal_of(&self, hit: &Hit<P>) -> Option<Normal>;
 }
 
 /// The largest [`Normal::error`], 2^-32.
@@ -142,7 +161,7 @@ pub(super) fn normal_of_face(
 /// both, at the time of impact. The sign of `f` is that of their scalar product, up to the order of
 /// the points. With radius 0 both are so just before contact, too: if `f` were 0 there, the contact
 /// would not be the first. The vector between the nearest points is 0 at a contact with radius 0.
-fn nearest(
+pub(super) fn nearest(
     is_inside: bool,
     radius: Radius,
     at: &At,
@@ -160,7 +179,7 @@ fn nearest(
 
 /// Whether a parameter is proved to be strictly between 0 and 1. `1 - x` is exact where it matters:
 /// from 1/2 on.
-fn is_inside(x: f64, error: f64) -> bool {
+pub(super) fn is_inside(x: f64, error: f64) -> bool {
     x > error && 1.0 - x > error
 }
 
@@ -172,7 +191,7 @@ fn positions(start: &[Vector; 4], end: &[Vector; 4]) -> Positions {
 }
 
 /// A normal from integers; they say that the error is at most 2^-50.
-fn exact(direction: Vector) -> Normal {
+pub(super) fn exact(direction: Vector) -> Normal {
     Normal {
         direction: Vector3::from(direction),
         error: 4.0 * f64::EPSILON,
@@ -209,7 +228,7 @@ pub(super) fn of_face(
 }
 
 impl At {
-    fn new<P>(hit: &Hit<P>, error: f64) -> Self {
+    pub(super) fn new<P>(hit: &Hit<P>, error: f64) -> Self {
         At {
             toi: hit.toi,
             toi_above: hit.toi_above,

@@ -45,8 +45,8 @@ def decide_rigid(
         the end, x, y, z of the centre in metres and w, x, y, z of the quaternion. Of two bodies
         ``(n, 4, 7)`` or ``(4, 7)``: those of the first one, then those of the second one.
     :param radius: a number, shape ``(n,)``, or shape ``(n, 2)`` for exact sums of two, in metres.
-    :returns: as :func:`decide`, but for the normal, which is not computed, and 0. The error of a
-        place is at most ``2**-50``.
+    :returns: as :func:`decide`, points and normals in space. The error of a place is at most
+        ``2**-50``.
     :raises ValueError: for other kinds and shapes, for a number that is not finite, a radius below 0,
         a quaternion that is 0, and a body that turns by more than 90 degrees; says which.
 
@@ -58,6 +58,8 @@ def decide_rigid(
     >>> hits = decide_rigid("edge-turning-edge", [wire + wire], [rod], poses)
     >>> hits.hit, hits.first.point
     (array([ True]), array([[1., 1., 0.]]))
+    >>> hits.normal.round(9) + 0.0
+    array([[ 0.70710678, -0.70710678,  0.        ]])
     >>> float(hits.toi[0])      # the square root of 2, less 1, rounded down
     0.41421356237309503
     """

@@ -74,7 +74,8 @@ use locus::{Locus, Place};
 pub(super) use near::are_near;
 pub(super) use passage::{Passage, passage_of_edges, passage_of_face};
 pub(super) use rigid::{
-    decide_turning_edges, decide_turning_face, passage_of_turning_edges, passage_of_turning_face,
+    decide_turning_edges, decide_turning_face, normal_of_turning_edges, normal_of_turning_face,
+    passage_of_turning_edges, passage_of_turning_face,
 };
 use scaled::Scaled;
 pub(super) use thick::{

@@ -21,7 +21,7 @@ use super::exact::{self, Passage};
 use super::kind::{Kind, Sealed, Stages, query_parts};
 use super::motion::{Motion, Positions};
 use super::nearest::{self, Gram, Spot};
-use super::normal::{self, Normal};
+use super::normal::{self, HasNormal, Normal};
 use super::refine::Root;
 use super::root::{Bracket, Half};
 use super::separate::{SweptBoxes, U};
@@ -37,14 +37,21 @@ impl Kind for VertexFace {
     query_parts!();
 }
 
+impl HasNormal<FacePlace> for VertexFace {
+    fn contact_radius(&self) -> Radius {
+        self.radius()
+    }
+
+    fn normal_of(&self, hit: &Hit<FacePlace>) -> Option<Normal> {
+        let positions = Positions::of(self.start(), self.end());
+        normal::of_face(&positions, self.radius(), hit)
+    }
+}
+
 impl Stages for VertexFace {
     type Place = FacePlace;
 
     const FIRST: usize = 1;
-
-    fn normal(positions: &Positions, radius: Radius, hit: &Hit<FacePlace>) -> Option<Normal> {
-        normal::of_face(positions, radius, hit)
-    }
 
     fn weights(place: &FacePlace) -> ([f64; 4], Option<[f64; 4]>) {
         let [b, c, d] = place.weights;

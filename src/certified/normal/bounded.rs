@@ -31,7 +31,7 @@ pub(super) struct Step {
 
 /// A vector, computed.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bounded {
+pub(in crate::certified) struct Bounded {
     value: Vector,
     /// At least the sum of its components' magnitudes, up to a relative error of a few `e`.
     size: f64,
@@ -76,6 +76,18 @@ impl Step {
 }
 
 impl Bounded {
+    /// A vector from its components and bounds on their errors, of which the sum is at least the
+    /// Euclidean length.
+    pub(in crate::certified) fn of(components: [(f64, f64); 3]) -> Self {
+        let [a, b, c] = components.map(|(_, error)| error);
+        let value = components.map(|(value, _)| value);
+        Bounded {
+            value,
+            size: sum(&value),
+            error: (a + b + c) * (1.0 + 16.0 * E),
+        }
+    }
+
     /// `factor self` for a factor in `[0, 1]` that is off by at most `inexact`.
     pub(super) fn times(&self, factor: f64, inexact: f64) -> Bounded {
         let off = inexact * (self.size + self.error);
@@ -118,7 +130,7 @@ impl Bounded {
     }
 
     /// Times 1 or -1.
-    pub(super) fn directed(&self, sign: f64) -> Bounded {
+    pub(in crate::certified) fn directed(&self, sign: f64) -> Bounded {
         Bounded {
             value: self.value.map(|x| sign * x),
             ..*self

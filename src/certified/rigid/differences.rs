@@ -158,6 +158,13 @@ fn times<T: Term>(rows: &[Vector<T>; 3], v: &Vector<T>) -> Vector<T> {
     rows.each_ref().map(|row| dot(row, v))
 }
 
+/// A vector in the frame of a body, turned into space, times `|q|^2`.
+pub(super) fn into_space<T: Term>(motion: &RigidMotion, time: T::Time, v: &Vector<T>) -> Vector<T> {
+    let ([x, y, z], _) = transposed(&quaternion(motion, time));
+    let scaled = [scaled(&v[0], &x), scaled(&v[1], &y), scaled(&v[2], &z)];
+    add(&add(&scaled[0], &scaled[1]), &scaled[2])
+}
+
 /// w, x, y and z.
 fn quaternion<T: Term>(motion: &RigidMotion, time: T::Time) -> [T; 4] {
     let [q0, q1] = motion.quaternions();

@@ -1,6 +1,7 @@
 //! What the formulas are computed with: numbers at one time, or polynomials in time.
 
 use super::ball::Ball;
+use super::rough::Rough;
 
 /// A number at a time, or a polynomial in time.
 pub(super) trait Term: Clone {
@@ -26,6 +27,38 @@ pub(super) trait Term: Clone {
 
 /// A vector of them.
 pub(super) type Vector<T> = [T; 3];
+
+impl Term for Rough {
+    type Time = Rough;
+
+    fn constant(number: Ball) -> Self {
+        Rough::of(number)
+    }
+
+    fn line(start: Ball, change: Ball, time: Rough) -> Self {
+        Rough::of(start).add(Rough::of(change).mul(time))
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        self.add(*other)
+    }
+
+    fn minus(&self, other: &Self) -> Self {
+        self.sub(*other)
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        self.mul(*other)
+    }
+
+    fn negative(&self) -> Self {
+        self.neg()
+    }
+
+    fn twice(&self) -> Self {
+        Rough::twice(*self)
+    }
+}
 
 impl Term for Ball {
     type Time = Ball;

@@ -1,8 +1,8 @@
 use nalgebra::Quaternion;
 
 use super::*;
-use crate::rigid::Pose;
-use crate::rigid::RigidMotion;
+use crate::contact::Place;
+use crate::rigid::{EdgeTurningEdge, Pose, RigidMotion, VertexTurningFace};
 
 /// A rod of length 2 about its middle, which turns by so many degrees about z while it moves by
 /// `away` along x, and a wire along z at `(x, y)`.

@@ -6,7 +6,7 @@ use std::cmp::Ordering;
 use super::confined::End;
 use super::motion::InBody;
 use super::{Locus, Sides, is_between};
-use crate::certified::exact::thick::vector::{Vector, add, cross, dot, is_zero, sub};
+use crate::certified::exact::thick::vector::{Vector, add, cross, dot, is_zero, neg, sub};
 use crate::certified::exact::thick::{self, Place, Poly, Reach, Share, Time};
 use crate::certified::rigid::Turning;
 use crate::contact::{Case, Flags};
@@ -146,7 +146,6 @@ impl Sides<2> for Edges {
         let Edges { k, l, dl, m, .. } = self;
         let (a_c, a_d) = (m, &add(m, dl));
         let (b_c, b_d) = (&sub(a_c, k), &sub(a_d, k));
-        let neg = |x: &Vector| sub(&Default::default(), x);
         vec![
             End::new(a_c, a_d, l),
             End::new(b_c, b_d, l),

@@ -6,7 +6,7 @@ use std::cmp::Ordering;
 use super::confined::End;
 use super::motion::InBody;
 use super::{Locus, Sides, is_between};
-use crate::certified::exact::thick::vector::{Vector, cross, dot, is_zero, sub};
+use crate::certified::exact::thick::vector::{Vector, cross, dot, is_zero, neg, sub};
 use crate::certified::exact::thick::{self, Place, Poly, Reach, Share, Time};
 use crate::certified::rigid::Turning;
 use crate::contact::{Case, Flags};
@@ -38,7 +38,7 @@ impl Face {
             let corner: Vector = corner.each_ref().map(|x| Poly::product(x, &d));
             sub(&corner, &a)
         });
-        let w = sub(&Default::default(), &ways[0]);
+        let w = neg(&ways[0]);
         Face {
             f: dot(&w, &n),
             ways,
@@ -56,13 +56,13 @@ impl Face {
             ways, e1, e2, d, ..
         } = self.clone();
         let reach = Reach::new(radius.parts(), self.unit, &d);
-        let x = sub(&Default::default(), &ways[0]);
+        let x = neg(&ways[0]);
         (thick::Face::of(e1, e2, x, d), reach)
     }
 
     /// The vertex is in the plane: `w x E2 = u D N` and `E1 x w = v D N`.
     fn locus_in_plane(&self, time: &Time, axis: usize, sign: Ordering) -> Option<Locus<3>> {
-        let w = sub(&Default::default(), &self.ways[0]);
+        let w = neg(&self.ways[0]);
         let dn = Poly::product(&self.d, &self.n[axis]);
         let [u, v] = [cross(&w, &self.e2), cross(&self.e1, &w)].map(|[x, y, z]| match axis {
             0 => x,

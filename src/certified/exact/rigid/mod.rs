@@ -39,12 +39,17 @@ use std::cmp::Ordering;
 use super::PLACE_ERROR;
 use super::dyadic::Dyadic;
 use super::passage::Passage;
-use super::thick::{Place, Poly, Roots, Time, decide_near_edges, decide_near_face};
+use super::thick::{
+    Place, Poly, Roots, Time, decide_near_edges, decide_near_face, normal_of_near_edges,
+    normal_of_near_face,
+};
+use crate::certified::motion::Vector;
 use crate::certified::rigid::Turning;
 use crate::contact::{Case, ContactKind, EdgePlace, EdgePoint, FacePlace, Flags, Hit};
 use confined::End;
 use edges::Edges;
 use face::Face;
+use motion::turned;
 
 /// The first contact of an edge with an edge of a turning body.
 pub(in crate::certified) fn decide_turning_edges(
@@ -80,6 +85,28 @@ pub(in crate::certified) fn decide_turning_face(
         weights,
         error: PLACE_ERROR,
     }))
+}
+
+/// The direction in space of the shortest vector from an edge to an edge of a turning body, within
+/// 2^-50, for a first contact whose neighbours in `f64` are `toi`; without a radius, its limit just
+/// before.
+///
+/// `None` if they touch at the start.
+pub(in crate::certified) fn normal_of_turning_edges(
+    query: &Turning<'_, 2, 2>,
+    toi: [f64; 2],
+) -> Option<Vector> {
+    let (edges, reach) = Edges::new(query).thick(query.radius);
+    normal_of_near_edges(&edges, &reach, toi, |way| turned(query.second.motion, &way))
+}
+
+/// The same from a vertex to a face of a turning body.
+pub(in crate::certified) fn normal_of_turning_face(
+    query: &Turning<'_, 1, 3>,
+    toi: [f64; 2],
+) -> Option<Vector> {
+    let (face, reach) = Face::new(query).thick(query.radius);
+    normal_of_near_face(&face, &reach, toi, |way| turned(query.second.motion, &way))
 }
 
 /// What the midlines of two edges do to each other, one of a turning body.

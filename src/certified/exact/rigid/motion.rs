@@ -61,6 +61,16 @@ impl<const FIRST: usize, const SECOND: usize> InBody<FIRST, SECOND> {
     }
 }
 
+/// A vector in the frame of a body, turned into space, times `|q|^2`.
+pub(super) fn turned(motion: &RigidMotion, v: &Vector) -> Vector {
+    let ([w, x, y, z], _) = quaternion(motion);
+    // The conjugate turns the other way.
+    times(
+        &transposed(&[w, negative(&x), negative(&y), negative(&z)]),
+        v,
+    )
+}
+
 /// The power of two of which all lengths are multiples.
 struct Unit(i32);
 

@@ -3,8 +3,8 @@
 //! `s` is above 0: 1, but for an edge of a body that turns, whose `L` is at rest.
 
 use super::pair::{Pair, Place, Share};
-use super::vector::{Vector, add, cross, dot, is_zero, one, sub, times};
-use super::{Poly, Sides, Time};
+use super::vector::{Vector, add, cross, dot, is_zero, neg, one, sub, times};
+use super::{Poly, Polygon, Sides, Time};
 use crate::contact::Flags;
 
 pub(in crate::certified::exact) struct Edges {
@@ -65,7 +65,6 @@ impl Sides<2> for Edges {
         let Edges { k, l, sl, m, .. } = self;
         let (a_c, a_d) = (m, &add(m, sl));
         let (b_c, b_d) = (&sub(a_c, k), &sub(a_d, k));
-        let neg = |x: &Vector| sub(&Default::default(), x);
         let (c_a, c_b, d_a, d_b) = (&neg(a_c), &neg(b_c), &neg(a_d), &neg(b_d));
         vec![
             Pair::vertices(a_c, [None, None]),
@@ -82,6 +81,16 @@ impl Sides<2> for Edges {
 
     fn f(&self) -> &Poly {
         &self.f
+    }
+
+    /// From A to C and D, and from B to D and C.
+    fn polygon(&self) -> Polygon {
+        let Edges { k, l, sl, m, .. } = self;
+        let a_d = add(m, sl);
+        Polygon {
+            corners: vec![m.clone(), a_d.clone(), sub(&a_d, k), sub(m, k)],
+            edges: vec![l.clone(), neg(k), neg(l), k.clone()],
+        }
     }
 
     /// Along K, A is at 0, B at `K . K`, C at `M . K` and D at `(M + s L) . K`: what both edges have

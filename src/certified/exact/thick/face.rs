@@ -3,8 +3,8 @@
 //! `s` is above 0: 1, but for a face of a body that turns, whose `P` and `Q` are at rest.
 
 use super::pair::{Pair, Place, Share};
-use super::vector::{Vector, cross, dot, is_zero, one, sub, times};
-use super::{Poly, Sides, Time};
+use super::vector::{Vector, cross, dot, is_zero, neg, one, sub, times};
+use super::{Poly, Polygon, Sides, Time};
 use crate::contact::Flags;
 
 pub(in crate::certified::exact) struct Face {
@@ -58,7 +58,7 @@ impl Sides<3> for Face {
     fn pairs(&self) -> Vec<Pair<3>> {
         use Share::{All, None};
         let Face { p, q, x, scale, .. } = self;
-        let to_b = &sub(&Default::default(), x);
+        let to_b = &neg(x);
         let to = |way: &Vector| sub(&times(way, scale), x);
         let (to_c, to_d, last) = (&to(p), &to(q), &sub(q, p));
         vec![
@@ -74,6 +74,16 @@ impl Sides<3> for Face {
 
     fn f(&self) -> &Poly {
         &self.f
+    }
+
+    /// From A to B, C and D.
+    fn polygon(&self) -> Polygon {
+        let Face { p, q, x, scale, .. } = self;
+        let to = |way: &Vector| sub(&times(way, scale), x);
+        Polygon {
+            corners: vec![neg(x), to(p), to(q)],
+            edges: vec![p.clone(), sub(q, p), neg(q)],
+        }
     }
 
     /// The point of the face that is nearest to the vertex is a single one.

@@ -38,9 +38,11 @@ use crate::contact::{EdgePlace, EdgePoint, FacePlace, Flags, Hit};
 use crate::query::Radius;
 pub(super) use edges::Edges;
 pub(super) use face::Face;
+use normal::Polygon;
 pub(in crate::certified) use normal::{
     normal_of_edges_exactly, normal_of_face_exactly, perpendicular_of_edges,
 };
+pub(super) use normal::{normal_of_near_edges, normal_of_near_face};
 use pair::Pair;
 pub(super) use pair::{Place, Share};
 pub(super) use roots::Roots;
@@ -48,7 +50,7 @@ use vector::Vector;
 
 use super::dyadic::Dyadic;
 
-/// Polynomials of degree at most 12, on the heap: these move a lot.
+/// Polynomials of any degree, on the heap: these move a lot.
 pub(super) type Poly = poly::Poly<0>;
 
 /// Times at which such a polynomial is 0.
@@ -141,6 +143,9 @@ trait Sides<const W: usize> {
 
     /// Six times the volume of the four points.
     fn f(&self) -> &Poly;
+
+    /// All differences of a point of the second side and one of the first.
+    fn polygon(&self) -> Polygon;
 
     /// The ends of the part along which two sides are nearest, if that is more than a point or they
     /// are parallel.

@@ -13,13 +13,18 @@
 //! - if that is so of no corner and no edge, the nearest point is inside a polygon with an area,
 //!   and its direction is that of `P x Q` with the sign of `p . (P x Q)`.
 //!
-//! At a time these are signs of polynomials. Just before it they are those of the first derivative
-//! that is not 0, reversed if its order is odd; and so is the limit of the direction of a vector of
-//! polynomials.
+//! None of it depends on how long `P` and `Q` are. At a time these are signs of polynomials. Just
+//! before it they are those of the first derivative that is not 0, reversed if its order is odd; and
+//! so is the limit of the direction of a vector of polynomials.
+//!
+//! Of a body that turns, all vectors are in its frame, and times something above 0. What turns them
+//! into space is applied to the result, after any derivatives: a product with a matrix that is
+//! nowhere 0 has its first derivative that is not 0 where the vector has, and it is the matrix times
+//! that of the vector.
 
 use std::cmp::Ordering;
 
-use super::vector::{Vector, cross, dot, is_zero, sub};
+use super::vector::{Vector, cross, dot, is_zero, neg, sub};
 use super::{Edges, Face, Poly, Reach, Roots, Sides, Time, first_root, integers, side};
 use crate::certified::exact::bracket::Bracket;
 use crate::certified::exact::dyadic::Dyadic;
@@ -36,9 +41,7 @@ pub(in crate::certified) fn normal_of_edges_exactly(
     toi: [f64; 2],
 ) -> Option<motion::Vector> {
     let (points, reach) = integers(positions, radii);
-    let [a, b, c, d] = &points;
-    let corners = [sub(c, a), sub(d, a), sub(d, b), sub(c, b)];
-    normal(&corners, &Edges::new(&points), &reach, toi)
+    normal(&Edges::new(&points), &reach, toi, |way| way)
 }
 
 /// The direction of `(B - A) x (D - C)` at the start, within 2^-50; `None` if that is 0.
@@ -60,21 +63,44 @@ pub(in crate::certified) fn normal_of_face_exactly(
     toi: [f64; 2],
 ) -> Option<motion::Vector> {
     let (points, reach) = integers(positions, radii);
-    let [a, b, c, d] = &points;
-    let corners = [sub(b, a), sub(c, a), sub(d, a)];
-    normal(&corners, &Face::new(&points), &reach, toi)
+    normal(&Face::new(&points), &reach, toi, |way| way)
+}
+
+/// The same of two edges that are given in a frame of their own, from which `into_space` turns
+/// vectors, times anything above 0.
+pub(in crate::certified::exact) fn normal_of_near_edges(
+    edges: &Edges,
+    reach: &Reach,
+    toi: [f64; 2],
+    into_space: impl Fn(Vector) -> Vector,
+) -> Option<motion::Vector> {
+    normal(edges, reach, toi, into_space)
+}
+
+/// The same of a vertex and a face.
+pub(in crate::certified::exact) fn normal_of_near_face(
+    face: &Face,
+    reach: &Reach,
+    toi: [f64; 2],
+    into_space: impl Fn(Vector) -> Vector,
+) -> Option<motion::Vector> {
+    normal(face, reach, toi, into_space)
 }
 
 fn normal<const W: usize>(
-    corners: &[Vector],
     sides: &impl Sides<W>,
     reach: &Reach,
     toi: [f64; 2],
+    into_space: impl Fn(Vector) -> Vector,
 ) -> Option<motion::Vector> {
     let is_limit = reach.square.is_zero();
-    let way = |time: &Time| match is_limit {
-        true => just_before(corners, time),
-        false => at(corners, time),
+    let polygon = sides.polygon();
+    let way = |time: &Time| {
+        let way = match is_limit {
+            true => polygon.way_just_before(time),
+            false => polygon.way_at(time),
+        };
+        way.map(|way| direction(&into_space(way), time))
     };
     let [below, above] = toi;
     match below == above {
@@ -115,67 +141,74 @@ fn with_time<const W: usize, T>(
     first_root(&pairs, &roots).and_then(|(time, _)| of(&time))
 }
 
-/// The direction of the shortest vector at a time at which the sides are apart; `None` if they are
-/// not.
-fn at(corners: &[Vector], time: &Time) -> Option<motion::Vector> {
-    let way = nearest(corners, |poly| time.sign_of(poly))?;
-    let is_apart = way.iter().any(|x| time.sign_of(x).is_ne());
-    is_apart.then(|| direction(&way, time))
+/// The differences of two sides, as a convex polygon.
+pub(super) struct Polygon {
+    pub(super) corners: Vec<Vector>,
+    /// From each corner to the next one, the last one's to the first, times anything above 0.
+    pub(super) edges: Vec<Vector>,
 }
 
-/// The limit of the direction of the shortest vector before a time, just before which the sides are
-/// apart.
-fn just_before(corners: &[Vector], time: &Time) -> Option<motion::Vector> {
-    let mut way = nearest(corners, |poly| side(poly, time, [1.0; 2]).cmp(&0))?;
-    // Ends: each derivative has a lower degree, and the last one is 0.
-    while way.iter().all(|x| time.sign_of(x).is_eq()) {
-        if is_zero(&way) {
-            return None;
-        }
-        way = way.each_ref().map(|x| {
-            let mut slope = x.derivative();
-            slope.negate();
-            slope
-        });
+impl Polygon {
+    /// A multiple of the shortest vector at a time at which the sides are apart, by a factor that is
+    /// above 0; `None` if they are not.
+    fn way_at(&self, time: &Time) -> Option<Vector> {
+        let way = self.nearest(|poly| time.sign_of(poly))?;
+        let is_apart = way.iter().any(|x| time.sign_of(x).is_ne());
+        is_apart.then_some(way)
     }
-    Some(direction(&way, time))
-}
 
-/// A multiple of the polygon's point that is nearest to the origin, by a factor that is above 0,
-/// where polynomials have the signs that `sign` tells; `None` if the origin is inside the polygon.
-fn nearest(corners: &[Vector], sign: impl Fn(&Poly) -> Ordering) -> Option<Vector> {
-    let n = corners.len();
-    let around = |i: usize| {
-        let (p, q) = (&corners[i], &corners[(i + 1) % n]);
-        (p, q, sub(q, p), sub(&corners[(i + n - 1) % n], p))
-    };
-    for i in 0..n {
-        let (p, _, to_next, to_last) = around(i);
-        if sign(&dot(p, &to_next)).is_ge() && sign(&dot(p, &to_last)).is_ge() {
-            return Some(p.clone());
+    /// A vector, not 0 at a time, with the direction to which that of the shortest vector tends
+    /// before it. Just before the time the sides are apart.
+    fn way_just_before(&self, time: &Time) -> Option<Vector> {
+        let mut way = self.nearest(|poly| side(poly, time, [1.0; 2]).cmp(&0))?;
+        // Ends: each derivative has a lower degree, and the last one is 0.
+        while way.iter().all(|x| time.sign_of(x).is_eq()) {
+            if is_zero(&way) {
+                return None;
+            }
+            way = neg(&way.each_ref().map(Poly::derivative));
         }
+        Some(way)
     }
-    for i in 0..n {
-        let (p, q, edge, inward) = around(i);
-        let (square, along) = (dot(&edge, &edge), dot(p, &edge));
-        if sign(&along).is_le() && sign(&dot(q, &edge)).is_ge() && sign(&square).is_gt() {
-            let way = [0, 1, 2].map(|h: usize| {
-                let own = Poly::product(&square, &p[h]);
-                Poly::difference(&own, &Poly::product(&along, &edge[h]))
-            });
-            if sign(&dot(&way, &inward)).is_ge() {
-                return Some(way);
+
+    /// A multiple of the point that is nearest to the origin, by a factor that is above 0, where
+    /// polynomials have the signs that `sign` tells; `None` if the origin is inside the polygon.
+    fn nearest(&self, sign: impl Fn(&Poly) -> Ordering) -> Option<Vector> {
+        let n = self.corners.len();
+        // A corner, the next one, the edge between both, and the one to the last corner.
+        let around = |i: usize| {
+            let (p, q) = (&self.corners[i], &self.corners[(i + 1) % n]);
+            let inward = neg(&self.edges[(i + n - 1) % n]);
+            (p, q, &self.edges[i], inward)
+        };
+        for i in 0..n {
+            let (p, _, to_next, to_last) = around(i);
+            if sign(&dot(p, to_next)).is_ge() && sign(&dot(p, &to_last)).is_ge() {
+                return Some(p.clone());
             }
         }
+        for i in 0..n {
+            let (p, q, edge, inward) = around(i);
+            let (square, along) = (dot(edge, edge), dot(p, edge));
+            if sign(&along).is_le() && sign(&dot(q, edge)).is_ge() && sign(&square).is_gt() {
+                let way = [0, 1, 2].map(|h: usize| {
+                    let own = Poly::product(&square, &p[h]);
+                    Poly::difference(&own, &Poly::product(&along, &edge[h]))
+                });
+                if sign(&dot(&way, &inward)).is_ge() {
+                    return Some(way);
+                }
+            }
+        }
+        let (p, _, edge, inward) = around(0);
+        let mut normal = cross(edge, &inward);
+        match sign(&dot(p, &normal)) {
+            Ordering::Equal => return None,
+            Ordering::Greater => {}
+            Ordering::Less => normal.iter_mut().for_each(Poly::negate),
+        }
+        Some(normal)
     }
-    let (p, _, edge, inward) = around(0);
-    let mut normal = cross(&edge, &inward);
-    match sign(&dot(p, &normal)) {
-        Ordering::Equal => return None,
-        Ordering::Greater => {}
-        Ordering::Less => normal.iter_mut().for_each(Poly::negate),
-    }
-    Some(normal)
 }
 
 /// The direction of a vector that is not 0 at a time, with an error below `2^-50`.

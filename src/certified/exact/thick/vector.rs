@@ -13,6 +13,10 @@ pub(in crate::certified::exact) fn sub(x: &Vector, y: &Vector) -> Vector {
     [0, 1, 2].map(|i| Poly::difference(&x[i], &y[i]))
 }
 
+pub(in crate::certified::exact) fn neg(x: &Vector) -> Vector {
+    sub(&Default::default(), x)
+}
+
 pub(in crate::certified::exact) fn cross(x: &Vector, y: &Vector) -> Vector {
     [(1, 2), (2, 0), (0, 1)]
         .map(|(i, j)| Poly::difference(&Poly::product(&x[i], &y[j]), &Poly::product(&x[j], &y[i])))
