@@ -51,9 +51,9 @@ pub use model::{
     Phase, Resolution, Segment, Shape, Stop, Wire, WireId, WirePlan,
 };
 pub use record::{
-    BodyCrossing, BodyCrossingOutcome, BodyRecord, CollisionRecord, ContactRecord, Crossing,
-    CrossingOutcome, PairAnswer, PairRecord, Phases, Pose, ScaledIsland, Slide, SolverRecord,
-    StepRecord, WireRecord,
+    BodyCrossing, BodyCrossingOutcome, BodyRecord, CollisionRecord, ContactRecord, CoreCrossing,
+    Crossing, CrossingOutcome, PairAnswer, PairRecord, Phases, Pose, ScaledIsland, Slide,
+    SolverRecord, StepRecord, WireRecord,
 };
 pub use resolution::{Remesh, RemeshGuard, RemeshKind};
 pub use settings::Settings;

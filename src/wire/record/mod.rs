@@ -3,8 +3,8 @@
 mod collision;
 
 pub use collision::{
-    BodyCrossing, BodyCrossingOutcome, CollisionRecord, Crossing, CrossingOutcome, PairAnswer,
-    PairRecord, ScaledIsland,
+    BodyCrossing, BodyCrossingOutcome, CollisionRecord, CoreCrossing, Crossing, CrossingOutcome,
+    PairAnswer, PairRecord, ScaledIsland,
 };
 
 use nalgebra::UnitQuaternion;
