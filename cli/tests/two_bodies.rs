@@ -13,8 +13,8 @@ use tunnelproof::certified::Certified;
 use tunnelproof::nalgebra::{UnitQuaternion, UnitVector3};
 use tunnelproof::query::Point;
 use tunnelproof::wire::{
-    BodyCrossingOutcome, BodyId, BodyPlan, Collisions, Drive, Mode, Phase, Settings, Shape,
-    StepRecord, Vector, World,
+    BodyCrossingOutcome, BodyPlan, Collisions, Drive, Mode, Phase, Settings, Shape, StepRecord,
+    Vector, World,
 };
 use tunnelproof_cli::audit::{Audit, Report, What};
 

@@ -145,19 +145,7 @@ impl Stage {
         let ends = [from, to].map(|t| [self.places(0, a, t), self.places(1, b, t)]);
         let middle = 0.5 * (from + to);
         let axes = axes(&self.places(0, a, middle), &self.places(1, b, middle));
-        let is_between = |axis: &Vector| {
-            let gap = |[a, b]: &[Vec<Vector>; 2], sign: f64| {
-                let along = |points: &[Vector], sign: f64| {
-                    let along = points.iter().map(|point| sign * axis.dot(point));
-                    along.fold(f64::INFINITY, f64::min)
-                };
-                along(a, sign) + along(b, -sign)
-            };
-            [1.0, -1.0]
-                .iter()
-                .any(|sign| ends.iter().all(|end| gap(end, *sign) > margin))
-        };
-        if axes.iter().any(is_between) {
+        if axes.iter().any(|axis| is_between(axis, &ends, margin)) {
             return true;
         }
         halvings > 0
@@ -235,6 +223,23 @@ impl Stage {
     fn are_near(&self, a: &[Point], b: &[Point]) -> bool {
         !self.is_apart(a, b, [0.0, 1.0], HALVINGS)
     }
+}
+
+/// Whether points of two bodies are farther apart than a margin along an axis, at each of some times.
+fn is_between(axis: &Vector, times: &[[Vec<Vector>; 2]], margin: f64) -> bool {
+    let least = |points: &[Vector], sign: f64| {
+        let along = points.iter().map(|point| sign * axis.dot(point));
+        along.fold(f64::INFINITY, f64::min)
+    };
+    let gap = |[a, b]: &[Vec<Vector>; 2], sign: f64| least(a, sign) + least(b, -sign);
+    let is_apart = |sign: f64| times.iter().all(|time| gap(time, sign) > margin);
+    is_apart(1.0) || is_apart(-1.0)
+}
+
+/// Whether points of two bodies at rest are farther apart than a margin.
+pub(super) fn are_apart(a: &[Vector], b: &[Vector], margin: f64) -> bool {
+    let now = [[a.to_vec(), b.to_vec()]];
+    axes(a, b).iter().any(|axis| is_between(axis, &now, margin))
 }
 
 /// The corners of some faces, once each.
