@@ -77,7 +77,7 @@ fn body(rng: &mut ChaCha8Rng, position: Point, velocity: Vector, is_scripted: bo
 }
 
 /// A body that is thrown at another one, which forces move; a script moves the first one in every
-/// second scene. Sometimes there is a third one, and a plane.
+/// second run of five scenes. Sometimes there is a third one beyond it, or a plane.
 fn scene(seed: u64) -> World {
     let rng = &mut ChaCha8Rng::seed_from_u64(seed);
     let mut world = World::new(Settings::default()).unwrap();
@@ -92,16 +92,21 @@ fn scene(seed: u64) -> World {
     let drift = vector(rng, 2.0);
     let target = body(rng, Point::origin(), drift, false);
     world.add_body(target).unwrap();
-    if rng.random_bool(0.3) {
-        let beyond = Point::from(-away * rng.random_range(1.3..2.0));
-        let third = body(rng, beyond, Vector::zeros(), false);
-        world.add_body(third).unwrap();
-    }
-    if rng.random_bool(0.2) {
-        let below = Point::new(0.0, 0.0, -0.7);
-        world
-            .add_body(BodyPlan::fixed(Shape::Plane, below))
-            .unwrap();
+    match rng.random_range(0..10) {
+        0..3 => {
+            let beyond = Point::from(-away * rng.random_range(1.3..2.0));
+            let third = body(rng, beyond, Vector::zeros(), false);
+            world.add_body(third).unwrap();
+        }
+        3..5 => {
+            let turn = UnitQuaternion::rotation_between(&Vector::z(), &away);
+            let beyond = BodyPlan {
+                orientation: turn.unwrap_or_default(),
+                ..BodyPlan::fixed(Shape::Plane, Point::from(-away))
+            };
+            world.add_body(beyond).unwrap();
+        }
+        _ => {}
     }
     world
 }
@@ -222,4 +227,253 @@ fn bodies_pass_without_a_guard() {
         count()
     );
     assert!(missed > count() / 3 && passed > 0);
+}
+
+fn audited(world: &World, records: &[StepRecord]) -> Report {
+    let mut audit = Audit::of_world(world);
+    records.iter().for_each(|record| audit.step(record));
+    audit.finish()
+}
+
+/// Runs in thesis mode in which bodies pass.
+fn passages() -> Vec<(World, Vec<StepRecord>)> {
+    let runs = (0..30).map(|seed| {
+        let world = scene(seed);
+        let records = run(world.clone(), collisions(seed, Mode::Thesis), STEPS).records;
+        (world, records)
+    });
+    let passes = |record: &StepRecord| !record.collisions.core_crossings.is_empty();
+    runs.filter(|(_, records)| records.iter().any(passes))
+        .collect()
+}
+
+#[test]
+fn audit_finds_touches_that_are_dropped_moved_or_made_up() {
+    let runs = passages();
+    assert!(runs.len() > 5);
+    for (world, records) in runs {
+        let touches = |records: &[StepRecord]| -> u64 {
+            let touches = records.iter().map(|r| r.collisions.core_crossings.len());
+            touches.sum::<usize>() as u64
+        };
+        assert_eq!(audited(&world, &records).inexact(), 0);
+        let changed = |change: &dyn Fn(&mut StepRecord)| {
+            let mut records = records.clone();
+            records.iter_mut().for_each(change);
+            audited(&world, &records)
+        };
+        let dropped = changed(&|record| record.collisions.core_crossings.clear());
+        assert_eq!(dropped.core_missed, touches(&records));
+        let moved = |by: f64| {
+            changed(&|record| {
+                let crossings = record.collisions.core_crossings.iter_mut();
+                crossings.for_each(|crossing| crossing.toi += by);
+            })
+        };
+        assert_eq!(moved(1e-9).late.0, touches(&records));
+        assert_eq!(moved(-1e-9).early.0, touches(&records));
+        let made_up = changed(&|record| {
+            let crossings = &mut record.collisions.core_crossings;
+            crossings
+                .iter_mut()
+                .for_each(|crossing| crossing.bodies[1].0 = 9);
+        });
+        assert_eq!(made_up.false_hits, touches(&records));
+        assert_eq!(made_up.core_missed, touches(&records));
+    }
+}
+
+/// A scripted rod that turns by 286 degrees in a step, in seven stages, and a slow one across its
+/// circle at an angle from where it starts.
+fn fan(degrees: f64) -> World {
+    let mut settings = Settings::default();
+    settings.gravity = Vector::zeros();
+    let mut world = World::new(settings).unwrap();
+    let rod = |half: [f64; 3]| Shape::Box {
+        half: Vector::from(half),
+    };
+    let turning = Drive::Kinematic(vec![Phase {
+        from: 0.0,
+        velocity: Vector::new(0.1, 0.2, 0.3),
+        angular_velocity: Vector::new(0.0, 0.0, 300.0),
+    }]);
+    world
+        .add_body(BodyPlan {
+            drive: turning,
+            ..BodyPlan::fixed(rod([0.4, 0.005, 0.005]), Point::new(0.4, 0.0, 0.0))
+        })
+        .unwrap();
+    let angle = degrees.to_radians();
+    let at = Point::new(0.4 + 0.35 * angle.cos(), 0.35 * angle.sin(), 0.02);
+    let slow = Drive::Dynamic {
+        density: 1000.0,
+        velocity: Vector::new(0.2, 0.1, 0.0),
+        angular_velocity: Vector::new(0.0, 0.0, 1.0),
+    };
+    world
+        .add_body(BodyPlan {
+            drive: slow,
+            ..BodyPlan::fixed(rod([0.004, 0.004, 0.3]), at)
+        })
+        .unwrap();
+    world
+}
+
+#[test]
+fn touches_are_found_in_every_stage_of_a_turn() {
+    let mut stages = [0; 7];
+    for k in 0..20 {
+        let world = fan(f64::from(k) * 9.0 + 4.0);
+        let Run {
+            report, records, ..
+        } = run(world.clone(), collisions(0, Mode::Thesis), 1);
+        let [record] = &records[..] else {
+            panic!("no step")
+        };
+        let counts = record.bodies.iter().map(|body| body.between.len());
+        assert_eq!(counts.collect::<Vec<_>>(), [6, 6]);
+        let [crossing] = record.collisions.core_crossings[..] else {
+            panic!("no touch at {k}")
+        };
+        assert_eq!((report.core_missed, report.inexact()), (0, 0), "{k}");
+        stages[(crossing.toi * 7.0) as usize] += 1;
+        let mut silent = records.clone();
+        silent[0].collisions.core_crossings.clear();
+        assert_eq!(audited(&world, &silent).core_missed, 1, "{k}");
+        // Poses on the way of one body alone are not at the times of the other one's.
+        let mut uneven = records.clone();
+        uneven[0].bodies[1].between.pop();
+        let findings = audited(&world, &uneven).findings;
+        let is_unsound = |what: &What| matches!(what, What::BodyUnsound { .. });
+        assert!(findings.iter().any(|finding| is_unsound(&finding.what)));
+        let guarded = run(world, collisions(0, Mode::Guard), 3);
+        assert_eq!(guarded.stopped, None);
+        assert!(
+            guarded.report.is_exact() && guarded.report.core_prevented > 0,
+            "{k}"
+        );
+    }
+    // A rod comes by twice in a turn of 360 degrees, so the first half has all first touches.
+    assert!(stages[..4].iter().all(|count| *count > 0), "{stages:?}");
+}
+
+/// Scripts are kept where nothing can give way.
+#[test]
+fn two_scripted_bodies_pass_through_each_other() {
+    let mut world = World::new(Settings::default()).unwrap();
+    for sign in [-1.0, 1.0] {
+        let drive = Drive::Kinematic(vec![Phase {
+            from: 0.0,
+            velocity: Vector::new(-sign * 50.0, 0.0, 0.0),
+            angular_velocity: Vector::zeros(),
+        }]);
+        let half = Vector::new(0.01, 0.5, 0.5);
+        world
+            .add_body(BodyPlan {
+                drive,
+                ..BodyPlan::fixed(Shape::Box { half }, Point::new(sign, 0.0, 0.0))
+            })
+            .unwrap();
+    }
+    let run = run(world, Collisions::default(), 3);
+    assert_eq!(run.stopped, None);
+    assert_eq!((run.report.core_pairs, run.report.is_exact()), (0, true));
+    let crossings = run
+        .records
+        .iter()
+        .map(|r| r.collisions.core_crossings.len());
+    assert_eq!(crossings.sum::<usize>(), 0);
+}
+
+/// A scripted plate that would force a body through a wall falls behind its script.
+#[test]
+fn scripted_body_falls_behind_where_nothing_gives_way() {
+    let mut world = World::new(Settings::default()).unwrap();
+    let wall = Shape::Box {
+        half: Vector::new(0.005, 0.5, 0.5),
+    };
+    let at = |x: f64| Point::new(x, 0.0, 0.0);
+    world
+        .add_body(BodyPlan::fixed(wall.clone(), at(0.0)))
+        .unwrap();
+    let cube = Shape::Box {
+        half: Vector::repeat(0.1),
+    };
+    world
+        .add_body(BodyPlan::dynamic(cube, 1000.0, at(-0.2)))
+        .unwrap();
+    let drive = Drive::Kinematic(vec![Phase {
+        from: 0.0,
+        velocity: Vector::new(30.0, 0.0, 0.0),
+        angular_velocity: Vector::zeros(),
+    }]);
+    world
+        .add_body(BodyPlan {
+            drive,
+            ..BodyPlan::fixed(wall, at(-0.6))
+        })
+        .unwrap();
+    let run = run(world, Collisions::default(), 12);
+    assert_eq!((run.stopped, run.report.is_exact()), (None, true));
+    let behind = run
+        .records
+        .iter()
+        .flat_map(|r| &r.collisions.scaled_islands);
+    assert!(
+        behind
+            .flat_map(|island| &island.behind)
+            .any(|body| body.0 == 2)
+    );
+    let places = run.records.last().unwrap().bodies.iter();
+    let places: Vec<f64> = places.map(|body| body.after.position.x).collect();
+    // In the order in which they started, and the plate far behind its script.
+    assert!(places[2] < places[1] && places[1] < places[0], "{places:?}");
+    assert!(places[2] < 0.0, "{places:?}");
+}
+
+/// Two that overlap as they start are left out until they are apart.
+#[test]
+fn bodies_that_start_inside_each_other_may_come_apart() {
+    let mut world = World::new(Settings::default()).unwrap();
+    let half = Vector::repeat(0.2);
+    let cube = Shape::Box { half };
+    world
+        .add_body(BodyPlan::fixed(cube.clone(), Point::origin()))
+        .unwrap();
+    let drive = Drive::Dynamic {
+        density: 1000.0,
+        velocity: Vector::new(20.0, 0.0, 0.0),
+        angular_velocity: Vector::zeros(),
+    };
+    world
+        .add_body(BodyPlan {
+            drive,
+            ..BodyPlan::fixed(cube, Point::new(0.2, 0.05, 0.03))
+        })
+        .unwrap();
+    let run = run(world, Collisions::default(), 6);
+    assert_eq!(run.stopped, None);
+    let first = &run.records[0].collisions;
+    assert!(first.core_crossings.is_empty() && first.scaled_islands.is_empty());
+    assert!(run.report.is_exact(), "{:?}", run.report.findings.first());
+    let last = run.records.last().unwrap();
+    assert!(last.bodies[1].after.position.x > 0.5);
+}
+
+/// The same records on any number of threads, but for how long they took.
+#[test]
+fn records_do_not_depend_on_the_number_of_threads() {
+    let of = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let records = |seed: u64| {
+            let mut records = run(scene(seed), collisions(seed, Mode::Guard), STEPS).records;
+            records
+                .iter_mut()
+                .for_each(|record| record.phases = Default::default());
+            records
+        };
+        let all = || (0..20).map(records).collect::<Vec<_>>();
+        pool.build().unwrap().install(all)
+    };
+    assert_eq!(of(1), of(3));
 }
