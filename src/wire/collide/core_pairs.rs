@@ -43,6 +43,38 @@ pub(super) struct CoreSite {
     local: Vector,
 }
 
+/// How far apart two cores are to be, in m.
+#[derive(Clone, Copy)]
+pub(super) struct Clearance {
+    /// Where the surfaces touch.
+    surfaces: f64,
+    /// More than the solver may err.
+    least: f64,
+}
+
+impl Clearance {
+    pub(super) fn of(cores: [&Core; 2]) -> Self {
+        /// As parts of the larger core: for surfaces that are their own cores, and the least.
+        const PARTS: [f64; 2] = [1e-4, 1e-6];
+        let size = cores.map(Core::size);
+        let [own, least] = PARTS.map(|part| part * size[0].max(size[1]));
+        let [a, b] = cores.map(Core::inset);
+        let surfaces = if a + b > 0.0 { a + b } else { own };
+        Clearance { surfaces, least }
+    }
+
+    /// The gap of a contact of cores that are so far apart. Below 0 it pushes, and yields; where it is
+    /// not, it holds. Surfaces that are inside each other are held where they are: contacts push
+    /// them. Only cores that all but touch are pushed.
+    fn gap(&self, apart: f64) -> f64 {
+        let gap = apart - self.surfaces;
+        match apart > self.least {
+            true => gap.max(0.0),
+            false => gap.max(-self.surfaces),
+        }
+    }
+}
+
 /// The first touch of the cores of two bodies, of which one moves; whether their boxes met in any
 /// stage.
 pub(super) fn first_core_touch(
@@ -296,13 +328,13 @@ impl CoreHit {
         }
     }
 
-    /// A contact by which the bodies stay on their sides of each other where the motion ends: with
-    /// cores as far apart as both surfaces are outside of them. None without a normal.
+    /// A contact by which the bodies stay on their sides of each other where the motion ends. None
+    /// without a normal.
     pub(super) fn row(
         &self,
         world: &World,
         motion: &ProposedMotion,
-        clearance: f64,
+        clearance: Clearance,
         friction: f64,
         key: u64,
     ) -> Option<ContactConstraint> {
@@ -310,8 +342,7 @@ impl CoreHit {
         let ended = motion.body(second.body);
         let normal = direction(&(ended.orientation * self.normal?))?;
         let arrives = first.straight_from(world, motion) - second.straight_from(world, motion);
-        // Cores are apart, so surfaces are inside each other by no more than the clearance.
-        let gap = (normal.dot(&arrives) - clearance).max(-clearance);
+        let gap = clearance.gap(normal.dot(&arrives));
         let [a, b] = self
             .sites
             .map(|CoreSite { body, local }| ContactSite::Body { body, local });

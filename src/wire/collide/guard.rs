@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::body_contacts::BodyContacts;
 use super::body_detect::CoreHits;
 use super::collisions::{Collisions, Mode};
+use super::core_pairs::Clearance;
 use super::detect::{Detections, MidlineHit};
 use super::islands::Islands;
 use super::parts::Parts;
@@ -17,7 +18,6 @@ use crate::wire::contact::ContactConstraint;
 use crate::wire::error::CollisionError;
 use crate::wire::error::Reason;
 use crate::wire::model::WireId;
-use crate::wire::model::core::Core;
 use crate::wire::record::ContactRecord;
 use crate::wire::record::{BodyCrossingOutcome, CollisionRecord, CrossingOutcome};
 use crate::wire::resolution::{Remesh, RemeshGuard, RemeshKind};
@@ -136,7 +136,7 @@ impl<'a, 'n> Guard<'a, 'n> {
         let cores = &self.collisions.cores.cores;
         let friction = self.collisions.friction;
         for hit in &hits.bodies {
-            let clearance = clearance(hit.bodies().map(|body| &cores[body.0]));
+            let clearance = Clearance::of(hit.bodies().map(|body| &cores[body.0]));
             let row = hit.row(world, motion, clearance, friction, obstacles.next_key());
             self.contacts.extend(row);
         }
@@ -218,19 +218,6 @@ fn passage(touches: &mut WireContacts, world: &World, hit: &MidlineHit) -> Cross
         }
         None => CrossingOutcome::Grazed,
     }
-}
-
-/// How far apart cores are where the surfaces touch. Surfaces that are their own cores have to end
-/// apart by more than the solver may err.
-fn clearance(cores: [&Core; 2]) -> f64 {
-    const APART: f64 = 1e-6;
-    let [a, b] = cores.map(Core::inset);
-    let size = || {
-        cores
-            .iter()
-            .fold(0.0, |size: f64, core| size.max(core.size()))
-    };
-    if a + b > 0.0 { a + b } else { APART * size() }
 }
 
 /// What still meets though nothing moves.
