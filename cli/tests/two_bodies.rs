@@ -86,7 +86,7 @@ fn scene(seed: u64) -> World {
     let steps = rng.random_range(0.6..3.0);
     let offset = vector(rng, 0.25);
     let from = Point::from(away * (0.7 + speed * steps / 60.0) + offset);
-    let is_scripted = seed / 5 % 2 == 0;
+    let is_scripted = (seed / 5).is_multiple_of(2);
     let thrown = body(rng, from, -away * speed, is_scripted);
     world.add_body(thrown).unwrap();
     let drift = vector(rng, 2.0);
