@@ -130,6 +130,10 @@ pub struct Summary {
     pub prevented_bodies: usize,
     /// Thesis mode: midlines that touched the core of a body.
     pub passed_bodies: usize,
+    /// Guard mode: touches of two bodies prevented.
+    pub prevented_cores: usize,
+    /// Thesis mode: bodies whose cores touched.
+    pub passed_cores: usize,
     /// Thesis mode: wires that passed through.
     pub tunnelled: usize,
     /// Thesis mode: wires that came back.
@@ -227,6 +231,12 @@ impl Summary {
                 BodyCrossingOutcome::Passed => &mut self.passed_bodies,
             } += 1;
         }
+        for crossing in &found.core_crossings {
+            *match crossing.outcome {
+                BodyCrossingOutcome::Prevented => &mut self.prevented_cores,
+                BodyCrossingOutcome::Passed => &mut self.passed_cores,
+            } += 1;
+        }
         self.held += found.scaled_islands.len();
         self.remeshes += record.remeshes.len();
         self.refused += found.refused_remeshes;
@@ -271,6 +281,14 @@ impl fmt::Display for Summary {
                     "prevented {}, passed {}",
                     count(self.prevented_bodies),
                     count(self.passed_bodies)
+                ),
+            ),
+            (
+                "bodies into bodies",
+                format!(
+                    "prevented {}, passed {}",
+                    count(self.prevented_cores),
+                    count(self.passed_cores)
                 ),
             ),
             (

@@ -52,8 +52,8 @@ pub use model::{
 };
 pub use record::{
     AddedInertia, BodyCrossing, BodyCrossingOutcome, BodyRecord, CollisionRecord, ContactRecord,
-    Crossing, CrossingOutcome, PairAnswer, PairRecord, Phases, Pose, ScaledIsland, Slide,
-    SolverRecord, StepRecord, WireRecord,
+    CoreCrossing, Crossing, CrossingOutcome, PairAnswer, PairRecord, Phases, Pose, ScaledIsland,
+    Slide, SolverRecord, StepRecord, WireRecord,
 };
 pub use resolution::{Remesh, RemeshGuard, RemeshKind};
 pub use settings::Settings;

@@ -83,7 +83,13 @@ impl BodyWay {
         self.pieces[0].start()
     }
 
-    fn is_still(&self) -> bool {
+    /// Its motions from pose to pose.
+    pub(super) fn pieces(&self) -> &[RigidMotion] {
+        &self.pieces
+    }
+
+    /// Whether it stays where it is.
+    pub(super) fn is_still(&self) -> bool {
         self.pieces.iter().all(|piece| piece.start() == piece.end())
     }
 
@@ -174,7 +180,7 @@ impl BodyWay {
     }
 }
 
-fn pose(pose: &wire::Pose) -> Pose {
+pub(super) fn pose(pose: &wire::Pose) -> Pose {
     Pose::new(pose.position, *pose.orientation.quaternion())
 }
 
@@ -198,7 +204,7 @@ fn pose_on_way(motion: &RigidMotion, k: usize, parts: usize) -> Pose {
 }
 
 /// The tangent of a quarter of the angle of a motion.
-fn quarter_tangent(motion: &RigidMotion) -> f64 {
+pub(super) fn quarter_tangent(motion: &RigidMotion) -> f64 {
     let [from, to] = motion.quaternions().map(|[w, x, y, z]| {
         let q = Quaternion::new(w, x, y, z).coords;
         (q / q.amax()).normalize()
@@ -319,7 +325,7 @@ fn near(looks: &[[Vector; 2]], stray: f64, surface: &Surface) -> (Vec<[Vector; 4
     (between.filter(is_near).collect(), stray)
 }
 
-fn first(hits: impl IntoIterator<Item = Option<ExactHit>>) -> Option<ExactHit> {
+pub(super) fn first(hits: impl IntoIterator<Item = Option<ExactHit>>) -> Option<ExactHit> {
     let earlier = |a: &ExactHit, b: &ExactHit| {
         let below = a.toi.below.total_cmp(&b.toi.below);
         below.then(a.toi.above.total_cmp(&b.toi.above))

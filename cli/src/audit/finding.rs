@@ -88,12 +88,22 @@ pub enum What {
         /// The body.
         body: usize,
     },
+    /// Two cores come to touch, and it was not reported.
+    CoreMissed {
+        /// The bodies.
+        bodies: [usize; 2],
+        /// When, as a part of the step.
+        toi: f64,
+        /// Whether parts of both pass through each other inside of both.
+        crossing: bool,
+    },
     /// A body does not start where the step before left it.
     BodyJump {
         /// The body.
         body: usize,
     },
-    /// Poses that are no motion of a body, or a body whose shape is not known.
+    /// Poses that are no motion of a body or are not at the times of those of another one, or a body
+    /// whose shape is not known.
     BodyUnsound {
         /// The body.
         body: usize,
@@ -186,6 +196,17 @@ impl fmt::Display for What {
             } => {
                 let what = if *crossing { "crossing" } else { "contact" };
                 write!(f, "{what} with body {body} missed, at {toi} of the step")
+            }
+            What::CoreMissed {
+                bodies: [a, b],
+                toi,
+                crossing,
+            } => {
+                let what = if *crossing { "crossing" } else { "contact" };
+                write!(
+                    f,
+                    "{what} of bodies {a} and {b} missed, at {toi} of the step"
+                )
             }
             What::BodyRemesh { body } => {
                 write!(f, "a change of resolution passes through body {body}")

@@ -10,6 +10,8 @@
 //! - a wire that does not start where the step before left it *jumped*: nobody has looked at how it got there;
 //! - a midline that comes to touch the core of a body, in the motion or in a change of resolution, and that was not
 //!   reported; a midline that is inside a core at the end, but for the end of a wire that is fixed to the body;
+//! - two bodies whose cores come to touch, and that was not reported, unless neither is moved by forces; cores that
+//!   overlap at the end;
 //! - segments that come nearer than the share of their thickness that is guarded, or nearer than they were inside of it,
 //!   in the motion that was made or in a change of resolution, are found;
 //! - the ledger sums up signed passages of each pair of wires. What is not 0 at the end is a *standing tunnel*.
@@ -22,6 +24,8 @@ mod bodies;
 mod core;
 mod finding;
 mod ledger;
+mod overlap;
+mod pairs;
 mod passing;
 mod penetration;
 mod remesh;
@@ -36,8 +40,8 @@ use rayon::prelude::*;
 use serde::Serialize;
 use tunnelproof::contact::ContactKind;
 use tunnelproof::query::{EdgeEdge, Point, Query};
-use tunnelproof::wire::recording::Header;
-use tunnelproof::wire::{CrossingOutcome, PairAnswer, Pose, SegmentId, Shape, StepRecord, World};
+use tunnelproof::wire::recording::{BodySummary, Header};
+use tunnelproof::wire::{CrossingOutcome, PairAnswer, Pose, SegmentId, StepRecord, World};
 
 use self::core::Core;
 use aside::passages;
@@ -58,6 +62,8 @@ pub const MOST_FINDINGS: usize = 1000;
 /// An audit under way.
 pub struct Audit {
     cores: Vec<Core>,
+    /// Whether forces move a body.
+    dynamic: Vec<bool>,
     ledger: Ledger,
     left: Option<Wires>,
     /// The wires of contacts in the last step, and where the two segments end.
@@ -98,6 +104,14 @@ pub struct Report {
     pub body_missed: u64,
     /// Changes of resolution that passed through a core.
     pub body_remeshes_through: u64,
+    /// Pairs of bodies that came near each other, in steps in which one moved.
+    pub core_pairs: u64,
+    /// Cores of two bodies that came to touch, in the motions that were made.
+    pub core_contacts: u64,
+    /// Touches of two cores that were reported in motions that were tried and not made.
+    pub core_prevented: u64,
+    /// Touches of two cores that were not reported.
+    pub core_missed: u64,
     /// The largest share of the thickness that was guarded.
     pub guarded_thickness: f64,
     /// Pairs of segments near enough to ask whether they keep it.
@@ -122,6 +136,8 @@ pub struct Report {
     pub standing: Vec<([usize; 2], i64)>,
     /// Wires and bodies: the midline is inside the core at the end.
     pub body_standing: Vec<[usize; 2]>,
+    /// Bodies whose cores overlap at the end.
+    pub core_standing: Vec<[usize; 2]>,
     /// Pairs of wires of which that cannot be said.
     pub ambiguous: Vec<Ambiguous>,
     /// The first of all that is wrong, at most [`MOST_FINDINGS`].
@@ -131,7 +147,8 @@ pub struct Report {
 impl Report {
     /// Whether nothing passed unnoticed and nothing stands, or may stand, on the wrong side.
     pub fn is_clean(&self) -> bool {
-        let none_stands = self.standing.is_empty() && self.body_standing.is_empty();
+        let in_bodies = self.body_standing.is_empty() && self.core_standing.is_empty();
+        let none_stands = self.standing.is_empty() && in_bodies;
         self.unnoticed() == 0 && none_stands && self.ambiguous.is_empty()
     }
 
@@ -142,7 +159,7 @@ impl Report {
 
     /// How much passed unnoticed, and how often a wire or a body jumped.
     pub fn unnoticed(&self) -> u64 {
-        let bodies = self.body_missed + self.body_remeshes_through;
+        let bodies = self.body_missed + self.core_missed + self.body_remeshes_through;
         let nearer = self.nearer.iter().chain(&self.remeshes_nearer);
         let missed = self.missed.iter().chain(nearer).sum::<u64>();
         missed + self.remeshes_through + bodies + self.jumps
@@ -165,6 +182,7 @@ impl Report {
             What::False => self.false_hits += 1,
             What::Remesh => self.remeshes_through += 1,
             What::BodyMissed { .. } => self.body_missed += 1,
+            What::CoreMissed { .. } => self.core_missed += 1,
             What::BodyRemesh { .. } => self.body_remeshes_through += 1,
             What::Nearer { were_near, .. } => self.nearer[usize::from(were_near)] += 1,
             What::RemeshNearer { were_near } => {
@@ -182,10 +200,11 @@ impl Report {
 }
 
 impl Audit {
-    /// An audit of a world with bodies of these shapes, in the order in which they were added.
-    pub fn new<'a>(bodies: impl IntoIterator<Item = &'a Shape>) -> Self {
+    /// An audit of a world with these bodies, in the order in which they were added.
+    pub fn new(bodies: &[BodySummary]) -> Self {
         Audit {
-            cores: bodies.into_iter().map(Core::of).collect(),
+            cores: bodies.iter().map(|body| Core::of(&body.shape)).collect(),
+            dynamic: bodies.iter().map(|body| body.dynamic).collect(),
             ledger: Ledger::default(),
             left: None,
             last: Vec::new(),
@@ -196,12 +215,13 @@ impl Audit {
 
     /// An audit of a recording.
     pub fn of_recording(header: &Header) -> Self {
-        Audit::new(header.bodies.iter().map(|body| &body.shape))
+        Audit::new(&header.bodies)
     }
 
     /// An audit of the steps of a world.
     pub fn of_world(world: &World) -> Self {
-        Audit::new(world.bodies().iter().map(|body| body.shape()))
+        let bodies: Vec<_> = world.bodies().iter().map(BodySummary::from).collect();
+        Audit::new(&bodies)
     }
 
     /// Looks at the next step.
@@ -220,6 +240,7 @@ impl Audit {
             self.motion(record);
             self.prevented(record);
             self.beside_bodies(record);
+            self.between_bodies(record);
             self.thickness(record);
             self.left = Some(self.remeshes(record));
         }
@@ -233,6 +254,7 @@ impl Audit {
                 self.ledger.cut(wires);
             }
         }
+        self.report.core_standing = self.standing_in_each_other();
         self.report.body_standing = self.standing_in_bodies();
         self.report.standing = self.ledger.standing();
         self.report.ambiguous = self.ledger.ambiguous();

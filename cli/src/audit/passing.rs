@@ -1,14 +1,19 @@
-//! Wires that pass into bodies, step by step.
+//! Wires that pass into bodies, and bodies into each other, step by step.
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
-use tunnelproof::wire::{BodyCrossingOutcome, NodeKind, Remesh, RemeshKind, SegmentId, StepRecord};
+use tunnelproof::wire::{
+    BodyCrossingOutcome, BodyRecord, NodeKind, Remesh, RemeshKind, SegmentId, StepRecord,
+};
 
 use super::Audit;
 use super::aside::Node;
-use super::bodies::{BodyWay, SegmentWay, Touch, fixed_to, is_in, is_swept};
+use super::bodies::{BodyWay, SegmentWay, Touch, fixed_to, is_in, is_swept, pose};
 use super::finding::What;
+use super::overlap::overlap;
+use super::pairs;
 use super::segments::{Segment, moving};
 
 /// What was found of one body in a motion.
@@ -46,9 +51,7 @@ impl Audit {
                     crossing,
                 };
                 let what = match said.remove(&(body, id)) {
-                    Some(reported) if reported == toi => None,
-                    Some(reported) if reported < toi => Some(What::Early { by: toi - reported }),
-                    Some(reported) => Some(What::Late { by: reported - toi }),
+                    Some(reported) => timed(reported, toi),
                     None => Some(missed),
                 };
                 if let Some(what) = what {
@@ -82,6 +85,77 @@ impl Audit {
             .filter_map(|(id, touch, _)| Some((id, touch?)));
         let touches = touches.collect();
         Some(Found { asked, touches })
+    }
+
+    /// The motion that was made, by two bodies of which forces move one.
+    pub(super) fn between_bodies(&mut self, record: &StepRecord) {
+        let mut said: BTreeMap<[usize; 2], f64> = BTreeMap::new();
+        for crossing in &record.collisions.core_crossings {
+            match crossing.outcome {
+                BodyCrossingOutcome::Prevented => self.report.core_prevented += 1,
+                BodyCrossingOutcome::Passed => {
+                    said.insert(crossing.bodies.map(|body| body.0), crossing.toi);
+                }
+            }
+        }
+        // What is no motion was found before.
+        let way = |body: &BodyRecord| BodyWay::new(body).ok();
+        let ways: Vec<Option<BodyWay>> = record.bodies.iter().map(way).collect();
+        let asked = |&[a, b]: &[usize; 2]| {
+            let ways = [ways.get(a)?.as_ref()?, ways.get(b)?.as_ref()?];
+            let cores = [self.cores.get(a)?, self.cores.get(b)?];
+            Some(([a, b], pairs::first_touch(cores, ways).ok().flatten()))
+        };
+        let all: Vec<_> = self.body_pairs().par_iter().filter_map(asked).collect();
+        for (bodies, found) in all {
+            let Some(found) = found else {
+                let body = bodies[1];
+                self.find(record, What::BodyUnsound { body }, &[], None);
+                continue;
+            };
+            self.report.core_pairs += u64::from(found.near);
+            let Some(Touch { toi, crossing }) = found.touch else {
+                continue;
+            };
+            self.report.core_contacts += 1;
+            let missed = What::CoreMissed {
+                bodies,
+                toi,
+                crossing,
+            };
+            let what = match said.remove(&bodies) {
+                Some(reported) => timed(reported, toi),
+                None => Some(missed),
+            };
+            if let Some(what) = what {
+                self.find(record, what, &[], None);
+            }
+        }
+        for _ in said {
+            self.find(record, What::False, &[], None);
+        }
+    }
+
+    /// Two bodies of which forces move one.
+    fn body_pairs(&self) -> Vec<[usize; 2]> {
+        let count = self.cores.len();
+        let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
+        let moved = |pair: &[usize; 2]| pair.iter().any(|body| self.dynamic[*body]);
+        pairs.filter(moved).collect()
+    }
+
+    /// Two bodies of which forces move one, and whose cores overlap where the run ends.
+    pub(super) fn standing_in_each_other(&self) -> Vec<[usize; 2]> {
+        let Some(poses) = &self.poses else {
+            return Vec::new();
+        };
+        let overlapping = |&[a, b]: &[usize; 2]| {
+            let Some((at, other)) = poses.get(a).zip(poses.get(b)) else {
+                return false;
+            };
+            overlap([&self.cores[a], &self.cores[b]], [&pose(at), &pose(other)])
+        };
+        self.body_pairs().into_iter().filter(overlapping).collect()
     }
 
     fn body_jumps(&mut self, record: &StepRecord) {
@@ -149,6 +223,15 @@ impl Audit {
         }
         standing.dedup();
         standing
+    }
+}
+
+/// What is wrong with a time of impact.
+fn timed(reported: f64, toi: f64) -> Option<What> {
+    match reported.partial_cmp(&toi) {
+        Some(Ordering::Equal) => None,
+        Some(Ordering::Less) => Some(What::Early { by: toi - reported }),
+        _ => Some(What::Late { by: reported - toi }),
     }
 }
 

@@ -8,6 +8,7 @@ use tunnelproof::broad::Method;
 use tunnelproof::certified::Certified;
 use tunnelproof::contact::{Contact, Verdict};
 use tunnelproof::narrow::{self, NarrowPhase, Unsupported};
+use tunnelproof::wire::recording::BodySummary;
 use tunnelproof::wire::{
     BodyRecord, Collisions, Material, Mode, NodeKind, Pose, Remesh, RemeshKind, Shape, Stop,
     Vector, WireId, WirePlan, WireRecord, World,
@@ -74,7 +75,13 @@ fn audited(records: &[StepRecord]) -> Report {
 }
 
 fn audited_with(shapes: &[Shape], records: &[StepRecord]) -> Report {
-    let mut audit = Audit::new(shapes);
+    let of = |shape: &Shape| BodySummary {
+        shape: shape.clone(),
+        dynamic: true,
+        mass: 1.0,
+    };
+    let bodies: Vec<BodySummary> = shapes.iter().map(of).collect();
+    let mut audit = Audit::new(&bodies);
     records.iter().for_each(|record| audit.step(record));
     audit.finish()
 }

@@ -110,16 +110,27 @@ pub(super) fn marks(record: &StepRecord) -> impl Iterator<Item = Mark> {
     let of_bodies = record.collisions.body_crossings.iter().map(|crossing| {
         let (wire, arc) = (crossing.segment.wire, crossing.arc);
         let at = place(record, &ContactSite::Wire { wire, arc });
-        let what = match crossing.outcome {
-            BodyCrossingOutcome::Prevented => "prevented",
-            BodyCrossingOutcome::Passed => "tunnelled",
-        };
         Mark {
-            what,
+            what: body_mark(crossing.outcome),
             at: at.as_ref().map(triple),
         }
     });
-    of_wires.chain(of_bodies)
+    let of_cores = record
+        .collisions
+        .core_crossings
+        .iter()
+        .map(|crossing| Mark {
+            what: body_mark(crossing.outcome),
+            at: Some(triple(&crossing.at)),
+        });
+    of_wires.chain(of_bodies).chain(of_cores)
+}
+
+fn body_mark(outcome: BodyCrossingOutcome) -> &'static str {
+    match outcome {
+        BodyCrossingOutcome::Prevented => "prevented",
+        BodyCrossingOutcome::Passed => "tunnelled",
+    }
 }
 
 impl Frame {

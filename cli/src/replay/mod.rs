@@ -145,8 +145,8 @@ impl Replay {
             true => "audited: nothing passed unnoticed".to_owned(),
             false => format!(
                 "audited: {} contacts missed, {} standing tunnels, {} ambiguous",
-                report.missed.iter().sum::<u64>() + report.body_missed,
-                report.standing.len() + report.body_standing.len(),
+                report.missed.iter().sum::<u64>() + report.body_missed + report.core_missed,
+                report.standing.len() + report.body_standing.len() + report.core_standing.len(),
                 report.ambiguous.len()
             ),
         };

@@ -41,6 +41,10 @@ pub fn text(report: &Report, caller: &Caller) -> String {
         ("  prevented", grouped(report.body_prevented)),
         ("  missed", grouped(report.body_missed)),
         ("changes into bodies", grouped(report.body_remeshes_through)),
+        ("bodies near each other", grouped(report.core_pairs)),
+        ("touches of two made", grouped(report.core_contacts)),
+        ("  prevented", grouped(report.core_prevented)),
+        ("  missed", grouped(report.core_missed)),
         ("thickness guarded", format!("{}", report.guarded_thickness)),
         ("thick pairs", grouped(report.thick_pairs)),
         ("nearer than guarded", both(report.nearer)),
@@ -59,6 +63,10 @@ pub fn text(report: &Report, caller: &Caller) -> String {
             "standing in bodies",
             grouped(report.body_standing.len() as u64),
         ),
+        (
+            "bodies in each other",
+            grouped(report.core_standing.len() as u64),
+        ),
         ("ambiguous", grouped(report.ambiguous.len() as u64)),
     ];
     let mut text = String::from("Audit by the exact oracle\n");
@@ -70,6 +78,9 @@ pub fn text(report: &Report, caller: &Caller) -> String {
     }
     for [wire, body] in &report.body_standing {
         text += &format!("  wire {wire} is inside body {body}\n");
+    }
+    for [a, b] in &report.core_standing {
+        text += &format!("  bodies {a} and {b} are inside each other\n");
     }
     for ambiguous in &report.ambiguous {
         text += &format!("  {ambiguous}\n");

@@ -1,4 +1,5 @@
-//! From the motion of all wires and bodies to the midlines that touch cores.
+//! From the motion of all wires and bodies to the midlines that touch cores, and the cores that touch
+//! each other ([`core_pairs`](super::core_pairs)).
 //!
 //! Where a segment that is apart from a closed surface first touches it, one of its nodes touches a
 //! face, or the segment touches an edge. Each of these is a query of [`decide_rigid`]. A segment
@@ -8,6 +9,7 @@
 use super::body_motion::{BodyWay, SegmentWay, Stage, between, into_body};
 use super::boxes::Boxes;
 use super::core_boxes::{self, Bounds, CornerBoxes};
+use super::core_pairs::{CoreHit, first_core_touch};
 use super::segment::direction;
 use crate::broad::{Aabb, BroadError, Method};
 use crate::certified::decide_rigid;
@@ -44,6 +46,22 @@ pub(super) struct BodyHit {
     pub(super) toi: f64,
     /// Unit normal in the body's frame from the core to where the wire comes from.
     pub(super) normal: Option<Vector>,
+}
+
+/// What touches a core.
+#[derive(Default)]
+pub(super) struct CoreHits {
+    pub(super) midlines: Vec<BodyHit>,
+    pub(super) bodies: Vec<CoreHit>,
+}
+
+/// What may touch, by number.
+#[derive(Default)]
+struct Near {
+    /// Two bodies, of which forces move one.
+    bodies: Vec<[usize; 2]>,
+    /// A body and a run.
+    runs: Vec<(usize, usize)>,
 }
 
 /// The first touch in a stage.
@@ -89,24 +107,32 @@ impl CoreDetection {
             .extend(new.iter().map(|body| Core::of(&body.shape)));
     }
 
-    /// The midlines that touch a core while `world` makes a motion: the first touch of each segment
-    /// and body.
+    /// What touches a core while `world` makes a motion: the first touch of each segment and body,
+    /// and of each two bodies.
     pub(super) fn detect(
         &mut self,
         world: &World,
         motion: &ProposedMotion,
         record: &mut CollisionRecord,
-    ) -> Result<Vec<BodyHit>, CollisionError> {
-        if self.cores.is_empty() || world.wires.is_empty() {
-            return Ok(Vec::new());
+    ) -> Result<CoreHits, CollisionError> {
+        let mut hits = CoreHits::default();
+        if self.cores.is_empty() {
+            return Ok(hits);
         }
         let ways = (0..self.cores.len()).map(|body| BodyWay::new(world, motion, BodyId(body)));
         let ways: Vec<BodyWay> = ways.collect::<Result<_, _>>()?;
         let nodes = Nodes::new(world, motion);
         let runs = runs(&nodes);
         let near = self.near(world, &ways, &nodes, &runs)?;
-        let mut hits: Vec<BodyHit> = Vec::new();
-        for of_body in near.chunk_by(|a, b| a.0 == b.0) {
+        for pair in near.bodies {
+            let cores = pair.map(|body| &self.cores[body]);
+            let of = pair.map(|body| &ways[body]);
+            let mut tested = false;
+            let hit = first_core_touch(pair.map(BodyId), cores, of, &mut tested)?;
+            record.tested_core_pairs += usize::from(tested);
+            hits.bodies.extend(hit);
+        }
+        for of_body in near.runs.chunk_by(|a, b| a.0 == b.0) {
             let body = BodyId(of_body[0].0);
             let mut beside = Beside::new(&self.cores[body.0], &ways[body.0]);
             for run in of_body.iter().map(|(_, run)| &runs[*run]) {
@@ -116,7 +142,8 @@ impl CoreDetection {
                     let end = [0, 1].map(|k| nodes.end[run.wire][segment + k]);
                     let way = SegmentWay::new(world, id, end, body);
                     if let Some((times, touch)) = beside.first_touch(&way)? {
-                        hits.extend(beside.hit(world, &way, body, times, touch)?);
+                        let hit = beside.hit(world, &way, body, times, touch)?;
+                        hits.midlines.extend(hit);
                     }
                 }
             }
@@ -125,14 +152,14 @@ impl CoreDetection {
         Ok(hits)
     }
 
-    /// Bodies and runs whose boxes meet, or that are tied to each other, by number.
+    /// Bodies and runs whose boxes meet, or that are tied to each other, and two bodies.
     fn near(
         &mut self,
         world: &World,
         ways: &[BodyWay],
         nodes: &Nodes,
         runs: &[Run],
-    ) -> Result<Vec<(usize, usize)>, CollisionError> {
+    ) -> Result<Near, CollisionError> {
         let of_bodies = self.cores.iter().zip(ways);
         let mut boxes: Vec<_> = of_bodies.map(|(core, way)| swept(core, way)).collect();
         boxes.extend(runs.iter().map(|run| {
@@ -141,20 +168,32 @@ impl CoreDetection {
         }));
         self.boxes.place(boxes.into_iter())?;
         let bodies = self.cores.len();
-        let pairs = self.boxes.pairs(|[a, b]| (a < bodies) != (b < bodies));
-        let numbers = pairs.iter().map(|pair| {
+        let forces_move = |body: usize| world.bodies[body].dynamic;
+        let keep = |[a, b]: [usize; 2]| match [a < bodies, b < bodies] {
+            [true, true] => {
+                let is_still = ways[a].rests && ways[b].rests;
+                !is_still && (forces_move(a) || forces_move(b))
+            }
+            [false, false] => false,
+            _ => true,
+        };
+        let mut near = Near::default();
+        for pair in self.boxes.pairs(keep) {
             let [a, b] = [pair.first().index(), pair.second().index()];
-            (a.min(b), a.max(b) - bodies)
-        });
-        let mut near: Vec<(usize, usize)> = numbers.collect();
+            match [a.min(b), a.max(b)] {
+                [a, b] if b < bodies => near.bodies.push([a, b]),
+                [body, run] => near.runs.push((body, run - bodies)),
+            }
+        }
         // What is tied to a body goes on its arcs, which the boxes of straight ways may not hold.
         for (r, run) in runs.iter().enumerate() {
             let tied = &world.wires[run.wire].nodes[run.first..run.last + 2];
             let carriers = tied.iter().filter_map(|node| node.kind.carrier());
-            near.extend(carriers.map(|(body, _)| (body.0, r)));
+            near.runs.extend(carriers.map(|(body, _)| (body.0, r)));
         }
-        near.sort_unstable();
-        near.dedup();
+        near.bodies.sort_unstable();
+        near.runs.sort_unstable();
+        near.runs.dedup();
         Ok(near)
     }
 }
@@ -294,7 +333,7 @@ impl<'a> Beside<'a> {
 
 /// The normal, if what comes from there comes along it by a tenth at least; else the direction from
 /// which it comes.
-fn side(normal: Option<Vector>, came_from: &Vector) -> Option<Vector> {
+pub(super) fn side(normal: Option<Vector>, came_from: &Vector) -> Option<Vector> {
     const TENTH: f64 = 0.1;
     let along = |normal: &Vector| normal.dot(came_from) >= TENTH * came_from.norm();
     normal.filter(along).or_else(|| direction(came_from))
@@ -455,8 +494,7 @@ pub(super) fn covers_plane(
     )
 }
 
-/// A triangle of a body's plane that covers wherever a point comes on a straight way: nowhere is
-/// the point farther from the centre than at one of both ends. None if it stays well above the
+/// A triangle of a body's plane that covers wherever a point comes on a straight way. None if it stays well above the
 /// plane, which does not move.
 fn covering(motion: &RigidMotion, from: Point, to: Point) -> Option<[Point; 3]> {
     let ways = [from - motion.start().centre, to - motion.end().centre];
@@ -469,11 +507,23 @@ fn covering(motion: &RigidMotion, from: Point, to: Point) -> Option<[Point; 3]> 
             return None;
         }
     }
+    // Nowhere is it farther from the centre than at one of both ends.
+    Some(plane_around(far))
+}
+
+/// A triangle of the plane `z = 0` that covers a circle of this radius, and rounding.
+pub(super) fn plane_around(radius: f64) -> [Point; 3] {
     // The next power of two; a circle of twice that is inside the triangle.
-    let exponent = far.max(f64::MIN_POSITIVE).to_bits() >> 52;
+    let exponent = radius.max(f64::MIN_POSITIVE).to_bits() >> 52;
     let size = f64::from_bits((exponent + 1) << 52);
     let corner = |x: f64, y: f64| Point::new(x * size, y * size, 0.0);
-    Some([corner(0.0, 4.0), corner(-4.0, -2.0), corner(4.0, -2.0)])
+    [corner(0.0, 4.0), corner(-4.0, -2.0), corner(4.0, -2.0)]
+}
+
+impl CoreHits {
+    pub(super) fn is_empty(&self) -> bool {
+        self.midlines.is_empty() && self.bodies.is_empty()
+    }
 }
 
 impl Touch {

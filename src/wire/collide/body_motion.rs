@@ -4,7 +4,7 @@
 //! wires go on straight lines, but for those that are fixed to the body: they would leave its arcs
 //! for chords, into the body. So for a segment with such a node the way is divided further, into
 //! parts in which the body turns by at most [`FINE`]; at the ends of parts the node is where the
-//! body has it, rounded.
+//! body has it, rounded. Of two bodies that move, both have the same pieces.
 
 use nalgebra::Quaternion;
 
@@ -81,6 +81,15 @@ impl BodyWay {
             pieces: vec![RigidMotion::new(pose, pose)?],
             rests: true,
         })
+    }
+
+    /// Its motion in a piece of the step; one that rests has one piece.
+    pub(super) fn piece(&self, piece: usize) -> &RigidMotion {
+        if self.rests {
+            &self.pieces[0]
+        } else {
+            &self.pieces[piece]
+        }
     }
 
     /// One of the parts of a piece, in which the segment's nodes go straight.

@@ -35,6 +35,14 @@ impl Bounds {
         }
     }
 
+    /// Around the sum of two points, one of each box.
+    pub(super) fn plus(&self, other: &Bounds) -> Bounds {
+        Bounds {
+            low: self.low + other.low,
+            high: self.high + other.high,
+        }
+    }
+
     pub(super) fn joined(&self, other: &Bounds) -> Bounds {
         Bounds {
             low: self.low.inf(&other.low),
@@ -88,6 +96,13 @@ impl CornerBoxes {
         CornerBoxes { corners, whole }
     }
 
+    /// The same, seen from the centre of another body.
+    pub(super) fn seen_from(mut self, offset: &Bounds) -> Self {
+        let all = self.corners.iter_mut().chain([&mut self.whole]);
+        all.for_each(|bounds| *bounds = bounds.plus(offset));
+        self
+    }
+
     pub(super) fn of<const N: usize>(&self, corners: &[usize; N]) -> Bounds {
         let boxes = corners.map(|k| self.corners[k]);
         boxes[1..].iter().fold(boxes[0], |a, b| a.joined(b))
@@ -107,6 +122,31 @@ pub(super) fn in_space(motion: &RigidMotion, [low, high]: &[Point; 2]) -> Bounds
         low: (from.inf(&to) + around.low).add_scalar(-ROUNDING * size),
         high: (from.sup(&to) + around.high).add_scalar(ROUNDING * size),
     }
+}
+
+/// The box of the way from the centre of a body to that of another one.
+pub(super) fn offset(motion: &RigidMotion, to: &RigidMotion) -> Bounds {
+    let centres = [motion, to].map(|m| [m.start(), m.end()].map(|pose| pose.centre.coords));
+    let size = centres.as_flattened().iter();
+    let size = size.fold(0.0, |size: f64, centre| size.max(centre.amax()));
+    let [from, to] = centres;
+    Bounds::around(
+        &(to[0] - from[0]),
+        &(to[1] - from[1]),
+        ROUNDING * size + TINY,
+    )
+}
+
+/// Whether a point of a body stays well above the plane of a body that does not move.
+pub(super) fn is_above(motion: &RigidMotion, local: &Point, plane: &RigidMotion) -> bool {
+    if plane.start() != plane.end() {
+        return false;
+    }
+    let up = arm(plane, &Point::new(0.0, 0.0, 1.0), 0.0);
+    let way = corner(motion, local).plus(&offset(plane, motion));
+    let size = way.low.amax().max(way.high.amax());
+    let lowest = (0..3).map(|axis| (up[axis] * way.low[axis]).min(up[axis] * way.high[axis]));
+    lowest.sum::<f64>() > 1e-9 * size
 }
 
 /// The boxes of both nodes of a segment, seen from the centre of the body.

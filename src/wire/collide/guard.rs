@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::body_contacts::BodyContacts;
-use super::body_detect::BodyHit;
+use super::body_detect::CoreHits;
 use super::collisions::{Collisions, Mode};
+use super::core_pairs::Clearance;
 use super::detect::{Detections, MidlineHit};
 use super::islands::Islands;
 use super::parts::Parts;
@@ -73,14 +74,14 @@ impl<'a, 'n> Guard<'a, 'n> {
         })
     }
 
-    /// The midlines that touch cores, unless bodies are the caller's.
-    fn touched_bodies(
+    /// What touches cores, unless bodies are the caller's.
+    fn touched_cores(
         &mut self,
         world: &World,
         motion: &ProposedMotion,
-    ) -> Result<Vec<BodyHit>, CollisionError> {
+    ) -> Result<CoreHits, CollisionError> {
         if self.collisions.obstacles.is_none() {
-            return Ok(Vec::new());
+            return Ok(CoreHits::default());
         }
         let cores = &mut self.collisions.cores;
         cores.detect(world, motion, &mut self.record)
@@ -122,21 +123,28 @@ impl<'a, 'n> Guard<'a, 'n> {
     }
 
     /// A contact for each touch of a core that has a normal; whether there is any.
-    fn add_body_contacts(
+    fn add_core_contacts(
         &mut self,
         world: &World,
         motion: &ProposedMotion,
-        hits: &[BodyHit],
+        hits: &CoreHits,
     ) -> bool {
         let before = self.contacts.len();
         let Some(obstacles) = &mut self.collisions.obstacles else {
             return false;
         };
+        let cores = &self.collisions.cores.cores;
+        let friction = self.collisions.friction;
+        for hit in &hits.bodies {
+            let clearance = Clearance::of(hit.bodies().map(|body| &cores[body.0]));
+            let row = hit.row(world, motion, clearance, friction, obstacles.next_key());
+            self.contacts.extend(row);
+        }
         let mut placed = BTreeSet::new();
-        for hit in hits {
-            let inset = self.collisions.cores.cores[hit.body.0].inset();
+        for hit in &hits.midlines {
+            let inset = cores[hit.body.0].inset();
             let key = obstacles.next_key();
-            let row = hit.row(world, motion, inset, self.collisions.friction, key);
+            let row = hit.row(world, motion, inset, friction, key);
             // A node is found by the segments on both sides.
             if placed.insert((hit.body, hit.site.wire, hit.site.arc.to_bits())) {
                 self.contacts.extend(row);
@@ -213,11 +221,14 @@ fn passage(touches: &mut WireContacts, world: &World, hit: &MidlineHit) -> Cross
 }
 
 /// What still meets though nothing moves.
-fn touching(wires: &[MidlineHit], bodies: &[BodyHit]) -> CollisionError {
-    match (wires, bodies) {
-        ([], [first, ..]) => CollisionError::TouchingBody {
+fn touching(wires: &[MidlineHit], cores: &CoreHits) -> CollisionError {
+    match (wires, &cores.midlines[..], &cores.bodies[..]) {
+        ([], [first, ..], _) => CollisionError::TouchingBody {
             site: first.site,
             body: first.body,
+        },
+        ([], [], [first, ..]) => CollisionError::TouchingBodies {
+            bodies: first.bodies(),
         },
         _ => CollisionError::Touching {
             sites: wires[0].sites,
@@ -245,13 +256,16 @@ impl StepCallbacks for Guard<'_, '_> {
         } = &mut *self.collisions;
         let found =
             pipeline.detect(world, motion, *narrow, *filter, thickness, &mut self.record)?;
-        let touched = self.touched_bodies(world, motion)?;
+        let touched = self.touched_cores(world, motion)?;
         let outcome = match self.collisions.mode {
             Mode::Guard => BodyCrossingOutcome::Prevented,
             Mode::Thesis => BodyCrossingOutcome::Passed,
         };
-        let crossings = touched.iter().map(|hit| hit.crossing(outcome));
-        self.record.body_crossings.extend(crossings);
+        let midlines = touched.midlines.iter();
+        let midlines = midlines.map(|hit| hit.crossing(outcome));
+        self.record.body_crossings.extend(midlines);
+        let bodies = touched.bodies.iter().map(|hit| hit.crossing(outcome));
+        self.record.core_crossings.extend(bodies);
         let is_free = found.hits.is_empty() && touched.is_empty();
         if is_free || self.collisions.mode == Mode::Thesis {
             self.found = found;
@@ -265,7 +279,7 @@ impl StepCallbacks for Guard<'_, '_> {
         if self.islands.is_none() && self.parts.is_none() && self.record.rounds < ROUNDS {
             self.record.rounds += 1;
             let between_wires = self.add_contacts(world, &found.hits);
-            if self.add_body_contacts(world, motion, &touched) || between_wires {
+            if self.add_core_contacts(world, motion, &touched) || between_wires {
                 return Ok(MotionReview::SolveAgain);
             }
         }

@@ -1,6 +1,6 @@
 //! ProposedMotion that is shortened because a crossing is left.
 
-use super::body_detect::BodyHit;
+use super::body_detect::CoreHits;
 use super::detect::MidlineHit;
 use crate::wire::Vector;
 use crate::wire::contact::{ContactConstraint, ContactSite};
@@ -86,7 +86,7 @@ impl Islands {
     }
 
     /// Joins the islands of each hit and scales their motion down.
-    pub(super) fn shorten(&mut self, world: &World, hits: &[MidlineHit], bodies: &[BodyHit]) {
+    pub(super) fn shorten(&mut self, world: &World, hits: &[MidlineHit], cores: &CoreHits) {
         self.attempts += 1;
         if self.attempts > ATTEMPTS {
             self.scale.fill(0.0);
@@ -95,14 +95,29 @@ impl Islands {
         for hit in hits {
             self.join(hit.sites[0].wire.0, hit.sites[1].wire.0);
         }
-        for hit in bodies.iter().filter(|hit| moves(world, hit.body)) {
+        let midlines = cores.midlines.iter();
+        for hit in midlines.clone().filter(|hit| moves(world, hit.body)) {
             self.join(hit.site.wire.0, self.wires + hit.body.0);
         }
+        let pairs = cores.bodies.iter();
+        let pairs: Vec<_> = pairs
+            .filter_map(|hit| {
+                let of = hit.bodies().into_iter();
+                let mut moving = of.filter(|body| moves(world, *body));
+                let first = self.wires + moving.next()?.0;
+                if let Some(second) = moving.next() {
+                    self.join(first, self.wires + second.0);
+                }
+                Some((first, hit.toi))
+            })
+            .collect();
         let mut part = vec![1.0f64; self.scale.len()];
-        let of_wires = hits.iter().map(|hit| (hit.sites[0].wire, hit.contact.toi));
-        let of_bodies = bodies.iter().map(|hit| (hit.site.wire, hit.toi));
-        for (wire, toi) in of_wires.chain(of_bodies) {
-            let root = self.root(wire.0);
+        let of_wires = hits
+            .iter()
+            .map(|hit| (hit.sites[0].wire.0, hit.contact.toi));
+        let of_midlines = midlines.map(|hit| (hit.site.wire.0, hit.toi));
+        for (member, toi) in of_wires.chain(of_midlines).chain(pairs) {
+            let root = self.root(member);
             part[root] = part[root].min(SAFETY * toi);
         }
         for (scale, part) in self.scale.iter_mut().zip(part) {

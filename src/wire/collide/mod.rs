@@ -11,7 +11,8 @@
 //! leads to is the [`Mode`]. How far apart thick wires are kept is in `thickness`, and what moves less so that
 //! they are, in `islands` and `parts`. Contacts with bodies are found where a step starts (`body_contacts`), by
 //! a collision library (`collision_shape`). Besides, midlines are tested continuously against the
-//! cores of bodies (`body_detect`), which no motion that is made lets them touch.
+//! cores of bodies (`body_detect`), and cores against each other (`core_pairs`): no motion that is made
+//! lets them touch.
 //!
 //! ```
 //! use tunnelproof::query::Point;
@@ -44,10 +45,12 @@ mod collision_shape;
 mod collisions;
 mod contact_node_insertion;
 mod core_boxes;
+mod core_pairs;
 mod detect;
 mod guard;
 mod islands;
 mod manifold;
+mod overlap;
 mod parts;
 mod remesh;
 mod segment;
@@ -72,10 +75,11 @@ impl World {
     /// are more contacts; keys from 2^63 on are not theirs to use.
     ///
     /// In guard mode no wire passes through another or through itself, and none through a body,
-    /// changes of resolution included. With a [guarded share of the
+    /// changes of resolution included. No body passes through another one, unless both are scripted. With a [guarded share of the
     /// thickness](Collisions::with_guarded_thickness) no wire comes within it either. Segments that share a node, or are fixed to the same point,
     /// are not tested against each other. A segment that touches the core of a body, or is inside
-    /// it, is not tested against this body until it is outside.
+    /// it, is not tested against this body until it is outside; two bodies whose cores touch or overlap
+    /// are not tested until they are apart.
     ///
     /// # Errors
     ///

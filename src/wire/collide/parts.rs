@@ -4,7 +4,7 @@
 //! wherever two segments come too near, a whole pile would stand still in the air. So the nodes of
 //! these two segments are shortened alone, and what is shortened between others is tested again.
 
-use super::body_detect::BodyHit;
+use super::body_detect::CoreHits;
 use super::detect::MidlineHit;
 use super::islands::{SAFETY, moves};
 use crate::wire::model::{BodyId, WireId};
@@ -34,26 +34,32 @@ impl Parts {
         }
     }
 
-    /// Scales the motion of each hit down, of two segments or of a segment and a body. False if one
-    /// does not move any more.
-    pub(super) fn shorten(
-        &mut self,
-        world: &World,
-        hits: &[MidlineHit],
-        bodies: &[BodyHit],
-    ) -> bool {
+    /// Scales the motion of each hit down, of two segments, of a segment and a body, or of two bodies.
+    /// False if one does not move any more.
+    pub(super) fn shorten(&mut self, world: &World, hits: &[MidlineHit], cores: &CoreHits) -> bool {
         self.attempts += 1;
         let before = self.scales.clone();
         for hit in hits {
             let nodes = hit.segments().map(nodes);
             self.shorten_nodes(world, &before, nodes.as_flattened(), 1.0, hit.contact.toi);
         }
-        for hit in bodies {
+        for hit in &cores.midlines {
             let body = hit.body.0;
             let (nodes, own) = (nodes(hit.segment), before.bodies[body]);
             let scale = self.shorten_nodes(world, &before, &nodes, own, hit.toi);
             let part = &mut self.scales.bodies[body];
             *part = part.min(scale);
+        }
+        for hit in &cores.bodies {
+            let bodies = hit.bodies().map(|body| body.0);
+            let least = bodies
+                .iter()
+                .fold(1.0, |least: f64, body| least.min(before.bodies[*body]));
+            let scale = self.scale(least, hit.toi);
+            for body in bodies {
+                let part = &mut self.scales.bodies[body];
+                *part = part.min(scale);
+            }
         }
         self.scales != before
     }
@@ -70,15 +76,20 @@ impl Parts {
     ) -> f64 {
         let of = |&(wire, node): &(usize, usize)| before.of(world, wire, node);
         let least = nodes.iter().map(of).fold(other, f64::min);
-        let scale = match self.attempts > ATTEMPTS {
-            true => 0.0,
-            false => least * SAFETY * toi,
-        };
+        let scale = self.scale(least, toi);
         for &(wire, node) in nodes {
             let part = self.scales.part(world, wire, node);
             *part = part.min(scale);
         }
         scale
+    }
+
+    /// What becomes of a factor where what it is of touches.
+    fn scale(&self, least: f64, toi: f64) -> f64 {
+        match self.attempts > ATTEMPTS {
+            true => 0.0,
+            false => least * SAFETY * toi,
+        }
     }
 
     pub(super) fn motion_scales(&self) -> MotionScales {

@@ -25,6 +25,11 @@ pub enum CollisionError {
         /// The body.
         body: BodyId,
     },
+    /// Two bodies touch where the step starts, and nothing that moves keeps them apart.
+    TouchingBodies {
+        /// The bodies.
+        bodies: [BodyId; 2],
+    },
     /// A body's motion or a segment beside it is no query.
     Rigid(RigidError),
     /// The collision library does not take the mesh of a body.
@@ -52,6 +57,9 @@ impl fmt::Display for CollisionError {
                     "the midline of {site} touches body {} before the step",
                     body.0
                 )
+            }
+            CollisionError::TouchingBodies { bodies: [a, b] } => {
+                write!(f, "bodies {} and {} touch before the step", a.0, b.0)
             }
             CollisionError::Rigid(error) => write!(f, "body: {error}"),
             CollisionError::Mesh { body } => {

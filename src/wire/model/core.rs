@@ -1,4 +1,4 @@
-//! Cores of bodies: what no wire's midline may cross.
+//! Cores of bodies: what no wire's midline and no other core may cross.
 //!
 //! A core is a closed triangle mesh strictly inside its shape, so that whatever lies on the surface
 //! does not touch it. It is smaller by an [`INSET`] of the shape's least half width. Only a plane
@@ -76,6 +76,17 @@ impl Core {
                 }
             }
         })
+    }
+
+    /// The largest coordinate of its vertices, in m; 0 for a plane.
+    pub(in crate::wire) fn size(&self) -> f64 {
+        match self {
+            Core::Surface(surface) => {
+                let vertices = surface.vertices.iter();
+                vertices.fold(0.0, |size, vertex| size.max(vertex.coords.amax()))
+            }
+            Core::Plane => 0.0,
+        }
     }
 
     /// How far it is inside the shape, in m.

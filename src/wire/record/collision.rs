@@ -34,6 +34,12 @@ pub struct CollisionRecord {
     /// Midlines that touched the core of a body: in guard mode each segment in every motion that was
     /// tried. A segment that touches the core or is inside it as the step starts is left out.
     pub body_crossings: Vec<BodyCrossing>,
+    /// Pairs of bodies whose cores came near each other, and that were tested continuously.
+    pub tested_core_pairs: usize,
+    /// Cores that touched each other: in guard mode each pair of bodies in every motion that was
+    /// tried. Bodies that touch or overlap with their cores as the step starts are left out, and so
+    /// are two that no force moves.
+    pub core_crossings: Vec<CoreCrossing>,
     /// Every pair that the broad phase named in the motion that was made, with segments numbered as
     /// before it.
     pub pairs: Vec<PairRecord>,
@@ -83,7 +89,21 @@ pub struct BodyCrossing {
     pub outcome: BodyCrossingOutcome,
 }
 
-/// What became of a midline that touched a core.
+/// Two bodies whose cores touch during the motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct CoreCrossing {
+    /// The bodies, in the order in which they were added.
+    pub bodies: [BodyId; 2],
+    /// When, from 0 to 1 in the step.
+    pub toi: f64,
+    /// Where in space, rounded.
+    pub at: Point,
+    /// What became of it.
+    pub outcome: BodyCrossingOutcome,
+}
+
+/// What became of a midline or a core that touched a core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum BodyCrossingOutcome {

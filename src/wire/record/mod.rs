@@ -3,8 +3,8 @@
 mod collision;
 
 pub use collision::{
-    BodyCrossing, BodyCrossingOutcome, CollisionRecord, Crossing, CrossingOutcome, PairAnswer,
-    PairRecord, ScaledIsland,
+    BodyCrossing, BodyCrossingOutcome, CollisionRecord, CoreCrossing, Crossing, CrossingOutcome,
+    PairAnswer, PairRecord, ScaledIsland,
 };
 
 use nalgebra::UnitQuaternion;
@@ -90,8 +90,9 @@ pub struct WireRecord {
 pub struct BodyRecord {
     /// Before the motion.
     pub before: Pose,
-    /// On the way, at equal times, where it turns by more than 45 degrees: from one pose to the
-    /// next it turns by at most that.
+    /// On the way, at equal times, where some body turns by more than 45 degrees: from one pose to
+    /// the next each turns by at most that. As many of each body that moves, none of one that stays
+    /// where it is.
     pub between: Vec<Pose>,
     /// After it.
     pub after: Pose,

@@ -10,12 +10,12 @@ use crate::wire::model::BodyId;
 use crate::wire::record::Pose;
 use crate::wire::world::World;
 
-/// The largest turn from pose to pose of a motion, in radians: 45 degrees.
+/// The largest turn in a stage of a motion, in radians: 45 degrees.
 const TURN: f64 = std::f64::consts::FRAC_PI_4;
 
-/// The most of these turns in a motion. A dynamic body is not let spin faster, as a thin one may
+/// The most stages of a motion. A dynamic body is not let spin faster, as a thin one may
 /// that rolls on what is fast; its way could not be tested.
-const MOST_TURNS: f64 = 512.0;
+const MOST_STAGES: u32 = 512;
 
 /// Positions and velocities at the end of a step.
 pub(in crate::wire) struct ProposedMotion {
@@ -40,9 +40,9 @@ pub(in crate::wire) struct BodyMotion {
     pub(in crate::wire) orientation: UnitQuaternion<f64>,
     pub(in crate::wire) velocity: Vector,
     pub(in crate::wire) angular_velocity: Vector,
-    /// Poses on the way, so that it turns by at most [`TURN`] from one to the next.
+    /// Poses on the way, from stage to stage; none if it stays where it is.
     pub(in crate::wire) between: Vec<Pose>,
-    /// Whether it turns so little that there are poses on its way.
+    /// Whether it turns so little that stages follow its way.
     pub(in crate::wire) is_followed: bool,
 }
 
@@ -95,48 +95,38 @@ impl World {
             wires: Vec::with_capacity(self.wires.len()),
             slides: Vec::new(),
         };
-        for ((body, first), &scale) in self
+        let velocities = self.body_velocities(layout, x, &motion_scales.bodies);
+        let stages = common_stages(&velocities, step);
+        for ((body, &[velocity, angular_velocity]), &scale) in self
             .bodies
             .iter()
-            .zip(&layout.bodies)
+            .zip(&velocities)
             .zip(&motion_scales.bodies)
         {
-            let (velocity, spin) = match *first {
-                Some(first) => {
-                    let unknowns = Carrier::Free(first).velocity(x);
-                    (unknowns, Carrier::Free(first + 3).velocity(x))
-                }
-                None => body.prescribed(self.time(), step),
-            };
-            let (velocity, angular_velocity) = (velocity * scale, spin * scale);
-            let angular_velocity = match body.dynamic {
-                true => slowed(angular_velocity, MOST_TURNS * TURN / step),
-                false => angular_velocity,
-            };
-            let turned = turn(&body.orientation, &angular_velocity, step);
-            let turns = (angular_velocity.norm() * step / TURN).ceil();
-            let is_followed = turns <= MOST_TURNS;
-            let turns = if is_followed { turns } else { 1.0 };
-            let on_way = (1..turns as u32).map(|turn_number| {
-                let time = step * (f64::from(turn_number) / turns);
-                Pose {
-                    position: body.position + velocity * time,
-                    orientation: turn(&body.orientation, &angular_velocity, time),
-                }
-            });
-            moved.bodies.push(BodyMotion {
-                between: on_way.collect(),
-                is_followed,
+            let mut to = BodyMotion {
+                between: Vec::new(),
+                is_followed: is_followed(&angular_velocity, step),
                 position: body.position + velocity * step,
                 // Turning by nothing normalises, which may change bits.
                 orientation: if scale > 0.0 {
-                    turned
+                    turn(&body.orientation, &angular_velocity, step)
                 } else {
                     body.orientation
                 },
                 velocity,
                 angular_velocity,
-            });
+            };
+            if to.is_followed && to.pose() != Pose::of(body) {
+                let on_way = (1..stages).map(|stage| {
+                    let time = step * (f64::from(stage) / f64::from(stages));
+                    Pose {
+                        position: body.position + velocity * time,
+                        orientation: turn(&body.orientation, &angular_velocity, time),
+                    }
+                });
+                to.between = on_way.collect();
+            }
+            moved.bodies.push(to);
         }
         for ((wire, &first), scales) in self
             .wires
@@ -170,6 +160,47 @@ impl World {
         }
         moved
     }
+
+    /// The velocity and the angular velocity of each body in a solution `x`, scaled.
+    fn body_velocities(&self, layout: &Layout, x: &[f64], scales: &[f64]) -> Vec<[Vector; 2]> {
+        let step = self.settings.step;
+        let bodies = self.bodies.iter().zip(&layout.bodies).zip(scales);
+        let velocities = bodies.map(|((body, first), &scale)| {
+            let (velocity, spin) = match *first {
+                Some(first) => {
+                    let velocity = Carrier::Free(first).velocity(x);
+                    (velocity, Carrier::Free(first + 3).velocity(x))
+                }
+                None => body.prescribed(self.time(), step),
+            };
+            let spin = spin * scale;
+            let spin = match body.dynamic {
+                true => slowed(spin, f64::from(MOST_STAGES) * TURN / step),
+                false => spin,
+            };
+            [velocity * scale, spin]
+        });
+        velocities.collect()
+    }
+}
+
+/// Into how many stages of the same time a motion is divided: so many that no body that is followed
+/// turns by more than [`TURN`] in one. All bodies have the same stages, so that each stage of two
+/// is a motion of both.
+fn common_stages(velocities: &[[Vector; 2]], step: f64) -> u32 {
+    let followed = velocities.iter().map(|[_, spin]| spin);
+    let followed = followed.filter(|spin| is_followed(spin, step));
+    let stages = followed.map(|spin| turns(spin, step) as u32);
+    stages.fold(1, u32::max)
+}
+
+fn is_followed(angular_velocity: &Vector, step: f64) -> bool {
+    turns(angular_velocity, step) <= f64::from(MOST_STAGES)
+}
+
+/// How often a body turns by [`TURN`] in a step, rounded up.
+fn turns(angular_velocity: &Vector, step: f64) -> f64 {
+    (angular_velocity.norm() * step / TURN).ceil()
 }
 
 /// A vector made no longer than `most`. One whose length is not finite stays, and the step is refused.
@@ -185,6 +216,13 @@ fn slowed(vector: Vector, most: f64) -> Vector {
 impl BodyMotion {
     fn point(&self, local: &Vector) -> Point {
         self.position + self.orientation * local
+    }
+
+    pub(in crate::wire) fn pose(&self) -> Pose {
+        Pose {
+            position: self.position,
+            orientation: self.orientation,
+        }
     }
 }
 
@@ -213,17 +251,14 @@ impl ProposedMotion {
         &self.bodies[body.0]
     }
 
-    /// The poses of a body of `world` from the start to the end. From one to the next it turns by
-    /// 45 degrees at most.
+    /// The poses of a body of `world` from the start to the end, at the ends of stages; two if it
+    /// stays where it is. From one to the next it turns by 45 degrees at most.
     pub(in crate::wire) fn poses(&self, world: &World, body: BodyId) -> Vec<Pose> {
         let to = self.body(body);
         let mut poses = Vec::with_capacity(to.between.len() + 2);
         poses.push(Pose::of(&world.bodies[body.0]));
         poses.extend(&to.between);
-        poses.push(Pose {
-            position: to.position,
-            orientation: to.orientation,
-        });
+        poses.push(to.pose());
         poses
     }
 
