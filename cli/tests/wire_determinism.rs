@@ -83,7 +83,7 @@ fn steps_give_the_same_bits_in_every_build() {
     }
     // All parts of a step took part.
     assert!(touched && remeshed > 0, "{touched} {remeshed}");
-    assert_eq!(hash(&world), 0x9d0c_d350_ad9c_65f2, "{:#x}", hash(&world));
+    assert_eq!(hash(&world), 0xbfd4_1cc0_3dee_ee9d, "{:#x}", hash(&world));
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn steps_with_collisions_give_the_same_bits_in_every_build() {
         contacts += record.contacts.len();
     }
     assert!(prevented > 0 && contacts > 300, "{prevented} {contacts}");
-    assert_eq!(hash(&world), 0xe23c_7f15_820f_ba7e, "{:#x}", hash(&world));
+    assert_eq!(hash(&world), 0xcf14_b14d_0bd8_0129, "{:#x}", hash(&world));
 }
 
 /// Bodies of every shape that fall on each other and on a plane, and a wire and a chain on top.
@@ -248,7 +248,7 @@ fn steps_with_contact_nodes_that_come_and_go_give_the_same_bits_in_every_build()
         left += record.slides.iter().filter(|slide| slide.left).count();
     }
     assert!(left > 0);
-    assert_eq!(hash(&world), 0x8e0b_74bc_7602_4d35, "{:#x}", hash(&world));
+    assert_eq!(hash(&world), 0xc3c0_994f_8dc0_aeb4, "{:#x}", hash(&world));
 }
 
 /// Basic collision is above.
@@ -256,9 +256,9 @@ fn steps_with_contact_nodes_that_come_and_go_give_the_same_bits_in_every_build()
 fn other_scenes_of_the_thesis_give_the_same_bits_in_every_build() {
     // So many steps reach contacts in each.
     for (name, steps, expected) in [
-        ("pulling-anchor", 600, 0x97bb_6649_be2f_6313),
-        ("twisting-under-load", 60, 0x5f16_4baf_0fd2_16f5),
-        ("chains-on-deck", 60, 0x23bb_d957_9c0d_a8ed),
+        ("pulling-anchor", 600, 0x5a82_b9aa_1c0a_c6f4),
+        ("twisting-under-load", 60, 0x3808_d005_5259_fe54),
+        ("chains-on-deck", 60, 0x777f_fe24_e9ae_196b),
     ] {
         let scene = Scene::embedded(name).unwrap();
         let mut world = scene.world().unwrap();

@@ -7,8 +7,8 @@
 //! at least [`TENSION_HISTORY`] steps lie between two changes.
 //!
 //! Where wires push on each other they have to bend: there tension does not count, `l_min =
-//! l_user`. Nodes beside segments that are too short for their tension have
-//! [inertia](super::step::transverse) that keeps the step stable.
+//! l_user`. The step keeps segments stable that are too short for their tension
+//! (`step/transverse.rs`).
 
 use super::model::wire::TENSION_HISTORY;
 use super::model::{Node, NodeKind, Segment, Wire, WireId};

@@ -7,6 +7,7 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use tunnelproof::broad::Method;
 use tunnelproof::certified::Certified;
 use tunnelproof::nalgebra::{UnitQuaternion, UnitVector3};
@@ -191,12 +192,14 @@ fn count() -> u64 {
 fn guard_lets_no_midline_pass_through_a_thin_body() {
     let (mut steps, mut prevented, mut asked, mut held, mut built_in) = (0, 0, 0, 0, 0);
     let mut failures = Vec::new();
-    for seed in 0..count() {
+    let seeds = (0..count()).into_par_iter();
+    let runs = seeds.map(|seed| run(scene(seed), collisions(seed), STEPS));
+    for (seed, run) in (0..).zip(runs.collect::<Vec<Run>>()) {
         let Run {
             report,
             records,
             stopped,
-        } = run(scene(seed), collisions(seed), STEPS);
+        } = run;
         steps += report.steps;
         prevented += report.body_prevented;
         asked += report.body_pairs;

@@ -276,7 +276,8 @@ impl StepCallbacks for Guard<'_, '_> {
             .iter()
             .map(|hit| hit.crossing(CrossingOutcome::Prevented));
         self.record.crossings.extend(prevented);
-        if self.islands.is_none() && self.parts.is_none() && self.record.rounds < ROUNDS {
+        let may_solve = self.record.rounds < ROUNDS && self.record.unsolved_rounds == 0;
+        if self.islands.is_none() && self.parts.is_none() && may_solve {
             self.record.rounds += 1;
             let between_wires = self.add_contacts(world, &found.hits);
             if self.add_core_contacts(world, motion, &touched) || between_wires {
@@ -297,6 +298,10 @@ impl StepCallbacks for Guard<'_, '_> {
         }
         islands.shorten(world, &found.hits, &touched);
         Ok(MotionReview::Scale(islands.motion_scales(world)))
+    }
+
+    fn keep_solution(&mut self) {
+        self.record.unsolved_rounds += 1;
     }
 
     fn contact_nodes(

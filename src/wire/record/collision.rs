@@ -28,6 +28,9 @@ pub struct CollisionRecord {
     pub temporarily_point: usize,
     /// How often the step was solved again.
     pub rounds: usize,
+    /// How often no solution was found with the contacts that were added. The motion before was
+    /// shortened then.
+    pub unsolved_rounds: usize,
     /// Midlines that met during the motion: in guard mode every pair of segments in every motion
     /// that was tried, and also what came nearer than it may.
     pub crossings: Vec<Crossing>,

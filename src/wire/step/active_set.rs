@@ -15,7 +15,7 @@
 
 use super::capstan;
 use super::rows::Row;
-use super::system::System;
+use super::system::{RESIDUAL, System};
 use crate::wire::bisect::bisect;
 use crate::wire::error::Reason;
 
@@ -38,17 +38,16 @@ pub(super) struct ActiveSet {
 
 /// Whether rows contradict the guess of their branches: one of a chain that counts and
 /// pushes, or one that does not and is longer after the step than it may be; friction whose bound
-/// is not that of the tensions. Rounding of velocities is no contradiction.
+/// is not that of the tensions. What a solution may be off by is no contradiction.
 pub(super) fn violates_branches(rows: &[Row], x: &[f64]) -> bool {
     leaves_branch(rows, x) || capstan::bounds_differ(rows, x)
 }
 
 /// Whether a solution lies outside the range of the branch of a row.
 pub(super) fn leaves_branch(rows: &[Row], x: &[f64]) -> bool {
-    const ROUNDING: f64 = 1e-12;
     let changing = || rows.iter().filter(|row| row.may_change());
     let fastest = changing().fold(0.0, |a: f64, row| a.max(row.speed(x)));
-    let accepted = ROUNDING * fastest;
+    let accepted = RESIDUAL * fastest;
     changing().any(|row| row.branch.is_left(row.excess(x), accepted))
 }
 

@@ -51,7 +51,7 @@ impl World {
         check(self, watch.contacts()).map_err(failed)?;
         let mut structure = self.cache.structure.take();
         let solved = self.solve_accepted(&mut structure, watch, &mut phases);
-        let (system, candidate, motion) = solved.map_err(failed)?;
+        let (mut system, candidate, motion) = solved.map_err(failed)?;
         let mut clock = Clock::start();
         let mut record = StepRecord::before(self);
         record.contacts = self.contact_records(watch.contacts(), &candidate.swept.impulses);
@@ -64,7 +64,7 @@ impl World {
         record.after(self);
         record.energy = self.energy_of_motion(&system, &candidate);
         record.added_inertia = added_inertia(self, &system);
-        self.cache.structure = system.into_structure();
+        self.cache.structure = system.take_structure();
         phases.commit = clock.lap();
         record.slides = capstan::slides(self, &slid);
         record.slides.extend(contact_nodes::release(self));
@@ -76,7 +76,8 @@ impl World {
         Ok(record)
     }
 
-    /// Solves, and again with more contacts, until `watch` accepts the motion.
+    /// Solves, and again with more contacts, until `watch` accepts the motion. If that finds no
+    /// solution, the last one is kept and scaled.
     fn solve_accepted(
         &self,
         structure: &mut Option<Structure>,
@@ -97,8 +98,11 @@ impl World {
             match judgement {
                 MotionReview::Accept => return Ok((system, candidate, motion)),
                 MotionReview::SolveAgain => {
-                    *structure = system.into_structure();
-                    (system, candidate) = self.solve_step(structure, watch.contacts(), phases)?;
+                    *structure = system.take_structure();
+                    match self.solve_step(structure, watch.contacts(), phases) {
+                        Ok(solved) => (system, candidate) = solved,
+                        Err(_) => watch.keep_solution(),
+                    }
                 }
                 MotionReview::Scale(scales_now) => scales = scales_now,
             }

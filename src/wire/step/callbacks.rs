@@ -22,6 +22,10 @@ pub(in crate::wire) trait StepCallbacks: RemeshGuard {
         impulses: &[Vector],
     ) -> Result<MotionReview, Reason>;
 
+    /// The system could not be solved with all contacts: the motion before stands, and may be scaled
+    /// alone.
+    fn keep_solution(&mut self) {}
+
     /// After the motion, with the contacts that it was made with: where wires get contact nodes.
     fn contact_nodes(
         &self,

@@ -61,7 +61,7 @@ impl World {
             match self.solve_with_implicit_contacts(&mut system, contacts, &start, phases) {
                 Some(candidate) => return Ok((system, candidate)),
                 // What does not come to an end is swept.
-                None => *structure = system.into_structure(),
+                None => *structure = system.take_structure(),
             }
         }
         let mut system = self.assemble(&order::by_wires(self), structure, phases);

@@ -16,7 +16,7 @@ use crate::wire::vector::Vector;
 use crate::wire::world::World;
 
 /// The largest backward error of a solution that is accepted.
-const RESIDUAL: f64 = 1e-10;
+pub(super) const RESIDUAL: f64 = 1e-10;
 
 /// The equations of motion, of nodes, bodies and what slides over contact nodes, and the rows of
 /// all wires, ready to be factored.
@@ -310,8 +310,9 @@ impl System {
         if motion >= rows { motion } else { rows }
     }
 
-    pub(super) fn into_structure(self) -> Option<Structure> {
-        self.structure
+    /// The structure, for the next system.
+    pub(super) fn take_structure(&mut self) -> Option<Structure> {
+        self.structure.take()
     }
 }
 

@@ -30,12 +30,13 @@
 //! A node on a body counts with the mass that the body has there, at least: what its mobility at the
 //! place leaves, shared by all nodes on it. A node whose motion is prescribed needs nothing.
 //!
-//! `W` grows with the square of `K`. Where `h^2 T/l` is more than [`STEEPEST`] times a mass, the
-//! masses would drown in its rounding. Such a segment is given inertia `w = (h^2 T / (l s^2) - m) / 4`
-//! against transverse motion of its ends relative to each other, with `w v` on the right side, too.
-//! That is stable as well, since `h^2 T / (l s^2) <= m + 4 w`, and damps nothing. It slows what a step
-//! can follow by the part `(omega h)^2 / (8 s^2)`, and a swinging load by a part of order `h^2 g /
-//! (s^2 L)` for `L` of wire.
+//! `W` grows with the square of `K`: a mode far beyond what a step can follow comes to rest by the
+//! part `32 s^4 / A` in a step, which is slow. Where `h^2 T / (l s^2)` is more than [`STEEPEST`] times the
+//! mass at an end, the segment is given inertia `w = (h^2 T / (l s^2) - m) / 4` instead, against
+//! transverse motion of its ends relative to each other, with `w v` on the right side, too. That is
+//! stable as well, since `h^2 T / (l s^2) <= m + 4 w`, and damps nothing. It slows what a step can
+//! follow by the part `(omega h)^2 / (8 s^2)`, and a swinging load by a part of order `h^2 g / (s^2
+//! L)` for `L` of wire.
 //!
 //! `T` is the largest tension of the last steps, by which resolution is chosen too. The margin is the
 //! room for what it grows to in this one.

@@ -42,7 +42,7 @@ fn hung(mass: f64, resolution: f64) -> World {
 
 #[test]
 fn short_segments_hold_a_million_newtons_at_a_mass_ratio_of_1e5() {
-    // Segments 30 times shorter than waves travel in a step: inertia holds them.
+    // Segments 30 times shorter than waves travel in a step: what resists across them holds them.
     let mut world = hung(1e5, 0.1);
     for _ in 0..600 {
         world.step(&[]).unwrap();

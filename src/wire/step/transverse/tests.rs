@@ -145,7 +145,7 @@ fn what_moves_as_one_line_has_none_of_it() {
     let plan = WirePlan::new(Material::steel(0.002), 5.0, route.map(Stop::Free).collect());
     world.add_wire(&plan).unwrap();
     for segment in &mut world.wires[0].segments {
-        segment.tension_history[3] = 1e4;
+        segment.tension_history[3] = 3e3;
     }
     for node in &mut world.wires[0].nodes {
         node.velocity = Vector::new(7.0, 2.0 - node.position.x, 3.0 * node.position.x);
