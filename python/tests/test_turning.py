@@ -136,7 +136,9 @@ def test_without_a_turn_the_answer_is_that_of_the_linear_query():
         assert getattr(turning, name).tobytes() == getattr(linear, name).tobytes(), name
     off = np.linalg.norm(turning.normal - linear.normal, axis=1)
     near = off <= turning.normal_error + linear.normal_error
-    assert (near | ~linear.hit).all() and (linear.normal_error[linear.hit] > 0).sum() > 20
+    assert (near | ~linear.hit).all()
+    # Sides that touch at the start have none; others have.
+    assert 20 < (np.linalg.norm(linear.normal, axis=1) > 0.5).sum() < linear.hit.sum()
     for end in ("first", "second"):
         found, expected = getattr(turning, end), getattr(linear, end)
         assert np.nanmax(np.abs(found.weights - expected.weights)) < 1e-9
