@@ -28,6 +28,31 @@ pub(super) trait Term: Clone {
 /// A vector of them.
 pub(super) type Vector<T> = [T; 3];
 
+/// The operations of a number that has methods for them.
+macro_rules! operations {
+    ($number:ident) => {
+        fn plus(&self, other: &Self) -> Self {
+            self.add(*other)
+        }
+
+        fn minus(&self, other: &Self) -> Self {
+            self.sub(*other)
+        }
+
+        fn times(&self, other: &Self) -> Self {
+            self.mul(*other)
+        }
+
+        fn negative(&self) -> Self {
+            self.neg()
+        }
+
+        fn twice(&self) -> Self {
+            $number::twice(*self)
+        }
+    };
+}
+
 impl Term for Rough {
     type Time = Rough;
 
@@ -39,25 +64,7 @@ impl Term for Rough {
         Rough::of(start).add(Rough::of(change).mul(time))
     }
 
-    fn plus(&self, other: &Self) -> Self {
-        self.add(*other)
-    }
-
-    fn minus(&self, other: &Self) -> Self {
-        self.sub(*other)
-    }
-
-    fn times(&self, other: &Self) -> Self {
-        self.mul(*other)
-    }
-
-    fn negative(&self) -> Self {
-        self.neg()
-    }
-
-    fn twice(&self) -> Self {
-        Rough::twice(*self)
-    }
+    operations!(Rough);
 }
 
 impl Term for Ball {
@@ -71,25 +78,7 @@ impl Term for Ball {
         start.add(change.mul(time))
     }
 
-    fn plus(&self, other: &Self) -> Self {
-        self.add(*other)
-    }
-
-    fn minus(&self, other: &Self) -> Self {
-        self.sub(*other)
-    }
-
-    fn times(&self, other: &Self) -> Self {
-        self.mul(*other)
-    }
-
-    fn negative(&self) -> Self {
-        self.neg()
-    }
-
-    fn twice(&self) -> Self {
-        Ball::twice(*self)
-    }
+    operations!(Ball);
 }
 
 pub(super) fn add<T: Term>(x: &Vector<T>, y: &Vector<T>) -> Vector<T> {

@@ -13,7 +13,7 @@ use super::core_pairs::{CoreHit, first_core_touch};
 use super::segment::direction;
 use crate::broad::{Aabb, BroadError, Method};
 use crate::certified::decide_rigid;
-use crate::contact::{EdgePoint, Hit};
+use crate::contact::{EdgePoint, FacePlace, Hit};
 use crate::query::Point;
 use crate::rigid::{EdgeTurningEdge, Pose, RigidError, RigidMotion, VertexTurningFace};
 use crate::wire::Vector;
@@ -423,6 +423,27 @@ fn keep_first(first: &mut Option<Touch>, other: Option<Touch>) {
     }
 }
 
+/// Where on a face a vertex touches it, and the unit normal on the side from which it comes, in the
+/// body's frame.
+pub(super) fn on_face(hit: &Hit<FacePlace>, corners: &[Point; 3]) -> (Vector, Option<Vector>) {
+    let [b, c, d] = corners.map(|corner| corner.coords);
+    let weights = hit.place.weights;
+    let normal = (c - b).cross(&(d - b)) * f64::from(hit.side);
+    let place = b * weights[0] + c * weights[1] + d * weights[2];
+    (place, direction(&normal))
+}
+
+/// The unit vector across two edges AB and CD, from CD to where AB comes from. None where they are all
+/// but parallel.
+pub(super) fn across_edges([a, b, c, d]: &[Point; 4], side: i8) -> Option<Vector> {
+    /// Edges at a smaller angle have no normal.
+    const ANGLE: f64 = 1e-6;
+    let (k, l) = direction(&(b - a)).zip(direction(&(d - c)))?;
+    // The side is that of CD, seen from AB.
+    let across = k.cross(&l) * -f64::from(side);
+    (across.norm() > ANGLE).then(|| across.normalize())
+}
+
 fn touch_face(
     stage: &Stage,
     node: usize,
@@ -431,30 +452,18 @@ fn touch_face(
     let (start, end) = ([stage.start[node]], [stage.end[node]]);
     let query = VertexTurningFace::new(start, end, corners, stage.motion)?;
     let touch = decide_rigid(&query).map(|hit| {
-        let [b, c, d] = corners.map(|corner| corner.coords);
-        let weights = hit.place.weights;
-        let normal = (c - b).cross(&(d - b)) * f64::from(hit.side);
-        Touch::new(
-            &hit,
-            node as f64,
-            b * weights[0] + c * weights[1] + d * weights[2],
-            direction(&normal),
-        )
+        let (local, normal) = on_face(&hit, &corners);
+        Touch::new(&hit, node as f64, local, normal)
     });
     Ok(touch)
 }
 
 fn touch_edge(stage: &Stage, ends: [Point; 2]) -> Result<Option<Touch>, RigidError> {
-    const ANGLE: f64 = 1e-6;
     let query = EdgeTurningEdge::new(stage.start, stage.end, ends, stage.motion)?;
     let touch = decide_rigid(&query).map(|hit| {
         let EdgePoint { u, v } = hit.place.first;
-        let [a, b, c, d] = query.positions(hit.toi);
-        let along = direction(&(b - a)).zip(direction(&(d - c)));
-        // The side is that of CD, seen from AB.
-        let across = along.map(|(k, l)| k.cross(&l) * -f64::from(hit.side));
-        let across = across.filter(|across| across.norm() > ANGLE);
-        let normal = across.map(|across| into_body(&stage.motion, hit.toi, &across.normalize()));
+        let across = across_edges(&query.positions(hit.toi), hit.side);
+        let normal = across.map(|across| into_body(&stage.motion, hit.toi, &across));
         let local = ends[0].coords * (1.0 - v) + ends[1].coords * v;
         Touch::new(&hit, u, local, normal)
     });

@@ -6,7 +6,7 @@
 //! certified path. Two that touch or overlap as the step starts are left out, for as long as that is
 //! so.
 
-use super::body_detect::{plane_around, side};
+use super::body_detect::{across_edges, on_face, plane_around, side};
 use super::body_motion::{BodyWay, into_body};
 use super::core_boxes::{self, Bounds, CornerBoxes};
 use super::overlap;
@@ -282,11 +282,8 @@ fn touch_face(
 ) -> Result<Option<Touch>, RigidError> {
     let query = TurningVertexTurningFace::new([*vertex], *motions[0], *corners, *motions[1])?;
     let touch = decide_rigid(&query).map(|hit| {
-        let [b, c, d] = corners.map(|corner| corner.coords);
-        let weights = hit.place.weights;
-        let normal = (c - b).cross(&(d - b)) * f64::from(hit.side);
-        let on_face = b * weights[0] + c * weights[1] + d * weights[2];
-        Touch::new(&hit, [vertex.coords, on_face], direction(&normal))
+        let (place, normal) = on_face(&hit, corners);
+        Touch::new(&hit, [vertex.coords, place], normal)
     });
     Ok(touch)
 }
@@ -295,17 +292,11 @@ fn touch_edges(
     [own, other]: [[Point; 2]; 2],
     motions: [&RigidMotion; 2],
 ) -> Result<Option<Touch>, RigidError> {
-    /// Edges at a smaller angle have no normal.
-    const ANGLE: f64 = 1e-6;
     let query = TurningEdgeTurningEdge::new(own, *motions[0], other, *motions[1])?;
     let touch = decide_rigid(&query).map(|hit| {
         let EdgePoint { u, v } = hit.place.first;
-        let [a, b, c, d] = query.positions(hit.toi);
-        let along = direction(&(b - a)).zip(direction(&(d - c)));
-        // The side is that of CD, seen from AB.
-        let across = along.map(|(k, l)| k.cross(&l) * -f64::from(hit.side));
-        let across = across.filter(|across| across.norm() > ANGLE);
-        let normal = across.map(|across| into_body(motions[1], hit.toi, &across.normalize()));
+        let across = across_edges(&query.positions(hit.toi), hit.side);
+        let normal = across.map(|across| into_body(motions[1], hit.toi, &across));
         let place = |ends: &[Point; 2], w: f64| ends[0].coords * (1.0 - w) + ends[1].coords * w;
         Touch::new(&hit, [place(&own, u), place(&other, v)], normal)
     });
