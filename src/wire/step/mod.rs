@@ -20,5 +20,6 @@ mod order;
 mod rows;
 mod solve_step;
 mod spin;
+mod stages;
 mod system;
 pub(super) mod transverse;
