@@ -42,7 +42,7 @@ mod step;
 mod vector;
 mod world;
 
-pub use collide::{Collisions, Mode, PairFilter};
+pub use collide::{CollisionMemory, CollisionSettings, Collisions, Mode, PairFilter};
 pub use contact::{ContactConstraint, ContactSite};
 pub use energy::Energy;
 pub use error::{CollisionError, Reason, StepError};
