@@ -29,6 +29,8 @@ mod collide;
 mod contact;
 mod energy;
 mod error;
+#[cfg(feature = "recording")]
+mod file;
 mod model;
 mod record;
 #[cfg(feature = "recording")]
@@ -38,6 +40,8 @@ mod settings;
 mod site;
 mod solver_cache;
 mod sparse;
+#[cfg(feature = "recording")]
+pub mod state;
 mod step;
 mod vector;
 mod world;

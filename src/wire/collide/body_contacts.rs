@@ -22,7 +22,7 @@ use crate::wire::site::{SegmentId, WireSite};
 use crate::wire::world::World;
 
 /// Where the keys of contacts with bodies start.
-pub(super) const KEYS: u64 = 3 << 62;
+pub(in crate::wire) const KEYS: u64 = 3 << 62;
 
 /// The contacts with bodies of one world, from step to step.
 pub(super) struct BodyContacts {

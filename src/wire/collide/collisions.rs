@@ -107,6 +107,19 @@ impl<'n> Collisions<'n> {
         self
     }
 
+    /// The same with other settings.
+    #[cfg(feature = "recording")]
+    pub(in crate::wire) fn with_settings(mut self, settings: CollisionSettings) -> Self {
+        self.settings = settings;
+        self
+    }
+
+    /// The name of the narrow phase.
+    #[cfg(feature = "recording")]
+    pub(in crate::wire) fn narrow_name(&self) -> &str {
+        self.narrow.name()
+    }
+
     /// The same with another coefficient of friction, of all contacts that are found.
     ///
     /// # Errors

@@ -64,6 +64,11 @@ mod tests;
 pub use collisions::{CollisionSettings, Collisions, Mode};
 pub use memory::CollisionMemory;
 pub use segment::PairFilter;
+#[cfg(feature = "recording")]
+pub(in crate::wire) use {
+    body_contacts::{KEYS as BODY_KEYS, KnownContacts},
+    wire_contacts::{KEYS as WIRE_KEYS, WireContact, WireContacts},
+};
 
 use crate::wire::clock::Clock;
 use crate::wire::contact::ContactConstraint;

@@ -18,7 +18,7 @@ use crate::wire::site::{SegmentId, WireSite};
 use crate::wire::world::World;
 
 /// Where the keys of contacts between wires start.
-const KEYS: u64 = 1 << 63;
+pub(in crate::wire) const KEYS: u64 = 1 << 63;
 
 /// One contact.
 #[derive(Clone, Debug)]

@@ -2,10 +2,10 @@ use nalgebra::UnitQuaternion;
 use proptest::prelude::*;
 use ruzstd::encoding::{CompressionLevel, compress_to_vec};
 
-use super::frame::LABEL;
-use super::frame::pack;
+use super::layout::FORMAT;
 use super::*;
 use crate::query::Point;
+use crate::wire::file::LABEL;
 use crate::wire::{
     BodyId, BodyPlan, ContactConstraint, ContactSite, Material, Mesh, Settings, Shape, StepRecord,
     Stop, Vector, WirePlan, World,
@@ -157,7 +157,7 @@ fn recording_keeps_the_bits_of_what_is_no_number() {
     };
     record.wires.resize_with(1, Default::default);
     record.wires[0].tensions = odd.to_vec();
-    file.extend(pack(&record).unwrap());
+    file.extend(FORMAT.pack(&record).unwrap());
     let (steps, end) = read_all(&file);
     assert_eq!(end, None);
     let read = steps[0].wires[0].tensions.iter().map(|t| t.to_bits());
@@ -246,7 +246,11 @@ fn recording_names_what_is_wrong_and_where() {
         error.fault
     };
     assert_eq!(fault(b"twenty bytes of text".to_vec()), Fault::Label);
-    assert_eq!(fault(labelled(b"", u32::MAX, 0)), Fault::TooLong(u32::MAX));
+    let too_long = Fault::TooLong {
+        length: u32::MAX,
+        most_bytes: MOST_BYTES,
+    };
+    assert_eq!(fault(labelled(b"", u32::MAX, 0)), too_long);
     assert!(matches!(
         fault(labelled(b"no zstd frame", 3, 0)),
         Fault::Packing(_)
@@ -270,12 +274,15 @@ fn recording_names_what_is_wrong_and_where() {
         Fault::Content("1 bytes are left".into())
     );
     let text = with(b"twenty bytes of text".to_vec()).to_string();
-    assert_eq!(text, format!("byte {end}: no step starts here"));
+    assert_eq!(text, format!("byte {end}: no part of the file starts here"));
 
     let mut other = file.clone();
     other[16] = 1;
-    assert_eq!(read_all(&other).1.unwrap().fault, Fault::Version(1));
-    assert_eq!(read_all(b"something else").1.unwrap().fault, Fault::Opening);
+    let (found, known) = (1, VERSION);
+    let version = Fault::Version { found, known };
+    assert_eq!(read_all(&other).1.unwrap().fault, version);
+    let opening = Fault::Opening("recording of steps");
+    assert_eq!(read_all(b"something else").1.unwrap().fault, opening);
 }
 
 #[test]
