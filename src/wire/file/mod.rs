@@ -18,6 +18,8 @@
 mod error;
 mod format;
 mod frame;
+#[cfg(test)]
+pub(super) mod testing;
 
 pub use error::{Fault, ReadError, WriteError};
 pub(super) use format::Format;

@@ -180,6 +180,11 @@ impl Body {
         self.dynamic
     }
 
+    /// Its prescribed velocities, in order of time; none unless it is kinematic.
+    pub fn phases(&self) -> &[Phase] {
+        &self.phases
+    }
+
     /// Mass in kg; 0 unless it is dynamic.
     pub fn mass(&self) -> f64 {
         self.mass

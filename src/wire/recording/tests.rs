@@ -6,6 +6,7 @@ use super::layout::FORMAT;
 use super::*;
 use crate::query::Point;
 use crate::wire::file::LABEL;
+use crate::wire::file::testing::{edited, edits, forged, labelled};
 use crate::wire::{
     BodyId, BodyPlan, ContactConstraint, ContactSite, Material, Mesh, Settings, Shape, StepRecord,
     Stop, Vector, WirePlan, World,
@@ -101,21 +102,6 @@ fn read_all(file: &[u8]) -> (Vec<StepRecord>, Option<ReadError>) {
 
 fn bits(record: &StepRecord) -> Vec<u8> {
     postcard::to_stdvec(record).unwrap()
-}
-
-/// Label and packed bytes, with the length and the checksum that they should have.
-fn forged(plain: &[u8]) -> Vec<u8> {
-    let packed = compress_to_vec(plain, CompressionLevel::Fastest);
-    labelled(&packed, plain.len() as u32, crc32fast::hash(plain))
-}
-
-fn labelled(packed: &[u8], length: u32, checksum: u32) -> Vec<u8> {
-    let mut bytes = b"\x5d\x2a\x4d\x18\x0c\0\0\0".to_vec();
-    for number in [packed.len() as u32, length, checksum] {
-        bytes.extend(number.to_le_bytes());
-    }
-    bytes.extend(packed);
-    bytes
 }
 
 #[test]
@@ -324,25 +310,6 @@ fn recording_takes_no_memory_for_what_is_not_there() {
         let memory = allocation_counter::measure(|| assert!(read_all(&bad).1.is_some()));
         assert!(memory.bytes_max < 8 << 20, "{} bytes", memory.bytes_max);
     }
-}
-
-/// Changes to a file: at a place, so many bytes are replaced by others.
-fn edits() -> impl Strategy<Value = Vec<(usize, usize, Vec<u8>)>> {
-    let edit = (
-        any::<usize>(),
-        0..40_usize,
-        prop::collection::vec(any::<u8>(), 0..40),
-    );
-    prop::collection::vec(edit, 1..4)
-}
-
-fn edited(mut bytes: Vec<u8>, edits: Vec<(usize, usize, Vec<u8>)>) -> Vec<u8> {
-    for (at, count, new) in edits {
-        let at = at % (bytes.len() + 1);
-        let end = bytes.len().min(at + count);
-        bytes.splice(at..end, new);
-    }
-    bytes
 }
 
 proptest! {
