@@ -243,7 +243,7 @@ fn every_field() -> State {
 fn after(steps: usize) -> (World, Collisions<'static>) {
     let mut world = World::new(Settings::default()).unwrap();
     let half = Vector::new(0.2, 0.3, 0.1);
-    let plan = BodyPlan::dynamic(Shape::Box { half }, 800.0, Point::new(0.6, 0.0, -0.2));
+    let plan = BodyPlan::dynamic(Shape::Box { half }, 800.0, Point::new(0.6, 0.0, 0.1));
     let body = world.add_body(plan).unwrap();
     let ground = BodyPlan::fixed(Shape::Plane, Point::new(0.0, 0.0, -0.5));
     world.add_body(ground).unwrap();
@@ -264,7 +264,7 @@ fn after(steps: usize) -> (World, Collisions<'static>) {
         body,
         local: Vector::new(-0.2, 0.0, 0.1),
     };
-    let route = vec![Stop::Free(Point::new(-1.5, 0.05, 0.03)), eye];
+    let route = vec![Stop::Free(Point::new(-1.5, 0.05, 0.25)), eye];
     let mut plan = WirePlan::new(steel.chain(), 0.125, route).adaptive();
     plan.velocity = Vector::new(0.0, 0.0, -6.0);
     world.add_wire(&plan).unwrap();
@@ -300,14 +300,6 @@ fn state_reads_back_bit_for_bit_with_something_in_every_field() {
         let known = |state: &State| format!("{:?}", state.memory.between_wires);
         assert_eq!(known(&loaded), known(&state));
     }
-    let lived = state_after(40);
-    let memory = &lived.memory;
-    // Steps leave something in every part.
-    assert!(!lived.world.cache.warm_start.impulses().is_empty());
-    assert!(!memory.between_wires.list.is_empty());
-    assert!(memory.between_wires.list.iter().any(|touch| touch.pushing));
-    assert!(!memory.with_bodies.last.is_empty() && !memory.with_bodies.pushed.is_empty());
-    assert!(!memory.slow.excluded().is_empty());
 }
 
 /// To write the file anew, with a new [`VERSION`]:
@@ -361,15 +353,11 @@ fn step_that_fails_leaves_the_state_as_it_was() {
         .unwrap_err();
     assert!(saved(&State::of(&world, &collisions)) == before);
     // A midline that stands in another.
-    let [a, b] = [0, 1].map(|node| world.wires[0].nodes[4 + node].position);
-    let middle = nalgebra::center(&a, &b);
     let mut through = world.clone();
-    through.wires[1].nodes[3].position = middle;
-    through.wires[1].nodes[4].position = middle;
+    through.wires[1].nodes[1].position = world.wires[0].nodes[4].position;
     let before = saved(&State::of(&through, &collisions));
-    if through.step_colliding(&mut collisions, &[]).is_err() {
-        assert!(saved(&State::of(&through, &collisions)) == before);
-    }
+    through.step_colliding(&mut collisions, &[]).unwrap_err();
+    assert!(saved(&State::of(&through, &collisions)) == before);
 }
 
 /// The structure of the last system, which is left out, changes no bit: a world that lost it goes
@@ -377,8 +365,19 @@ fn step_that_fails_leaves_the_state_as_it_was() {
 #[test]
 fn memory_and_world_go_on_as_if_there_had_been_no_stop() {
     let (mut world, mut collisions) = after(0);
-    for step in 0..60 {
+    let mut seen = [false; 5];
+    for step in 0..90 {
         let state = State::of(&world, &collisions);
+        let memory = &state.memory;
+        for (seen, is_there) in seen.iter_mut().zip([
+            !state.world.cache.warm_start.impulses().is_empty(),
+            memory.between_wires.list.iter().any(|touch| touch.pushing),
+            !memory.with_bodies.last.is_empty(),
+            !memory.with_bodies.pushed.is_empty(),
+            !memory.slow.excluded().is_empty(),
+        ]) {
+            *seen |= is_there;
+        }
         let state = State::load(saved(&state).as_slice()).unwrap();
         let mut again = state.collisions(Method::HierarchicalGrid, &Certified);
         let mut copy = state.world;
@@ -393,6 +392,8 @@ fn memory_and_world_go_on_as_if_there_had_been_no_stop() {
             .map(|(world, collisions)| saved(&State::of(world, collisions)));
         assert!(kept == lost, "state after step {step}");
     }
+    // Steps leave something in every part.
+    assert_eq!(seen, [true; 5]);
 }
 
 #[test]
@@ -589,7 +590,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(4000))]
 
     /// Edits under a checksum that is right again: it is refused, or a state that is saved and
-    /// loaded again, and can be asked for a step.
+    /// loaded again.
     #[test]
     fn state_of_forged_bytes_is_refused_or_whole(edits in edits(), lived in any::<bool>()) {
         let bytes = if lived { plain_after_two() } else { plain(GOLDEN) };
@@ -619,11 +620,5 @@ fn holds(bytes: &[u8]) -> bool {
         return true;
     };
     let file = saved(&state);
-    let again = State::load(file.as_slice()).map(|state| saved(&state));
-    let mut collisions = state.collisions(Method::default(), &Certified);
-    let mut world = state.world;
-    // Sweeps without end are a setting as any other.
-    world.settings.sweeps = world.settings.sweeps.min(200);
-    let _ = world.step_colliding(&mut collisions, &[]);
-    again == Ok(file)
+    State::load(file.as_slice()).map(|state| saved(&state)) == Ok(file)
 }
