@@ -14,7 +14,7 @@ use tunnelproof::wire::{
     BodyPlan, Collisions, ContactConstraint, Material, Mode, NodeKind, Phases, Resolution,
     Settings, Shape, StepRecord, Stop, Vector, WireId, WirePlan, World,
 };
-use tunnelproof_cli::scenes::Scene;
+use tunnelproof_cli::scenes::{self, Scene};
 use tunnelproof_cli::simulate::Discrete;
 
 mod worlds;
@@ -100,12 +100,12 @@ fn check(name: &str, mut run: Run, steps: usize, from: usize) -> Vec<StepRecord>
             let saved = run.saved();
             let loaded = run.loaded(&saved);
             assert!(loaded.saved() == saved, "{name}: saved again at {step}");
-            let is_kept = (step - from) % 23 == 0;
+            let is_kept = (step - from).is_multiple_of(23);
             file = Some((is_kept, loaded));
         }
         let record = run.step();
         let [expected, now] = [bits(&run, &record), run.saved()];
-        let mut check = |since: usize, other: &mut Run| {
+        let check = |since: usize, other: &mut Run| {
             let record = other.step();
             let [record, state] = [bits(other, &record), other.saved()];
             assert!(
@@ -214,10 +214,12 @@ fn thin_and_thick_scenes_go_on_from_every_step() {
 /// Bytes do not tell that settings are others, steps do; time goes on from where it was.
 #[test]
 fn state_is_stepped_again_with_other_settings() {
-    let scene = Scene::embedded("basic-collision").unwrap();
+    let mut scene = Scene::embedded("basic-collision").unwrap();
+    let ends = [-1.0, 1.0].map(|x| scenes::Stop::Free([x, 0.0, 0.6]));
+    scene.wires[2].route = ends.to_vec();
     let mut run = Run::scene(&scene, Mode::Guard, &Certified);
     // While the third wire falls.
-    for _ in 0..3 {
+    for _ in 0..2 {
         run.step();
     }
     let file = run.saved();

@@ -39,7 +39,6 @@ mod progress;
 mod recordings;
 mod replay;
 mod resume;
-mod saving;
 mod shell;
 mod shrink;
 mod simulate;

@@ -1,7 +1,6 @@
 //! `simulate`: a scene from start to end, recorded and audited.
 
-use std::fs::{self, File};
-use std::io::BufReader;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
@@ -9,21 +8,22 @@ use std::sync::atomic::AtomicBool;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
-use tunnelproof::narrow::NarrowPhase;
-use tunnelproof::wire::recording::{Header, Recorder};
-use tunnelproof::wire::state::State;
-use tunnelproof::wire::{self, StepRecord};
+use tunnelproof::wire;
 use tunnelproof_cli::audit::{self, Audit};
-use tunnelproof_cli::perturb;
 use tunnelproof_cli::replay::{self, Drawing, Replay};
 use tunnelproof_cli::report;
-use tunnelproof_cli::scenes::{Difference, EMBEDDED, Scene};
-use tunnelproof_cli::simulate::{Narrow, Run, Start, Summary};
+use tunnelproof_cli::scenes::{Difference, Scene};
+use tunnelproof_cli::simulate::{Narrow, Summary};
 
+mod plan;
+mod saving;
+mod watch;
+
+use self::plan::Plan;
+use self::saving::Saving;
+use self::watch::Watch;
 use super::keeping::{interrupted, interruption};
 use super::output::{JsonOutput, OutputFile, print, shell, unwritable};
-use super::polygons::Polygons;
-use super::saving::Saving;
 use super::{Failure, progress};
 
 /// Run a scene, and check every step of it for missed tunnels
@@ -122,16 +122,6 @@ struct Document<'a> {
     audit: Option<&'a audit::Report>,
 }
 
-/// A run that is about to be made.
-struct Plan {
-    scene: Scene,
-    narrow: Narrow,
-    mode: Mode,
-    start: Start,
-    /// From the state that it goes on from.
-    differences: Vec<Difference>,
-}
-
 impl Simulate {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
         if self.schema {
@@ -198,64 +188,6 @@ impl Simulate {
         })
     }
 
-    /// What is run, from where. Says what is set otherwise than until the state.
-    fn plan(&self) -> Result<Plan, Failure> {
-        let scene = self.scene()?;
-        let wrong = |error| self.wrong(error);
-        let Some(path) = &self.from else {
-            let start = Start::of(&scene).map_err(wrong)?;
-            return Ok(Plan {
-                scene,
-                narrow: self.narrow.unwrap_or(Narrow::Certified),
-                mode: self.mode.unwrap_or(Mode::Guard),
-                start,
-                differences: Vec::new(),
-            });
-        };
-        let state = File::open(path).map_err(|error| refused(path, error))?;
-        let state = State::load(BufReader::new(state)).map_err(|error| refused(path, error))?;
-        let (world, mut differences) = scene.continued(&state).map_err(wrong)?;
-        let narrow = match self.narrow {
-            Some(narrow) => narrow,
-            None => Narrow::by_name(&state.narrow).ok_or_else(|| {
-                let problem = format!(
-                    "stepped with the narrow phase {:?}: --narrow says with which to go on",
-                    state.narrow
-                );
-                refused(path, problem)
-            })?,
-        };
-        let mode = self.mode.unwrap_or(state.settings.mode.into());
-        let phase = narrow.phase();
-        let collisions = scene.collisions(mode.into(), &*phase).map_err(wrong)?;
-        differences.extend(Difference::of_collisions(
-            &state,
-            &collisions,
-            narrow.name(),
-        ));
-        for difference in &differences {
-            eprintln!("{}: {difference}", path.display());
-        }
-        let plan = Plan {
-            narrow,
-            mode,
-            start: Start {
-                world,
-                memory: state.memory,
-            },
-            differences,
-            scene,
-        };
-        if plan.steps() == 0 {
-            let [at, end] = [plan.start.world.time(), plan.scene.duration];
-            let problem = format!(
-                "the state is at {at} s and the run ends at {end} s: there is no step left, unless --duration is longer"
-            );
-            return Err(refused(path, problem));
-        }
-        Ok(plan)
-    }
-
     /// The run, and the one beside it.
     fn shown(
         &self,
@@ -296,106 +228,11 @@ impl Simulate {
         })
     }
 
-    fn scene(&self) -> Result<Scene, Failure> {
-        let name = self.scene.as_deref().unwrap_or_default();
-        let mut scene = match EMBEDDED.iter().any(|(known, _)| *known == name) {
-            true => Scene::embedded(name),
-            false => Scene::from_toml(&read(name)?),
-        }
-        .map_err(|error| self.wrong(error))?;
-        if let Some(seed) = self.perturb {
-            scene = perturb::perturbed(&scene, seed, perturb::USUAL);
-        }
-        scene.settings.step = self.step.unwrap_or(scene.settings.step);
-        scene.duration = self.duration.unwrap_or(scene.duration);
-        let guarded = self.guarded_thickness;
-        scene.guarded_thickness = guarded.unwrap_or(scene.guarded_thickness);
-        Ok(scene)
-    }
-
     fn wrong(&self, error: impl ToString) -> Failure {
         Failure::File {
             path: self.scene.clone().unwrap_or_default(),
             problem: error.to_string(),
         }
-    }
-}
-
-fn read(path: &str) -> Result<String, Failure> {
-    std::fs::read_to_string(path).map_err(|error| {
-        let names = EMBEDDED.map(|(name, _)| name).join(", ");
-        let problem = format!("{error} (and it is none of the scenes {names})");
-        let path = path.to_owned();
-        Failure::File { path, problem }
-    })
-}
-
-/// Who looks at every step.
-struct Watch<'a> {
-    recorder: Option<(Recorder<File>, &'a Path)>,
-    audit: Option<Audit>,
-    replay: Option<Replay>,
-    vtk: Option<Polygons<'a>>,
-}
-
-impl Plan {
-    fn run<'a>(&'a self, narrow: &'a dyn NarrowPhase) -> Run<'a> {
-        Run {
-            scene: &self.scene,
-            narrow,
-            mode: self.mode.into(),
-        }
-    }
-
-    /// How many steps there are to do.
-    fn steps(&self) -> u64 {
-        self.scene.steps_from(&self.start.world)
-    }
-
-    /// A run that is to come, called after how it is made.
-    fn empty_replay(&self, narrow: Narrow) -> Replay {
-        let header = Header::from(&self.start.world);
-        let replay = Replay::new(&self.scene.title, header, self.steps());
-        let how = format!("{}, {} mode", narrow.name(), self.mode.name());
-        replay.named_as_in(&self.scene).called(&how)
-    }
-}
-
-impl<'a> Watch<'a> {
-    fn new(options: &'a Simulate, plan: &Plan) -> Result<Self, Failure> {
-        let world = &plan.start.world;
-        let record = |path: &'a Path| -> Result<_, Failure> {
-            let file = File::create(path).map_err(|error| unwritable(path, error))?;
-            let recorder = Recorder::new(file, world).map_err(|error| refused(path, error))?;
-            Ok((recorder, path))
-        };
-        let is_shown = options.replay.is_some() || options.frames.is_some();
-        Ok(Watch {
-            vtk: (options.vtk.as_deref())
-                .map(|folder| Polygons::new(folder, world))
-                .transpose()?,
-            recorder: options.record.as_deref().map(record).transpose()?,
-            audit: options.audit.then(|| Audit::of_world(world)),
-            replay: is_shown.then(|| plan.empty_replay(plan.narrow)),
-        })
-    }
-
-    fn step(&mut self, record: &StepRecord) -> Result<(), Failure> {
-        if let Some((recorder, path)) = &mut self.recorder {
-            recorder
-                .record(record)
-                .map_err(|error| refused(path, error))?;
-        }
-        if let Some(audit) = &mut self.audit {
-            audit.step(record);
-        }
-        if let Some(replay) = &mut self.replay {
-            replay.step(record);
-        }
-        if let Some(polygons) = &mut self.vtk {
-            polygons.step(record)?;
-        }
-        Ok(())
     }
 }
 

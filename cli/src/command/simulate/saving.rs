@@ -8,8 +8,8 @@ use tunnelproof::wire::{Collisions, World};
 
 use tunnelproof_cli::simulate::Narrow;
 
-use super::Failure;
-use super::output::OutputFile;
+use crate::command::Failure;
+use crate::command::output::OutputFile;
 
 /// Where the state of a run goes, and how often.
 #[derive(Args)]
