@@ -59,7 +59,7 @@
 //! | `rayon` | `Batch::par_decide`, and meshes on all threads |
 //! | `wire` | the wire stepper |
 //! | `serde` | its settings and records as data; includes `wire` |
-//! | `recording` | its steps to a file and back; includes `serde` |
+//! | `recording` | its steps, and its state, to a file and back; includes `serde` |
 //!
 //! None is on by default. The types of points and vectors are those of [`nalgebra`], which this
 //! crate re-exports.

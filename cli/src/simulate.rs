@@ -1,6 +1,7 @@
 //! Scenes run from start to end, and what is counted on the way.
 
 use std::fmt;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use crate::scenes::{Scene, SceneError};
@@ -11,7 +12,11 @@ use tunnelproof::contact::{Case, Flags, Verdict};
 use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
 use tunnelproof::query::EdgeEdge;
 use tunnelproof::thesis::Thesis;
-use tunnelproof::wire::{BodyCrossingOutcome, CrossingOutcome, Mode, StepError, StepRecord, World};
+use tunnelproof::wire::state::State;
+use tunnelproof::wire::{
+    BodyCrossingOutcome, CollisionMemory, Collisions, CrossingOutcome, Mode, StepError, StepRecord,
+    World,
+};
 
 use crate::sweep::Setting;
 use tunnelproof_reference::certify::table::grouped;
@@ -73,6 +78,12 @@ impl Narrow {
         }
     }
 
+    /// The one of a name.
+    pub fn by_name(name: &str) -> Option<Self> {
+        let mut all = Narrow::ALL.into_iter();
+        all.find(|narrow| narrow.name() == name)
+    }
+
     /// Who answers.
     pub fn phase(self) -> Box<dyn NarrowPhase> {
         match self {
@@ -102,6 +113,8 @@ pub struct Run<'a> {
 pub struct Summary {
     /// The title of the scene.
     pub title: String,
+    /// Steps that were done before the run.
+    pub from_step: u64,
     /// Steps done.
     pub steps: u64,
     /// Simulated time in s.
@@ -154,6 +167,29 @@ pub struct Summary {
     pub stopped: Option<String>,
 }
 
+/// Where a run starts.
+#[derive(Clone, Debug)]
+pub struct Start {
+    /// The world.
+    pub world: World,
+    /// What is known of its collisions.
+    pub memory: CollisionMemory,
+}
+
+impl Start {
+    /// Where a scene starts.
+    ///
+    /// # Errors
+    ///
+    /// The scene cannot be built.
+    pub fn of(scene: &Scene) -> Result<Self, SceneError> {
+        Ok(Start {
+            world: scene.world()?,
+            memory: CollisionMemory::default(),
+        })
+    }
+}
+
 impl Run<'_> {
     /// Runs the scene to its end, and shows every step to `observe`. A step that cannot be done
     /// ends the run.
@@ -165,20 +201,45 @@ impl Run<'_> {
         &self,
         mut observe: impl FnMut(&World, &StepRecord) -> Result<(), E>,
     ) -> Result<Summary, E> {
-        let mut world = self.scene.world()?;
-        let mut collisions = self.scene.collisions(self.mode, self.narrow)?;
+        let unstopped = AtomicBool::new(false);
+        let observe =
+            |world: &World, _: &Collisions<'_>, record: &StepRecord| observe(world, record);
+        let (summary, _) = self.go_from(&Start::of(self.scene)?, &unstopped, observe)?;
+        Ok(summary)
+    }
+
+    /// The same from a start on, until it is told to stop; and in which state it ends. After a step
+    /// that could not be done that is the state before it.
+    ///
+    /// # Errors
+    ///
+    /// The settings of the scene are refused, or what `observe` returns.
+    pub fn go_from<E: From<SceneError>>(
+        &self,
+        start: &Start,
+        stop: &AtomicBool,
+        mut observe: impl FnMut(&World, &Collisions<'_>, &StepRecord) -> Result<(), E>,
+    ) -> Result<(Summary, State), E> {
+        let mut world = start.world.clone();
+        let collisions = self.scene.collisions(self.mode, self.narrow)?;
+        let mut collisions = collisions.with_memory(start.memory.clone());
         let mut summary = Summary {
             title: self.scene.title.clone(),
+            from_step: world.steps(),
+            time: world.time(),
             ..Summary::default()
         };
-        for _ in 0..self.scene.steps() {
+        for _ in 0..self.scene.steps_from(&world) {
+            if stop.load(Ordering::Relaxed) {
+                break;
+            }
             let started = Instant::now();
             let record = world.step_colliding(&mut collisions, &[]);
             summary.wall += started.elapsed().as_secs_f64();
             match record {
                 Ok(record) => {
                     summary.add(&record);
-                    observe(&world, &record)?;
+                    observe(&world, &collisions, &record)?;
                 }
                 Err(error) => {
                     summary.stop(&error);
@@ -186,7 +247,7 @@ impl Run<'_> {
                 }
             }
         }
-        Ok(summary)
+        Ok((summary, State::of(&world, &collisions)))
     }
 }
 
@@ -305,6 +366,10 @@ impl fmt::Display for Summary {
             ("most contacts", count(self.contacts)),
         ];
         writeln!(f, "{}", self.title)?;
+        if self.from_step > 0 {
+            let from = format!("step {}", grouped(self.from_step));
+            writeln!(f, "  {:<22}{from}", "continued from")?;
+        }
         for (name, value) in rows {
             writeln!(f, "  {name:<22}{value}")?;
         }

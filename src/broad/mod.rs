@@ -50,4 +50,6 @@ pub use error::BroadError;
 pub use item_id::ItemId;
 pub use items::Pair;
 pub use phase::{BroadPhase, Method};
+#[cfg(feature = "recording")]
+pub(crate) use slow::Placed;
 pub use slow::{Exclusions, SlowPairs};

@@ -128,6 +128,52 @@ impl SlowPairs {
     }
 }
 
+/// A segment where it is between two steps: radius and ends.
+#[cfg(feature = "recording")]
+pub(crate) type Placed = (f64, [Point; 2]);
+
+/// What is known between two steps, of which later answers are made.
+#[cfg(feature = "recording")]
+impl SlowPairs {
+    /// Where segments are, by the index of the item.
+    pub(crate) fn placed(&self) -> Vec<Option<Placed>> {
+        let placed = |track: &Track| (track.radius, track.now);
+        let tracks = self.tracks.iter();
+        tracks.map(|track| track.as_ref().map(placed)).collect()
+    }
+
+    /// The pairs that were left out of the last step, by the indices of their items in ascending
+    /// order, and how much farther than their radii they are apart at least.
+    pub(crate) fn excluded(&self) -> Vec<([usize; 2], f64)> {
+        let excluded = self.excluded.iter();
+        excluded
+            .map(|(pair, slack)| ([pair.first().index(), pair.second().index()], *slack))
+            .collect()
+    }
+
+    /// The same as [`placed`](Self::placed) and [`excluded`](Self::excluded) tell it; counts start
+    /// anew. Precondition: the pairs are in ascending order, as far apart, and of two items each.
+    pub(crate) fn between_steps(
+        placed: Vec<Option<Placed>>,
+        excluded: Vec<([usize; 2], f64)>,
+    ) -> Self {
+        let track = |(radius, ends)| Track {
+            radius,
+            start: ends,
+            now: ends,
+            motion: 0.0,
+        };
+        let excluded = excluded.into_iter();
+        SlowPairs {
+            tracks: placed.into_iter().map(|placed| placed.map(track)).collect(),
+            excluded: excluded
+                .map(|([a, b], slack)| (Pair::new(ItemId(a), ItemId(b)), slack))
+                .collect(),
+            ..SlowPairs::default()
+        }
+    }
+}
+
 impl Track {
     fn go(&mut self, ends: [Point; 2], radius: f64) {
         let [a, b] = [0, 1].map(|end| distance_above(&self.now[end], &ends[end]));

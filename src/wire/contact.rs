@@ -2,7 +2,7 @@
 
 use super::Vector;
 use super::error::Reason;
-use super::model::check::{finite, finite_vector, not_negative};
+use super::model::check::{finite, finite_vector, not_negative, unit};
 use super::model::{BodyId, ModelError, WireId};
 use super::site::WireSite;
 use super::world::World;
@@ -54,16 +54,9 @@ pub struct ContactConstraint {
 }
 
 impl ContactConstraint {
-    fn check(&self, world: &World) -> Result<(), ModelError> {
+    pub(in crate::wire) fn check(&self, world: &World) -> Result<(), ModelError> {
         finite_vector("normal", &self.normal)?;
-        let length = self.normal.norm();
-        if (length - 1.0).abs() > 1e-9 {
-            return Err(ModelError::value(
-                "length of the normal",
-                length,
-                "1 within 1e-9",
-            ));
-        }
+        unit("length of the normal", self.normal.norm())?;
         finite("gap", self.gap)?;
         not_negative("friction", self.friction)?;
         for place in [&self.a, &self.b] {
@@ -73,18 +66,7 @@ impl ContactConstraint {
                     finite_vector("local", &local)?;
                     world.body(body)?;
                 }
-                ContactSite::Wire { wire, arc } => {
-                    let nodes = world.wire(wire)?.nodes();
-                    finite("arc", arc)?;
-                    not_negative("arc", arc)?;
-                    if nodes.last().is_some_and(|last| arc > last.arc) {
-                        return Err(ModelError::value(
-                            "arc",
-                            arc,
-                            "at most the length of the wire",
-                        ));
-                    }
-                }
+                ContactSite::Wire { wire, arc } => WireSite { wire, arc }.check(world)?,
             }
         }
         Ok(())

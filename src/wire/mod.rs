@@ -29,6 +29,8 @@ mod collide;
 mod contact;
 mod energy;
 mod error;
+#[cfg(feature = "recording")]
+mod file;
 mod model;
 mod record;
 #[cfg(feature = "recording")]
@@ -38,11 +40,13 @@ mod settings;
 mod site;
 mod solver_cache;
 mod sparse;
+#[cfg(feature = "recording")]
+pub mod state;
 mod step;
 mod vector;
 mod world;
 
-pub use collide::{Collisions, Mode, PairFilter};
+pub use collide::{CollisionMemory, CollisionSettings, Collisions, Mode, PairFilter};
 pub use contact::{ContactConstraint, ContactSite};
 pub use energy::Energy;
 pub use error::{CollisionError, Reason, StepError};

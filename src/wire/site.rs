@@ -2,7 +2,9 @@
 
 use std::fmt;
 
-use super::model::WireId;
+use super::model::check::not_negative;
+use super::model::{ModelError, WireId};
+use super::world::World;
 
 /// A segment of a wire at present; changes of resolution renumber them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -22,6 +24,18 @@ pub struct WireSite {
     pub wire: WireId,
     /// Arc length in m.
     pub arc: f64,
+}
+
+impl WireSite {
+    pub(in crate::wire) fn check(&self, world: &World) -> Result<(), ModelError> {
+        let length = world.wire(self.wire)?.length();
+        not_negative("arc", self.arc)?;
+        if self.arc > length {
+            let accepted = "at most the length of the wire";
+            return Err(ModelError::value("arc", self.arc, accepted));
+        }
+        Ok(())
+    }
 }
 
 impl fmt::Display for WireSite {

@@ -1,5 +1,6 @@
 //! What the solver keeps from one step for the next. It changes how fast a step is solved and,
 //! within the tolerances, where sweeps that are cut off end; it is no part of the physical state.
+//! The bits of later steps depend on the impulses, so they are saved, and not on the structure.
 
 use super::Vector;
 use super::sparse::Structure;
@@ -22,6 +23,12 @@ impl WarmStart {
         let mut sorted: Vec<_> = impulses.collect();
         sorted.sort_by_key(|(key, _)| *key);
         WarmStart(sorted)
+    }
+
+    /// Keys and impulses, sorted by key.
+    #[cfg(feature = "recording")]
+    pub(in crate::wire) fn impulses(&self) -> &[(u64, Vector)] {
+        &self.0
     }
 
     /// The impulse of the contact with this key; 0 for a new one.

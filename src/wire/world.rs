@@ -1,6 +1,6 @@
 //! A world, and how it is put together.
 
-use super::model::{Body, BodyId, BodyPlan, ModelError, Wire, WireId, WirePlan};
+use super::model::{Body, BodyId, BodyPlan, ModelError, Resolution, Wire, WireId, WirePlan};
 use super::settings::Settings;
 use super::solver_cache::SolverCache;
 
@@ -12,7 +12,17 @@ pub struct World {
     pub(in crate::wire) wires: Vec<Wire>,
     /// Steps done.
     pub(in crate::wire) steps: u64,
+    pub(in crate::wire) epoch: Epoch,
     pub(in crate::wire) cache: SolverCache,
+}
+
+/// Since when steps are as long as they are.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in crate::wire) struct Epoch {
+    /// Steps done then.
+    pub(in crate::wire) steps: u64,
+    /// The time in s.
+    pub(in crate::wire) time: f64,
 }
 
 impl World {
@@ -28,6 +38,7 @@ impl World {
             bodies: Vec::new(),
             wires: Vec::new(),
             steps: 0,
+            epoch: Epoch::default(),
             cache: SolverCache::default(),
         })
     }
@@ -73,9 +84,7 @@ impl World {
     ///
     /// [`ModelError::Body`] if it is not there.
     pub fn body(&self, id: BodyId) -> Result<&Body, ModelError> {
-        let (index, count) = (id.0, self.bodies.len());
-        let missing = ModelError::Body { index, count };
-        self.bodies.get(index).ok_or(missing)
+        id.of(&self.bodies)
     }
 
     /// A wire.
@@ -96,7 +105,37 @@ impl World {
 
     /// Time in s.
     pub fn time(&self) -> f64 {
-        self.steps as f64 * self.settings.step
+        self.epoch.time + (self.steps - self.epoch.steps) as f64 * self.settings.step
+    }
+
+    /// Goes on with other settings. The time stays, also if the time step is another one.
+    ///
+    /// # Errors
+    ///
+    /// A setting out of its range; the world is as before.
+    pub fn set_settings(&mut self, settings: Settings) -> Result<(), ModelError> {
+        settings.check()?;
+        if settings.step != self.settings.step {
+            self.epoch = Epoch {
+                steps: self.steps,
+                time: self.time(),
+            };
+        }
+        self.settings = settings;
+        Ok(())
+    }
+
+    /// Goes on with another resolution of a wire. An adaptive one follows it from the next step on,
+    /// as far as tension lets it; one that is not keeps its nodes.
+    ///
+    /// # Errors
+    ///
+    /// A wire that is not there, or a length that [`add_wire`](Self::add_wire) would refuse; the
+    /// world is as before.
+    pub fn set_resolution(&mut self, id: WireId, resolution: Resolution) -> Result<(), ModelError> {
+        resolution.check(self.wire(id)?.length())?;
+        self.wires[id.0].resolution = resolution;
+        Ok(())
     }
 
     /// Takes all velocity from nodes and dynamic bodies, as one does again and again to find a

@@ -1,18 +1,16 @@
 //! `audit`: a recording, checked for missed tunnels.
 
-use std::fs::File;
-use std::io::BufReader;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
 use serde::Serialize;
-use tunnelproof::wire::recording::Recording;
 use tunnelproof_cli::audit::Audit as Auditor;
 use tunnelproof_cli::replay::{self, Replay};
 use tunnelproof_cli::report::audit;
 
 use super::output::{JsonOutput, OutputFile, shell};
+use super::recordings::Recordings;
 use super::{Failure, progress};
 
 /// Check a recording of a simulation for missed tunnels by the exact oracle
@@ -23,12 +21,15 @@ Examples:
   tunnelproof audit run.tps
   tunnelproof audit run.tps --exact --json -
   tunnelproof audit run.tps --replay run.html
+  tunnelproof audit monday.tps tuesday.tps
 
 Every pair of segments whose swept boxes meet, in every step and every change of resolution, of one wire too. Exit code
 1 if anything passed unnoticed, or stands or may stand on the wrong side at the end.")]
 pub(super) struct Audit {
-    /// The recording
-    recording: PathBuf,
+    /// The recording, or several of one run that was stopped and went on, in their order: each is read
+    /// as far as the next one starts
+    #[arg(required = true)]
+    recordings: Vec<PathBuf>,
     /// Fail as well if a time of impact is not exact, or a contact is none
     #[arg(long)]
     exact: bool,
@@ -45,11 +46,10 @@ impl Audit {
         let json = JsonOutput::create(self.json.as_deref())?;
         let page = self.replay.as_deref().map(OutputFile::create).transpose()?;
         let mut replay = page.is_some().then(|| self.empty_page()).transpose()?;
-        let recording = self.open()?;
-        let mut auditor = Auditor::of_recording(recording.header());
+        let mut recordings = Recordings::open(&self.recordings)?;
+        let mut auditor = Auditor::of_recording(recordings.header());
         progress::counting("steps", |done| {
-            for record in recording {
-                let record = record.map_err(|error| self.wrong(error))?;
+            while let Some(record) = recordings.next_step()? {
                 auditor.step(&record);
                 if let Some(replay) = &mut replay {
                     replay.step(&record);
@@ -76,25 +76,16 @@ impl Audit {
         })
     }
 
-    fn open(&self) -> Result<Recording<BufReader<File>>, Failure> {
-        let file = File::open(&self.recording).map_err(|error| self.wrong(error))?;
-        Recording::open(BufReader::new(file)).map_err(|error| self.wrong(error))
-    }
-
-    /// A page that the steps are still to be added to, called after the file. It has to know how many there are.
+    /// A page that the steps are still to be added to, called after the first file. It has to know how many there are.
     fn empty_page(&self) -> Result<Replay, Failure> {
-        let recording = self.open()?;
-        let header = recording.header().clone();
-        let title = self.recording.file_stem().unwrap_or_default();
-        let steps = recording.count() as u64;
-        Ok(Replay::new(&title.to_string_lossy(), header, steps))
-    }
-
-    fn wrong(&self, error: impl ToString) -> Failure {
-        Failure::File {
-            path: self.recording.display().to_string(),
-            problem: error.to_string(),
+        let mut recordings = Recordings::open(&self.recordings)?;
+        let header = recordings.header().clone();
+        let title = self.recordings[0].file_stem().unwrap_or_default();
+        let mut steps = 0;
+        while recordings.next_step()?.is_some() {
+            steps += 1;
         }
+        Ok(Replay::new(&title.to_string_lossy(), header, steps))
     }
 }
 

@@ -36,6 +36,7 @@ mod output;
 mod pages;
 mod polygons;
 mod progress;
+mod recordings;
 mod replay;
 mod resume;
 mod shell;

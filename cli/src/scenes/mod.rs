@@ -32,6 +32,7 @@
 
 mod build;
 mod check;
+mod continued;
 mod error;
 mod file;
 mod hang;
@@ -40,8 +41,11 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
+pub use continued::Difference;
 pub use error::{Reason, SceneError};
 pub use file::{Body, Drive, Dynamic, Material, Phase, Scene, Shape, Stop, Turn, Wire};
+
+use tunnelproof::wire::World;
 
 /// The scenes of the thesis (4.2), in its order: name and file.
 pub const EMBEDDED: [(&str, &str); 4] = [
@@ -98,5 +102,11 @@ impl Scene {
     /// How many steps its duration is.
     pub fn steps(&self) -> u64 {
         (self.duration / self.settings.step).round() as u64
+    }
+
+    /// How many of these are left, of the time of a world.
+    pub fn steps_from(&self, world: &World) -> u64 {
+        let done = (world.time() / self.settings.step).round() as u64;
+        self.steps().saturating_sub(done)
     }
 }

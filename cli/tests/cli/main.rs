@@ -20,5 +20,6 @@ mod program;
 mod run;
 mod shrink;
 mod simulate;
+mod states;
 mod sweep;
 mod vectors;

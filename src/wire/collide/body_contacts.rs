@@ -18,23 +18,29 @@ use crate::wire::contact::{ContactConstraint, ContactSite};
 use crate::wire::error::CollisionError;
 use crate::wire::model::{BodyId, WireId};
 use crate::wire::record::ContactRecord;
-use crate::wire::site::SegmentId;
+use crate::wire::site::{SegmentId, WireSite};
 use crate::wire::world::World;
 
 /// Where the keys of contacts with bodies start.
-pub(super) const KEYS: u64 = 3 << 62;
+pub(in crate::wire) const KEYS: u64 = 3 << 62;
 
 /// The contacts with bodies of one world, from step to step.
 pub(super) struct BodyContacts {
     boxes: Boxes,
     /// Of each body.
     forms: Vec<CollisionShape>,
+    pub(super) known: KnownContacts,
+}
+
+/// What is known of contacts with bodies from the step before.
+#[derive(Clone, Debug, Default)]
+pub(in crate::wire) struct KnownContacts {
     /// The contacts of the last step.
-    last: Vec<ContactConstraint>,
+    pub(in crate::wire) last: Vec<ContactConstraint>,
     /// Keys given so far.
-    given: u64,
+    pub(in crate::wire) given: u64,
     /// Places of wires at which a body pushed in the last step.
-    pushed: Vec<(WireId, f64)>,
+    pub(in crate::wire) pushed: Vec<WireSite>,
 }
 
 /// A thing where the step starts, and how far it may come in it.
@@ -49,9 +55,7 @@ impl BodyContacts {
         BodyContacts {
             boxes: Boxes::new(method),
             forms: Vec::new(),
-            last: Vec::new(),
-            given: 0,
-            pushed: Vec::new(),
+            known: KnownContacts::default(),
         }
     }
 
@@ -86,7 +90,7 @@ impl BodyContacts {
         let tested = pairs.len();
         leave_out_ends(world, &mut found);
         let mut contacts = join(found);
-        self.name(&mut contacts);
+        self.known.name(&mut contacts);
         Ok((contacts, tested))
     }
 
@@ -101,9 +105,24 @@ impl BodyContacts {
         Ok(())
     }
 
+    /// Whether the triangle that taking out a node sweeps meets a body that the wire does not meet.
+    pub(super) fn is_swept(&self, world: &World, triangle: &[Point; 3]) -> bool {
+        let [a, b, c] = triangle;
+        let reach = (a - b).norm().max((c - b).norm());
+        let mut bodies = world.bodies.iter().zip(&self.forms);
+        bodies.any(|(body, form)| {
+            let near = (body.position - b).norm() <= form.extent + reach;
+            near && form
+                .at(&body.position, &body.orientation)
+                .is_swept(triangle)
+        })
+    }
+}
+
+impl KnownContacts {
     /// Gives each contact the key of the nearest one of the last step between the same things.
     fn name(&mut self, contacts: &mut [ContactConstraint]) {
-        let mut known = Known::default();
+        let mut known = FreeKeys::default();
         for contact in self.last.drain(..) {
             known.add(contact);
         }
@@ -130,40 +149,27 @@ impl BodyContacts {
             if let (ContactSite::Wire { wire, arc }, true) =
                 (a, key > KEYS && record.normal_force() > 0.0)
             {
-                self.pushed.push((wire, arc));
+                self.pushed.push(WireSite { wire, arc });
             }
         }
     }
 
-    /// Whether the triangle that taking out a node sweeps meets a body that the wire does not meet.
-    pub(super) fn is_swept(&self, world: &World, triangle: &[Point; 3]) -> bool {
-        let [a, b, c] = triangle;
-        let reach = (a - b).norm().max((c - b).norm());
-        let mut bodies = world.bodies.iter().zip(&self.forms);
-        bodies.any(|(body, form)| {
-            let near = (body.position - b).norm() <= form.extent + reach;
-            near && form
-                .at(&body.position, &body.orientation)
-                .is_swept(triangle)
-        })
-    }
-
     /// Whether a body pushes on a wire strictly between two arc lengths.
     pub(super) fn pushes_between(&self, wire: WireId, from: f64, to: f64) -> bool {
-        let inside = |&(other, arc): &(WireId, f64)| other == wire && arc > from && arc < to;
+        let inside = |site: &WireSite| site.wire == wire && site.arc > from && site.arc < to;
         self.pushed.iter().any(inside)
     }
 }
 
 /// Contacts whose keys may be taken, by what they are between.
 #[derive(Default)]
-struct Known {
+struct FreeKeys {
     /// Those on wires: arc length as bits, which ascend as it does, then a number, and the key.
     on_wires: BTreeMap<[usize; 3], BTreeMap<(u64, usize), u64>>,
     between_bodies: BTreeMap<[usize; 3], Vec<ContactConstraint>>,
 }
 
-impl Known {
+impl FreeKeys {
     fn add(&mut self, contact: ContactConstraint) {
         let things = things(&contact);
         if let ContactSite::Wire { arc, .. } = contact.a {

@@ -25,20 +25,54 @@ pub enum Mode {
     Thesis,
 }
 
+/// What [`Collisions`] do, beside the phases that find them. Each builder of `Collisions` that is
+/// named sets one of these.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct CollisionSettings {
+    /// What becomes of a crossing: [`with_mode`](Collisions::with_mode).
+    pub mode: Mode,
+    /// Coefficient of friction of all contacts that are found:
+    /// [`with_friction`](Collisions::with_friction).
+    pub friction: f64,
+    /// The share of the thickness that guard mode keeps:
+    /// [`with_guarded_thickness`](Collisions::with_guarded_thickness).
+    pub guarded_thickness: f64,
+    /// Whether contacts with bodies are found: not [`without_bodies`](Collisions::without_bodies).
+    pub bodies: bool,
+    /// Whether wires get contact nodes where bodies bend them:
+    /// [`with_contact_nodes`](Collisions::with_contact_nodes).
+    pub contact_nodes: bool,
+}
+
+impl Default for CollisionSettings {
+    fn default() -> Self {
+        CollisionSettings {
+            mode: Mode::default(),
+            friction: 0.5,
+            guarded_thickness: 0.0,
+            bodies: true,
+            contact_nodes: false,
+        }
+    }
+}
+
+impl CollisionSettings {
+    pub(in crate::wire) fn check(&self) -> Result<(), ModelError> {
+        not_negative("friction", self.friction)?;
+        share("guarded_thickness", self.guarded_thickness)
+    }
+}
+
 /// The collisions in one world: how they are found, and the contacts there are.
 pub struct Collisions<'n> {
     pub(super) narrow: &'n dyn NarrowPhase,
     pub(super) filter: Option<PairFilter<'n>>,
-    pub(super) mode: Mode,
-    pub(super) friction: f64,
-    guarded_thickness: f64,
+    pub(super) settings: CollisionSettings,
     pub(super) pipeline: Pipeline,
     pub(super) touches: WireContacts,
-    /// None if bodies are the caller's.
-    pub(super) obstacles: Option<BodyContacts>,
+    pub(super) obstacles: BodyContacts,
     pub(super) cores: CoreDetection,
-    /// Whether wires get contact nodes where bodies bend them.
-    pub(super) contact_nodes: bool,
 }
 
 impl Default for Collisions<'_> {
@@ -55,15 +89,35 @@ impl<'n> Collisions<'n> {
         Collisions {
             narrow,
             filter: None,
-            mode,
-            friction: 0.5,
-            guarded_thickness: 0.0,
+            settings: CollisionSettings {
+                mode,
+                ..CollisionSettings::default()
+            },
             pipeline: Pipeline::new(method),
             touches: WireContacts::default(),
-            obstacles: Some(BodyContacts::new(method)),
+            obstacles: BodyContacts::new(method),
             cores: CoreDetection::new(method),
-            contact_nodes: false,
         }
+    }
+
+    /// The same in another mode.
+    #[must_use]
+    pub fn with_mode(mut self, mode: Mode) -> Self {
+        self.settings.mode = mode;
+        self
+    }
+
+    /// The same with other settings.
+    #[cfg(feature = "recording")]
+    pub(in crate::wire) fn with_settings(mut self, settings: CollisionSettings) -> Self {
+        self.settings = settings;
+        self
+    }
+
+    /// The name of the narrow phase.
+    #[cfg(feature = "recording")]
+    pub(in crate::wire) fn narrow_name(&self) -> &str {
+        self.narrow.name()
     }
 
     /// The same with another coefficient of friction, of all contacts that are found.
@@ -72,8 +126,8 @@ impl<'n> Collisions<'n> {
     ///
     /// A coefficient that is not a finite number of at least 0.
     pub fn with_friction(mut self, friction: f64) -> Result<Self, ModelError> {
-        not_negative("friction", friction)?;
-        self.friction = friction;
+        self.settings.friction = friction;
+        self.settings.check()?;
         Ok(self)
     }
 
@@ -91,8 +145,8 @@ impl<'n> Collisions<'n> {
     ///
     /// A share that is not a number of at least 0 and below 1.
     pub fn with_guarded_thickness(mut self, kappa: f64) -> Result<Self, ModelError> {
-        share("guarded_thickness", kappa)?;
-        self.guarded_thickness = kappa;
+        self.settings.guarded_thickness = kappa;
+        self.settings.check()?;
         Ok(self)
     }
 
@@ -107,7 +161,7 @@ impl<'n> Collisions<'n> {
     /// through bodies.
     #[must_use]
     pub fn without_bodies(mut self) -> Self {
-        self.obstacles = None;
+        self.settings.bodies = false;
         self
     }
 
@@ -117,29 +171,31 @@ impl<'n> Collisions<'n> {
     /// where the wire turns away from the body, and with the end of the wire.
     #[must_use]
     pub fn with_contact_nodes(mut self) -> Self {
-        self.contact_nodes = true;
+        self.settings.contact_nodes = true;
         self
     }
 
     /// What is guarded of the thickness.
     pub(super) fn thickness(&self) -> Thickness {
-        match self.mode {
-            Mode::Guard => Thickness(self.guarded_thickness),
+        match self.settings.mode {
+            Mode::Guard => Thickness(self.settings.guarded_thickness),
             Mode::Thesis => Thickness::default(),
         }
     }
 
     /// What becomes of a crossing.
     pub fn mode(&self) -> Mode {
-        self.mode
+        self.settings.mode
+    }
+
+    /// What they do.
+    pub fn settings(&self) -> CollisionSettings {
+        self.settings
     }
 
     /// Wall-clock time in s of all broad phases so far.
     pub(super) fn broad_seconds(&self) -> f64 {
-        let obstacles = self
-            .obstacles
-            .as_ref()
-            .map_or(0.0, BodyContacts::broad_seconds);
-        self.pipeline.broad_seconds() + self.cores.broad_seconds() + obstacles
+        let [wires, cores] = [self.pipeline.broad_seconds(), self.cores.broad_seconds()];
+        wires + cores + self.obstacles.broad_seconds()
     }
 }

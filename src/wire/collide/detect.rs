@@ -20,7 +20,7 @@ use crate::wire::world::World;
 /// through all wires.
 pub(super) struct Pipeline {
     boxes: Boxes,
-    slow: SlowPairs,
+    pub(super) slow: SlowPairs,
 }
 
 /// A segment on its way through a step.

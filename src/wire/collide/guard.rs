@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use super::body_contacts::BodyContacts;
 use super::body_detect::CoreHits;
 use super::collisions::{Collisions, Mode};
 use super::core_pairs::Clearance;
@@ -56,10 +55,11 @@ impl<'a, 'n> Guard<'a, 'n> {
         };
         collisions.touches.refresh(world, thickness);
         let mut contacts = given.to_vec();
-        contacts.extend(collisions.touches.contacts(collisions.friction));
-        if let Some(obstacles) = &mut collisions.obstacles {
+        let friction = collisions.settings.friction;
+        contacts.extend(collisions.touches.contacts(friction));
+        if collisions.settings.bodies {
             collisions.cores.learn(world);
-            let (found, tested) = obstacles.contacts(world, collisions.friction)?;
+            let (found, tested) = collisions.obstacles.contacts(world, friction)?;
             contacts.extend(found);
             record.tested_bodies = tested;
         }
@@ -80,7 +80,7 @@ impl<'a, 'n> Guard<'a, 'n> {
         world: &World,
         motion: &ProposedMotion,
     ) -> Result<CoreHits, CollisionError> {
-        if self.collisions.obstacles.is_none() {
+        if !self.collisions.settings.bodies {
             return Ok(CoreHits::default());
         }
         let cores = &mut self.collisions.cores;
@@ -114,7 +114,7 @@ impl<'a, 'n> Guard<'a, 'n> {
                 }
                 let touch = self.collisions.touches.make(hit.sites, normal);
                 let gap = apart - thickness.touching(world, pair, &hit.sites);
-                let contact = touch.row(normal, gap, self.collisions.friction);
+                let contact = touch.row(normal, gap, self.collisions.settings.friction);
                 self.contacts.push(contact);
                 self.added.push(touch);
             }
@@ -130,20 +130,18 @@ impl<'a, 'n> Guard<'a, 'n> {
         hits: &CoreHits,
     ) -> bool {
         let before = self.contacts.len();
-        let Some(obstacles) = &mut self.collisions.obstacles else {
-            return false;
-        };
+        let known = &mut self.collisions.obstacles.known;
         let cores = &self.collisions.cores.cores;
-        let friction = self.collisions.friction;
+        let friction = self.collisions.settings.friction;
         for hit in &hits.bodies {
             let clearance = Clearance::of(hit.bodies().map(|body| &cores[body.0]));
-            let row = hit.row(world, motion, clearance, friction, obstacles.next_key());
+            let row = hit.row(world, motion, clearance, friction, known.next_key());
             self.contacts.extend(row);
         }
         let mut placed = BTreeSet::new();
         for hit in &hits.midlines {
             let inset = cores[hit.body.0].inset();
-            let key = obstacles.next_key();
+            let key = known.next_key();
             let row = hit.row(world, motion, inset, friction, key);
             // A node is found by the segments on both sides.
             if placed.insert((hit.body, hit.site.wire, hit.site.arc.to_bits())) {
@@ -168,8 +166,8 @@ impl<'a, 'n> Guard<'a, 'n> {
         }
         self.record.pairs = self.found.pairs;
         touches.release(world, contacts);
-        if let Some(obstacles) = &mut self.collisions.obstacles {
-            obstacles.note(contacts);
+        if self.collisions.settings.bodies {
+            self.collisions.obstacles.known.note(contacts);
         }
         // So that what is near is known by a contact that slid there.
         touches.refresh(world, thickness);
@@ -257,7 +255,7 @@ impl StepCallbacks for Guard<'_, '_> {
         let found =
             pipeline.detect(world, motion, *narrow, *filter, thickness, &mut self.record)?;
         let touched = self.touched_cores(world, motion)?;
-        let outcome = match self.collisions.mode {
+        let outcome = match self.collisions.settings.mode {
             Mode::Guard => BodyCrossingOutcome::Prevented,
             Mode::Thesis => BodyCrossingOutcome::Passed,
         };
@@ -267,7 +265,7 @@ impl StepCallbacks for Guard<'_, '_> {
         let bodies = touched.bodies.iter().map(|hit| hit.crossing(outcome));
         self.record.core_crossings.extend(bodies);
         let is_free = found.hits.is_empty() && touched.is_empty();
-        if is_free || self.collisions.mode == Mode::Thesis {
+        if is_free || self.collisions.settings.mode == Mode::Thesis {
             self.found = found;
             return Ok(MotionReview::Accept);
         }
@@ -309,7 +307,7 @@ impl StepCallbacks for Guard<'_, '_> {
         world: &World,
         contacts: &[ContactRecord],
     ) -> Vec<ContactNodeInsertion> {
-        if self.collisions.contact_nodes {
+        if self.collisions.settings.contact_nodes {
             contact_node_insertion::insertions(world, contacts)
         } else {
             Vec::new()
@@ -323,31 +321,26 @@ impl RemeshGuard for Guard<'_, '_> {
     fn permits(&mut self, world: &World, change: &Remesh) -> bool {
         let Collisions {
             filter,
-            mode,
+            settings,
             touches,
             obstacles,
             cores,
             ..
         } = &*self.collisions;
+        let bodies = settings.bodies;
         let thickness = self.collisions.thickness();
         let [from, _, to] = change.arcs;
-        let by_body = |o: &BodyContacts| {
+        let by_body = || {
             let straightens = remesh::straightens_beside_contact_node(world, change);
-            o.pushes_between(change.wire, from, to) && !straightens
+            obstacles.known.pushes_between(change.wire, from, to) && !straightens
         };
-        let loaded = || {
-            touches.pushes_between(change.wire.0, from, to)
-                || obstacles.as_ref().is_some_and(by_body)
-        };
-        let through = || {
-            let obstacles = obstacles.as_ref();
-            obstacles.is_some_and(|o| o.is_swept(world, &change.triangle))
-        };
-        let refused = *mode == Mode::Guard
+        let loaded = || touches.pushes_between(change.wire.0, from, to) || bodies && by_body();
+        let through = || bodies && obstacles.is_swept(world, &change.triangle);
+        let refused = settings.mode == Mode::Guard
             && (change.kind == RemeshKind::Merge && (loaded() || through())
                 // A triangle that cannot be tested is not swept.
                 || remesh::meets(world, change, *filter, thickness).unwrap_or(true)
-                || obstacles.is_some()
+                || bodies
                     && body_remesh::meets(world, change, &cores.cores).unwrap_or(true));
         self.record.refused_remeshes += usize::from(refused);
         !refused

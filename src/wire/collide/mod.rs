@@ -50,6 +50,7 @@ mod detect;
 mod guard;
 mod islands;
 mod manifold;
+mod memory;
 mod overlap;
 mod parts;
 mod remesh;
@@ -60,8 +61,14 @@ mod wire_contacts;
 #[cfg(test)]
 mod tests;
 
-pub use collisions::{Collisions, Mode};
+pub use collisions::{CollisionSettings, Collisions, Mode};
+pub use memory::CollisionMemory;
 pub use segment::PairFilter;
+#[cfg(feature = "recording")]
+pub(in crate::wire) use {
+    body_contacts::{KEYS as BODY_KEYS, KnownContacts},
+    wire_contacts::{KEYS as WIRE_KEYS, WireContact, WireContacts},
+};
 
 use crate::wire::clock::Clock;
 use crate::wire::contact::ContactConstraint;
@@ -85,8 +92,21 @@ impl World {
     ///
     /// As [`step`](Self::step), and [`CollisionError`](crate::wire::CollisionError) in
     /// [`Reason::Collision`](crate::wire::Reason::Collision): in guard mode, if midlines touch
-    /// before the step. The world is as before.
+    /// before the step. The world and what `collisions` know of it are as before.
     pub fn step_colliding(
+        &mut self,
+        collisions: &mut Collisions<'_>,
+        given: &[ContactConstraint],
+    ) -> Result<StepRecord, StepError> {
+        let memory = collisions.memory();
+        let record = self.step_guarded_against(collisions, given);
+        if record.is_err() {
+            collisions.remember(memory);
+        }
+        record
+    }
+
+    fn step_guarded_against(
         &mut self,
         collisions: &mut Collisions<'_>,
         given: &[ContactConstraint],

@@ -18,28 +18,29 @@ use crate::wire::site::{SegmentId, WireSite};
 use crate::wire::world::World;
 
 /// Where the keys of contacts between wires start.
-const KEYS: u64 = 1 << 63;
+pub(in crate::wire) const KEYS: u64 = 1 << 63;
 
 /// One contact.
 #[derive(Clone, Debug)]
-pub(super) struct WireContact {
-    pub(super) key: u64,
-    pub(super) sites: [WireSite; 2],
+pub(in crate::wire) struct WireContact {
+    pub(in crate::wire) key: u64,
+    pub(in crate::wire) sites: [WireSite; 2],
     /// The wires are on each other's wrong side.
-    pub(super) wrong: bool,
+    pub(in crate::wire) wrong: bool,
     /// The last normal, from B to A.
-    pub(super) normal: Vector,
+    pub(in crate::wire) normal: Vector,
     /// Distance of the surfaces along the normal where the step started, in m.
-    gap: f64,
+    pub(in crate::wire) gap: f64,
     /// It pushed in the last step.
-    pushing: bool,
+    pub(in crate::wire) pushing: bool,
 }
 
 /// All contacts, oldest first.
 #[derive(Clone, Debug, Default)]
-pub(super) struct WireContacts {
-    list: Vec<WireContact>,
-    made: u64,
+pub(in crate::wire) struct WireContacts {
+    pub(in crate::wire) list: Vec<WireContact>,
+    /// Keys given so far.
+    pub(in crate::wire) made: u64,
 }
 
 type PairSet = BTreeSet<[SegmentId; 2]>;

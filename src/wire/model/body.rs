@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, UnitQuaternion};
 
-use super::check::{finite, finite_point, finite_vector};
+use super::check::{finite, finite_point, finite_vector, positive, positive_definite, unit, zero};
+use super::shape::PLANE_IS_MASSLESS;
 use super::{ModelError, Shape};
 use crate::query::Point;
 use crate::wire::Vector;
@@ -11,6 +12,15 @@ use crate::wire::Vector;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BodyId(pub usize);
+
+impl BodyId {
+    /// The body of this number.
+    pub(in crate::wire) fn of(self, bodies: &[Body]) -> Result<&Body, ModelError> {
+        let (index, count) = (self.0, bodies.len());
+        let missing = ModelError::Body { index, count };
+        bodies.get(index).ok_or(missing)
+    }
+}
 
 /// What moves a body.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,20 +89,6 @@ impl BodyPlan {
     }
 
     pub(in crate::wire) fn build(self) -> Result<Body, ModelError> {
-        finite_point("position", &self.position)?;
-        for &component in self.orientation.coords.iter() {
-            finite("orientation", component)?;
-        }
-        let length = self.orientation.norm();
-        if (length - 1.0).abs() > 1e-9 {
-            let accepted = "1 within 1e-9";
-            return Err(ModelError::value(
-                "length of the orientation",
-                length,
-                accepted,
-            ));
-        }
-        self.shape.check()?;
         let mut body = Body {
             shape: self.shape,
             dynamic: false,
@@ -106,23 +102,19 @@ impl BodyPlan {
         };
         match self.drive {
             Drive::Static => {}
-            Drive::Kinematic(phases) => {
-                check_phases(&phases)?;
-                body.phases = phases;
-            }
+            Drive::Kinematic(phases) => body.phases = phases,
             Drive::Dynamic {
                 density,
                 velocity,
                 angular_velocity,
             } => {
-                finite_vector("velocity", &velocity)?;
-                finite_vector("angular_velocity", &angular_velocity)?;
                 let properties = body.shape.mass_properties(density)?;
                 body.dynamic = true;
                 (body.mass, body.inertia) = (properties.mass, properties.inertia);
                 (body.velocity, body.angular_velocity) = (velocity, angular_velocity);
             }
         }
+        body.check()?;
         Ok(body)
     }
 }
@@ -154,6 +146,30 @@ pub struct Body {
 }
 
 impl Body {
+    pub(in crate::wire) fn check(&self) -> Result<(), ModelError> {
+        finite_point("position", &self.position)?;
+        for &component in self.orientation.coords.iter() {
+            finite("orientation", component)?;
+        }
+        unit("length of the orientation", self.orientation.norm())?;
+        finite_vector("velocity", &self.velocity)?;
+        finite_vector("angular_velocity", &self.angular_velocity)?;
+        self.shape.check()?;
+        check_phases(&self.phases)?;
+        if self.dynamic {
+            if self.shape == Shape::Plane {
+                return Err(PLANE_IS_MASSLESS);
+            }
+            positive("mass", self.mass)?;
+            positive_definite("inertia", &self.inertia)
+        } else {
+            zero("mass", self.mass)?;
+            self.inertia
+                .iter()
+                .try_for_each(|&moment| zero("inertia", moment))
+        }
+    }
+
     /// The shape.
     pub fn shape(&self) -> &Shape {
         &self.shape
@@ -162,6 +178,11 @@ impl Body {
     /// Whether forces move it.
     pub fn is_dynamic(&self) -> bool {
         self.dynamic
+    }
+
+    /// Its prescribed velocities, in order of time; none unless it is kinematic.
+    pub fn phases(&self) -> &[Phase] {
+        &self.phases
     }
 
     /// Mass in kg; 0 unless it is dynamic.

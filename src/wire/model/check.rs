@@ -21,6 +21,10 @@ pub(crate) fn share(field: &'static str, value: f64) -> Result<(), ModelError> {
     accept((0.0..1.0).contains(&value), field, value, accepted)
 }
 
+pub(crate) fn zero(field: &'static str, value: f64) -> Result<(), ModelError> {
+    accept(value == 0.0, field, value, "0")
+}
+
 pub(crate) fn finite(field: &'static str, value: f64) -> Result<(), ModelError> {
     accept(value.is_finite(), field, value, "finite")
 }
@@ -33,6 +37,11 @@ pub(crate) fn finite_point(field: &'static str, point: &Point) -> Result<(), Mod
     finite_vector(field, &point.coords)
 }
 
+/// A length that is 1, to what sloppy normalisation leaves.
+pub(crate) fn unit(field: &'static str, length: f64) -> Result<(), ModelError> {
+    accept((length - 1.0).abs() <= 1e-9, field, length, "1 within 1e-9")
+}
+
 /// A vector of any length above 0, made a unit vector.
 pub(crate) fn direction(field: &'static str, vector: &Vector) -> Result<Vector, ModelError> {
     finite_vector(field, vector)?;
@@ -41,11 +50,15 @@ pub(crate) fn direction(field: &'static str, vector: &Vector) -> Result<Vector, 
     Ok(vector / length)
 }
 
-/// A symmetric matrix is positive definite (Sylvester: its leading minors are above 0).
+/// A matrix is symmetric and positive definite (Sylvester: its leading minors are above 0).
 pub(super) fn positive_definite(
     field: &'static str,
     matrix: &Matrix3<f64>,
 ) -> Result<(), ModelError> {
+    for (row, column) in [(0, 1), (0, 2), (1, 2)] {
+        let [value, across] = [matrix[(row, column)], matrix[(column, row)]];
+        accept(value == across, field, value, "symmetric")?;
+    }
     let second = matrix[(0, 0)] * matrix[(1, 1)] - matrix[(0, 1)] * matrix[(1, 0)];
     [matrix[(0, 0)], second, matrix.determinant()]
         .into_iter()

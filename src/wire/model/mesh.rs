@@ -103,11 +103,27 @@ impl Mesh {
 
 /// A mesh as it is stored: vertices are around the centre of mass already, to the bit.
 #[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-struct Parts {
+#[derive(serde::Serialize, serde::Deserialize)]
+pub(in crate::wire) struct Parts {
     vertices: Vec<Point>,
     triangles: Vec<[usize; 3]>,
     centre: Point,
+}
+
+#[cfg(feature = "serde")]
+impl From<&Mesh> for Parts {
+    fn from(mesh: &Mesh) -> Self {
+        let Mesh {
+            vertices,
+            triangles,
+            centre,
+        } = mesh.clone();
+        Parts {
+            vertices,
+            triangles,
+            centre,
+        }
+    }
 }
 
 #[cfg(feature = "serde")]

@@ -14,6 +14,8 @@ pub use body::{Body, BodyId, BodyPlan, Drive, Phase};
 pub use error::ModelError;
 pub use material::Material;
 pub use mesh::Mesh;
+#[cfg(feature = "recording")]
+pub(in crate::wire) use mesh::Parts as MeshParts;
 #[cfg(test)]
 pub(in crate::wire) use mesh::tests::box_mesh;
 pub use plan::{Stop, WirePlan};

@@ -8,10 +8,6 @@ use crate::wire::Vector;
 
 use super::body::Body;
 
-/// The most segments that a wire starts with, so that a slip in its resolution does not take all
-/// memory.
-const MOST_SEGMENTS: f64 = 1e6;
-
 /// A point a wire's route passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stop {
@@ -78,8 +74,6 @@ impl WirePlan {
     }
 
     pub(in crate::wire) fn build(&self, bodies: &[Body]) -> Result<Wire, ModelError> {
-        self.material.check()?;
-        positive("resolution", self.resolution.length)?;
         finite_vector("velocity", &self.velocity)?;
         let stops = self
             .route
@@ -89,12 +83,14 @@ impl WirePlan {
         let stretch = self.stretch(&stops)?;
         let nodes = self.resolve(&stops, stretch);
         let segments = vec![Segment::NEW; nodes.len() - 1];
-        Ok(Wire {
+        let wire = Wire {
             material: self.material,
             resolution: self.resolution,
             nodes,
             segments,
-        })
+        };
+        wire.check(bodies).map_err(|(_, error)| error)?;
+        Ok(wire)
     }
 
     /// Unstretched length per length of the route.
@@ -118,11 +114,7 @@ impl WirePlan {
         positive("length of the route", path)?;
         let length = self.length.unwrap_or(path);
         positive("length", length)?;
-        if length > self.resolution.length * MOST_SEGMENTS {
-            let accepted = "at least a millionth of the wire's length";
-            let value = self.resolution.length;
-            return Err(ModelError::value("resolution", value, accepted));
-        }
+        self.resolution.check(length)?;
         Ok(length / path)
     }
 
@@ -164,10 +156,7 @@ impl Stop {
     fn node(&self, bodies: &[Body], velocity: &Vector) -> Result<Node, ModelError> {
         let on_body = |id: BodyId, local: &Vector, kind: NodeKind| {
             finite_vector("local", local)?;
-            let body = bodies.get(id.0).ok_or(ModelError::Body {
-                index: id.0,
-                count: bodies.len(),
-            })?;
+            let body = id.of(bodies)?;
             let velocity = body.velocity_at(local);
             let node = free(body.point(local), velocity);
             Ok(Node { kind, ..node })

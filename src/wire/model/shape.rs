@@ -42,6 +42,8 @@ pub enum Shape {
     Mesh(Mesh),
 }
 
+pub(super) const PLANE_IS_MASSLESS: ModelError = ModelError::Massless { shape: "plane" };
+
 /// Mass and inertia of a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassProperties {
@@ -71,7 +73,7 @@ impl Shape {
                 radius,
                 half_height,
             } => capsule(*radius, *half_height, density),
-            Shape::Plane => return Err(ModelError::Massless { shape: "plane" }),
+            Shape::Plane => return Err(PLANE_IS_MASSLESS),
             Shape::Mesh(mesh) => mesh.mass_properties(density),
         };
         positive("mass", properties.mass)?;

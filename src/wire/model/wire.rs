@@ -1,6 +1,8 @@
 //! Wires: nodes along a material, and the segments between them.
 
-use super::{BodyId, Material};
+use super::body::Body;
+use super::check::{finite, finite_point, finite_vector, not_negative, positive, zero};
+use super::{BodyId, Material, ModelError};
 use crate::query::Point;
 use crate::wire::Vector;
 
@@ -132,7 +134,112 @@ pub struct Wire {
     pub(in crate::wire) segments: Vec<Segment>,
 }
 
+/// The most segments that a resolution may ask for, so that a slip does not take all memory.
+const MOST_SEGMENTS: f64 = 1e6;
+
+impl Resolution {
+    /// Of a wire so long in m.
+    pub(in crate::wire) fn check(&self, length: f64) -> Result<(), ModelError> {
+        positive("resolution", self.length)?;
+        if length > self.length * MOST_SEGMENTS {
+            let accepted = "at least a millionth of the wire's length";
+            return Err(ModelError::value("resolution", self.length, accepted));
+        }
+        Ok(())
+    }
+}
+
+impl Node {
+    fn check(&self, bodies: &[Body]) -> Result<(), ModelError> {
+        finite_point("position", &self.position)?;
+        finite_vector("velocity", &self.velocity)?;
+        finite("arc", self.arc)?;
+        match self.kind {
+            NodeKind::Free | NodeKind::Pinned => zero("slide", self.slide),
+            NodeKind::Eye { body, local } => {
+                zero("slide", self.slide)?;
+                finite_vector("local", &local)?;
+                self.is_at(&body.of(bodies)?.point(&local), 0.0)
+            }
+            NodeKind::Contact {
+                body,
+                local,
+                normal,
+                friction,
+            } => {
+                finite("slide", self.slide)?;
+                finite_vector("local", &local)?;
+                finite_vector("normal", &normal)?;
+                positive("length of the normal", normal.norm())?;
+                not_negative("friction", friction)?;
+                // One that was attached just now is there to rounding, of an orientation whose
+                // length is 1 within 1e-9.
+                let size = local.amax() + self.position.coords.amax();
+                let at = body.of(bodies)?.point(&local);
+                self.is_at(&at, 1e-8 * size)
+            }
+        }
+    }
+
+    /// Whether it is where its body has it.
+    fn is_at(&self, point: &Point, within: f64) -> Result<(), ModelError> {
+        let apart = (self.position - point).amax();
+        if apart <= within {
+            return Ok(());
+        }
+        let accepted = "0, or rounding of a contact node's";
+        Err(ModelError::value(
+            "distance from its body's point",
+            apart,
+            accepted,
+        ))
+    }
+}
+
 impl Wire {
+    /// Whether it is a wire beside these bodies; what is wrong, and with which node.
+    pub(in crate::wire) fn check(
+        &self,
+        bodies: &[Body],
+    ) -> Result<(), (Option<usize>, ModelError)> {
+        let whole = |error| (None, error);
+        self.material.check().map_err(whole)?;
+        let count = self.nodes.len();
+        if count < 2 || self.segments.len() + 1 != count {
+            let accepted = "at least 2, and one more than segments";
+            let error = ModelError::value("number of nodes", count as f64, accepted);
+            return Err(whole(error));
+        }
+        for (at, node) in self.nodes.iter().enumerate() {
+            let wrong = |error| (Some(at), error);
+            node.check(bodies).map_err(wrong)?;
+            let is_end = at == 0 || at == count - 1;
+            if is_end && matches!(node.kind, NodeKind::Contact { .. }) {
+                return Err(wrong(ModelError::ContactAtEnd { stop: at }));
+            }
+            let ascends = match at {
+                0 => node.arc == 0.0,
+                _ => node.arc > self.nodes[at - 1].arc,
+            };
+            if !ascends {
+                let accepted = "0 at the first node, and above that of the node before elsewhere";
+                return Err(wrong(ModelError::value("arc", node.arc, accepted)));
+            }
+        }
+        for segment in &self.segments {
+            finite("tension", segment.tension).map_err(whole)?;
+            for &tension in &segment.tension_history {
+                finite("tension", tension).map_err(whole)?;
+            }
+        }
+        self.resolution.check(self.length()).map_err(whole)
+    }
+
+    /// Its unstretched length in m.
+    pub fn length(&self) -> f64 {
+        self.nodes.last().map_or(0.0, |last| last.arc)
+    }
+
     /// What it is made of.
     pub fn material(&self) -> &Material {
         &self.material

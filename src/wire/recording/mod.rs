@@ -35,14 +35,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod error;
-mod frame;
 mod header;
 mod layout;
 mod reader;
 mod writer;
 
-pub use error::{Fault, ReadError, WriteError};
+pub use super::file::{Fault, ReadError, WriteError};
 pub use header::{BodySummary, Header, WireSummary};
 pub use layout::{MOST_BYTES, VERSION};
 pub use reader::Recording;

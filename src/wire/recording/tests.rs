@@ -2,10 +2,11 @@ use nalgebra::UnitQuaternion;
 use proptest::prelude::*;
 use ruzstd::encoding::{CompressionLevel, compress_to_vec};
 
-use super::frame::LABEL;
-use super::frame::pack;
+use super::layout::FORMAT;
 use super::*;
 use crate::query::Point;
+use crate::wire::file::LABEL;
+use crate::wire::file::testing::{edited, edits, forged, labelled};
 use crate::wire::{
     BodyId, BodyPlan, ContactConstraint, ContactSite, Material, Mesh, Settings, Shape, StepRecord,
     Stop, Vector, WirePlan, World,
@@ -103,21 +104,6 @@ fn bits(record: &StepRecord) -> Vec<u8> {
     postcard::to_stdvec(record).unwrap()
 }
 
-/// Label and packed bytes, with the length and the checksum that they should have.
-fn forged(plain: &[u8]) -> Vec<u8> {
-    let packed = compress_to_vec(plain, CompressionLevel::Fastest);
-    labelled(&packed, plain.len() as u32, crc32fast::hash(plain))
-}
-
-fn labelled(packed: &[u8], length: u32, checksum: u32) -> Vec<u8> {
-    let mut bytes = b"\x5d\x2a\x4d\x18\x0c\0\0\0".to_vec();
-    for number in [packed.len() as u32, length, checksum] {
-        bytes.extend(number.to_le_bytes());
-    }
-    bytes.extend(packed);
-    bytes
-}
-
 #[test]
 fn recording_reads_back_bit_for_bit() {
     let (file, world, records) = recorded(60);
@@ -157,7 +143,7 @@ fn recording_keeps_the_bits_of_what_is_no_number() {
     };
     record.wires.resize_with(1, Default::default);
     record.wires[0].tensions = odd.to_vec();
-    file.extend(pack(&record).unwrap());
+    file.extend(FORMAT.pack(&record).unwrap());
     let (steps, end) = read_all(&file);
     assert_eq!(end, None);
     let read = steps[0].wires[0].tensions.iter().map(|t| t.to_bits());
@@ -246,7 +232,11 @@ fn recording_names_what_is_wrong_and_where() {
         error.fault
     };
     assert_eq!(fault(b"twenty bytes of text".to_vec()), Fault::Label);
-    assert_eq!(fault(labelled(b"", u32::MAX, 0)), Fault::TooLong(u32::MAX));
+    let too_long = Fault::TooLong {
+        length: u32::MAX,
+        most_bytes: MOST_BYTES,
+    };
+    assert_eq!(fault(labelled(b"", u32::MAX, 0)), too_long);
     assert!(matches!(
         fault(labelled(b"no zstd frame", 3, 0)),
         Fault::Packing(_)
@@ -270,12 +260,15 @@ fn recording_names_what_is_wrong_and_where() {
         Fault::Content("1 bytes are left".into())
     );
     let text = with(b"twenty bytes of text".to_vec()).to_string();
-    assert_eq!(text, format!("byte {end}: no step starts here"));
+    assert_eq!(text, format!("byte {end}: no part of the file starts here"));
 
     let mut other = file.clone();
     other[16] = 1;
-    assert_eq!(read_all(&other).1.unwrap().fault, Fault::Version(1));
-    assert_eq!(read_all(b"something else").1.unwrap().fault, Fault::Opening);
+    let (found, known) = (1, VERSION);
+    let version = Fault::Version { found, known };
+    assert_eq!(read_all(&other).1.unwrap().fault, version);
+    let opening = Fault::Opening("recording of steps");
+    assert_eq!(read_all(b"something else").1.unwrap().fault, opening);
 }
 
 #[test]
@@ -317,25 +310,6 @@ fn recording_takes_no_memory_for_what_is_not_there() {
         let memory = allocation_counter::measure(|| assert!(read_all(&bad).1.is_some()));
         assert!(memory.bytes_max < 8 << 20, "{} bytes", memory.bytes_max);
     }
-}
-
-/// Changes to a file: at a place, so many bytes are replaced by others.
-fn edits() -> impl Strategy<Value = Vec<(usize, usize, Vec<u8>)>> {
-    let edit = (
-        any::<usize>(),
-        0..40_usize,
-        prop::collection::vec(any::<u8>(), 0..40),
-    );
-    prop::collection::vec(edit, 1..4)
-}
-
-fn edited(mut bytes: Vec<u8>, edits: Vec<(usize, usize, Vec<u8>)>) -> Vec<u8> {
-    for (at, count, new) in edits {
-        let at = at % (bytes.len() + 1);
-        let end = bytes.len().min(at + count);
-        bytes.splice(at..end, new);
-    }
-    bytes
 }
 
 proptest! {

@@ -2,15 +2,10 @@
 
 use std::io::Write;
 
-use super::error::WriteError;
-use super::frame::{LABEL, pack};
 use super::header::Header;
-use super::layout::VERSION;
+use super::layout::FORMAT;
+use crate::wire::file::WriteError;
 use crate::wire::{StepRecord, World};
-
-/// How a recording starts: the magic number of a skippable zstd frame, the length of the rest, a
-/// name.
-pub(super) const OPENING: [u8; 16] = *b"\x5e\x2a\x4d\x18\x0c\0\0\0tpsteps\0";
 
 /// Writes steps to a file, each by one call of `write_all`. A sink that keeps bytes back (a
 /// `BufWriter`) loses them in a crash; a plain file does not.
@@ -28,10 +23,8 @@ impl<W: Write> Recorder<W> {
     /// [`MOST_BYTES`](super::MOST_BYTES).
     pub fn new(sink: W, world: &World) -> Result<Self, WriteError> {
         let mut recorder = Recorder { sink };
-        let mut bytes = Vec::with_capacity(LABEL);
-        bytes.extend(OPENING);
-        bytes.extend(VERSION.to_le_bytes());
-        bytes.extend(pack(&Header::from(world))?);
+        let mut bytes = FORMAT.opening();
+        bytes.extend(FORMAT.pack(&Header::from(world))?);
         recorder.write(&bytes)?;
         Ok(recorder)
     }
@@ -42,7 +35,7 @@ impl<W: Write> Recorder<W> {
     ///
     /// The sink fails, or the step needs more than [`MOST_BYTES`](super::MOST_BYTES).
     pub fn record(&mut self, step: &StepRecord) -> Result<(), WriteError> {
-        let bytes = pack(step)?;
+        let bytes = FORMAT.pack(step)?;
         self.write(&bytes)
     }
 

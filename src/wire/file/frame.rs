@@ -1,4 +1,4 @@
-//! One header or step as bytes: a label and a zstd frame.
+//! One part as bytes: a label and a zstd frame.
 
 use std::io::Read;
 
@@ -8,13 +8,12 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::error::{Fault, WriteError};
-use super::layout::MOST_BYTES;
 
 /// The largest window of a zstd frame that is read; those that are written have 128 KiB.
 const LARGEST_WINDOW: u64 = 1 << 20;
 
 /// Length of a label and of the opening of a file.
-pub(super) const LABEL: usize = 20;
+pub(in crate::wire) const LABEL: usize = 20;
 
 /// How a label starts: the magic number of a skippable zstd frame, and the length of the rest.
 const START: [u8; 8] = [0x5d, 0x2a, 0x4d, 0x18, 12, 0, 0, 0];
@@ -31,7 +30,8 @@ pub(super) struct Label {
 }
 
 impl Label {
-    pub(super) fn read(bytes: &[u8; LABEL]) -> Result<Self, Fault> {
+    /// Refuses what has more bytes than a part may.
+    pub(super) fn read(bytes: &[u8; LABEL], most_bytes: u32) -> Result<Self, Fault> {
         if bytes[..START.len()] != START {
             return Err(Fault::Label);
         }
@@ -45,7 +45,7 @@ impl Label {
             checksum: number(16),
         };
         match label.packed.max(label.length) {
-            most if most > MOST_BYTES => Err(Fault::TooLong(most)),
+            length if length > most_bytes => Err(Fault::TooLong { length, most_bytes }),
             _ => Ok(label),
         }
     }
@@ -58,16 +58,16 @@ impl Label {
     }
 }
 
-/// Label and zstd frame of a header or step.
-pub(super) fn pack(content: &impl Serialize) -> Result<Vec<u8>, WriteError> {
-    let too_long = |length: usize| WriteError::TooLong(length);
-    // Postcard fails on sequences of unknown length only, which no record has.
+/// Label and zstd frame of a part.
+pub(super) fn pack(content: &impl Serialize, most_bytes: u32) -> Result<Vec<u8>, WriteError> {
+    let too_long = |length: usize| WriteError::TooLong { length, most_bytes };
+    // Postcard fails on sequences of unknown length only, which no part has.
     let plain = postcard::to_stdvec(content)
         .map_err(|error| WriteError::Io(std::io::Error::other(error)))?;
     let packed = compress_to_vec(plain.as_slice(), CompressionLevel::Fastest);
     let within = |length: usize| {
         let length = u32::try_from(length).ok();
-        length.filter(|length| *length <= MOST_BYTES)
+        length.filter(|length| *length <= most_bytes)
     };
     let label = Label {
         packed: within(packed.len()).ok_or(too_long(packed.len()))?,
@@ -80,7 +80,7 @@ pub(super) fn pack(content: &impl Serialize) -> Result<Vec<u8>, WriteError> {
     Ok(bytes)
 }
 
-/// The header or step of a zstd frame.
+/// The part in a zstd frame.
 pub(super) fn unpack<T: DeserializeOwned>(label: &Label, packed: &[u8]) -> Result<T, Fault> {
     let plain = plain_bytes(label.length, packed)?;
     let found = crc32fast::hash(&plain);

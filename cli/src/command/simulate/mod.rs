@@ -1,23 +1,29 @@
 //! `simulate`: a scene from start to end, recorded and audited.
 
-use std::fs::{self, File};
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::atomic::AtomicBool;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
-use tunnelproof::wire::recording::{Header, Recorder};
-use tunnelproof::wire::{self, StepRecord, World};
+use tunnelproof::wire;
 use tunnelproof_cli::audit::{self, Audit};
-use tunnelproof_cli::perturb;
 use tunnelproof_cli::replay::{self, Drawing, Replay};
 use tunnelproof_cli::report;
-use tunnelproof_cli::scenes::{EMBEDDED, Scene};
-use tunnelproof_cli::simulate::{Narrow, Run, Summary};
+use tunnelproof_cli::scenes::{Difference, Scene};
+use tunnelproof_cli::simulate::{Narrow, Summary};
 
+mod plan;
+mod saving;
+mod watch;
+
+use self::plan::Plan;
+use self::saving::Saving;
+use self::watch::Watch;
+use super::keeping::{interrupted, interruption};
 use super::output::{JsonOutput, OutputFile, print, shell, unwritable};
-use super::polygons::Polygons;
 use super::{Failure, progress};
 
 /// Run a scene, and check every step of it for missed tunnels
@@ -29,10 +35,13 @@ Examples:
   tunnelproof simulate twisting-under-load --audit --replay run.html
   tunnelproof simulate basic-collision --beside discrete --replay both.html --frames pictures
   tunnelproof simulate my-scene.toml --step 0.01 --duration 2 --json -
+  tunnelproof simulate my-scene.toml --duration 3600 --save hour.tpstate --save-every 1000
+  tunnelproof simulate my-scene.toml --duration 3600 --from hour.tpstate
   tunnelproof simulate --schema > scene.schema.json
 
 Scenes of the thesis (4.2): basic-collision, pulling-anchor, twisting-under-load, chains-on-deck. Exit code 1 if
-a step cannot be done, or the audit finds that something passed unnoticed, or stands or may stand on the wrong side.")]
+a step cannot be done, or the audit finds that something passed unnoticed, or stands or may stand on the wrong side;
+130 if Ctrl-C ended a run that is saved.")]
 pub(super) struct Simulate {
     /// The name of a scene of the thesis, or the path of a scene file
     #[arg(required_unless_present = "schema")]
@@ -40,24 +49,32 @@ pub(super) struct Simulate {
     /// Print the JSON schema of scene files, and do no more
     #[arg(long)]
     schema: bool,
-    /// How pairs of segments are tested
-    #[arg(long, default_value = "certified", value_parser = narrow())]
-    narrow: Narrow,
-    /// What becomes of a crossing: prevented, or pushed back in the next steps
-    #[arg(long, value_enum, default_value = "guard")]
-    mode: Mode,
+    /// How pairs of segments are tested: certified if left out, or as until the state of --from
+    #[arg(long, value_parser = narrow())]
+    narrow: Option<Narrow>,
+    /// What becomes of a crossing: prevented, or pushed back in the next steps; guard if left out, or
+    /// as until the state of --from
+    #[arg(long, value_enum)]
+    mode: Option<Mode>,
     /// The time step in s, in place of the scene's
     #[arg(long, value_name = "S")]
     step: Option<f64>,
     /// The share of the thickness of wires that guard mode keeps, in place of the scene's
     #[arg(long, value_name = "SHARE")]
     guarded_thickness: Option<f64>,
-    /// The duration in s, in place of the scene's
+    /// The duration in s, in place of the scene's; with --from too it counts from the start of the
+    /// scene
     #[arg(long, value_name = "S")]
     duration: Option<f64>,
     /// Start elsewhere: every body and point moved along each axis by up to a millimetre, at random
     #[arg(long, value_name = "SEED")]
     perturb: Option<u64>,
+    /// Go on from a state that --save has written, of the same scene. All is set as the scene and the
+    /// options say; what was set otherwise until then is told
+    #[arg(long, value_name = "FILE")]
+    from: Option<PathBuf>,
+    #[command(flatten)]
+    saving: Saving,
     /// Write every step to this file, for `audit`
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
@@ -96,6 +113,9 @@ struct Document<'a> {
     narrow: &'static str,
     /// `guard` or `thesis`.
     mode: &'static str,
+    /// What is set otherwise than it was until the state that the run goes on from.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    differences: &'a Vec<Difference>,
     /// What happened.
     summary: &'a Summary,
     /// What the audit came to.
@@ -108,30 +128,35 @@ impl Simulate {
             print(&format!("{:#}\n", Scene::schema()))?;
             return Ok(ExitCode::SUCCESS);
         }
-        let scene = self.scene()?;
-        let world = scene.world().map_err(|error| self.wrong(error))?;
+        let plan = self.plan()?;
         let json = JsonOutput::create(self.json.as_deref())?;
         let page = self.replay.as_deref().map(OutputFile::create).transpose()?;
-        let narrow = self.narrow.phase();
-        let mut watch = Watch::new(&self, &scene, &world)?;
-        let run = Run {
-            scene: &scene,
-            narrow: &*narrow,
-            mode: self.mode.into(),
+        self.saving.check()?;
+        let unstopped = AtomicBool::new(false);
+        let stop = match self.saving.is_asked() {
+            true => interruption()?,
+            false => &unstopped,
         };
-        let summary = progress::working(scene.steps() as usize, "steps", |done| {
-            run.go(|_, record| {
+        let narrow = plan.narrow.phase();
+        let mut watch = Watch::new(&self, &plan)?;
+        let run = plan.run(&*narrow);
+        let (summary, state) = progress::working(plan.steps() as usize, "steps", |done| {
+            run.go_from(&plan.start, stop, |world, collisions, record| {
                 done(1);
-                watch.step(record)
+                watch.step(record)?;
+                self.saving.step(world, collisions, plan.narrow)
             })
         })?;
+        let steps = state.world.steps();
+        self.saving.end(state, plan.narrow)?;
+        let is_stopped = summary.steps < plan.steps() && summary.stopped.is_none();
         if let Some(polygons) = &watch.vtk {
             polygons.finish()?;
         }
         let audit = watch.audit.map(Audit::finish);
         if let Some(replay) = watch.replay {
-            let replay = replay.ended(&world, &summary);
-            let runs = self.shown(replay, audit.as_ref(), &scene)?;
+            let replay = replay.ended(&plan.start.world, &summary);
+            let runs = self.shown(replay, audit.as_ref(), &plan)?;
             if let Some(page) = page {
                 page.write(&replay::page(&runs).map_err(super::audit::no_json)?)?;
             }
@@ -140,8 +165,9 @@ impl Simulate {
             }
         }
         let document = Document {
-            narrow: self.narrow.name(),
-            mode: self.mode.name(),
+            narrow: plan.narrow.name(),
+            mode: plan.mode.name(),
+            differences: &plan.differences,
             summary: &summary,
             audit: audit.as_ref(),
         };
@@ -151,6 +177,10 @@ impl Simulate {
             || super::audit::as_json(&document),
             || format!("{summary}{}", audited()),
         )?;
+        if is_stopped {
+            eprintln!("interrupted after {steps} steps; --from goes on");
+            return Ok(interrupted());
+        }
         let clean = audit.is_none_or(|audit| audit.is_clean());
         Ok(match clean && summary.stopped.is_none() {
             true => ExitCode::SUCCESS,
@@ -163,28 +193,26 @@ impl Simulate {
         &self,
         replay: Replay,
         audit: Option<&audit::Report>,
-        scene: &Scene,
+        plan: &Plan,
     ) -> Result<Vec<Replay>, Failure> {
         let first = match audit {
             Some(report) => replay.audited(report),
             None => replay,
         };
-        let second = self.beside.map(|narrow| self.run_beside(narrow, scene));
+        let second = self.beside.map(|narrow| self.run_beside(narrow, plan));
         Ok(std::iter::once(first).chain(second.transpose()?).collect())
     }
 
-    /// The same scene with another narrow phase, audited if the first run is.
-    fn run_beside(&self, narrow: Narrow, scene: &Scene) -> Result<Replay, Failure> {
-        let world = scene.world().map_err(|error| self.wrong(error))?;
-        let mut replay = self.empty_replay(narrow, scene, &world);
-        let mut audit = self.audit.then(|| Audit::of_world(&world));
-        let run = Run {
-            scene,
-            narrow: &*narrow.phase(),
-            mode: self.mode.into(),
-        };
-        let summary = progress::working(scene.steps() as usize, "steps beside", |done| {
-            run.go(|_, record| {
+    /// The same with another narrow phase, audited if the first run is.
+    fn run_beside(&self, narrow: Narrow, plan: &Plan) -> Result<Replay, Failure> {
+        let world = &plan.start.world;
+        let mut replay = plan.empty_replay(narrow);
+        let mut audit = self.audit.then(|| Audit::of_world(world));
+        let phase = narrow.phase();
+        let unstopped = AtomicBool::new(false);
+        let run = plan.run(&*phase);
+        let (summary, _) = progress::working(plan.steps() as usize, "steps beside", |done| {
+            run.go_from(&plan.start, &unstopped, |_, _, record| {
                 done(1);
                 replay.step(record);
                 if let Some(audit) = &mut audit {
@@ -193,35 +221,11 @@ impl Simulate {
                 Ok::<(), Failure>(())
             })
         })?;
-        let replay = replay.ended(&world, &summary);
+        let replay = replay.ended(world, &summary);
         Ok(match audit.map(Audit::finish) {
             Some(report) => replay.audited(&report),
             None => replay,
         })
-    }
-
-    /// A run that is to come, called after how it is made.
-    fn empty_replay(&self, narrow: Narrow, scene: &Scene, world: &World) -> Replay {
-        let replay = Replay::new(&scene.title, Header::from(world), scene.steps());
-        let how = format!("{}, {} mode", narrow.name(), self.mode.name());
-        replay.named_as_in(scene).called(&how)
-    }
-
-    fn scene(&self) -> Result<Scene, Failure> {
-        let name = self.scene.as_deref().unwrap_or_default();
-        let mut scene = match EMBEDDED.iter().any(|(known, _)| *known == name) {
-            true => Scene::embedded(name),
-            false => Scene::from_toml(&read(name)?),
-        }
-        .map_err(|error| self.wrong(error))?;
-        if let Some(seed) = self.perturb {
-            scene = perturb::perturbed(&scene, seed, perturb::USUAL);
-        }
-        scene.settings.step = self.step.unwrap_or(scene.settings.step);
-        scene.duration = self.duration.unwrap_or(scene.duration);
-        let guarded = self.guarded_thickness;
-        scene.guarded_thickness = guarded.unwrap_or(scene.guarded_thickness);
-        Ok(scene)
     }
 
     fn wrong(&self, error: impl ToString) -> Failure {
@@ -229,60 +233,6 @@ impl Simulate {
             path: self.scene.clone().unwrap_or_default(),
             problem: error.to_string(),
         }
-    }
-}
-
-fn read(path: &str) -> Result<String, Failure> {
-    std::fs::read_to_string(path).map_err(|error| {
-        let names = EMBEDDED.map(|(name, _)| name).join(", ");
-        let problem = format!("{error} (and it is none of the scenes {names})");
-        let path = path.to_owned();
-        Failure::File { path, problem }
-    })
-}
-
-/// Who looks at every step.
-struct Watch<'a> {
-    recorder: Option<(Recorder<File>, &'a Path)>,
-    audit: Option<Audit>,
-    replay: Option<Replay>,
-    vtk: Option<Polygons<'a>>,
-}
-
-impl<'a> Watch<'a> {
-    fn new(options: &'a Simulate, scene: &Scene, world: &World) -> Result<Self, Failure> {
-        let record = |path: &'a Path| -> Result<_, Failure> {
-            let file = File::create(path).map_err(|error| unwritable(path, error))?;
-            let recorder = Recorder::new(file, world).map_err(|error| refused(path, error))?;
-            Ok((recorder, path))
-        };
-        let is_shown = options.replay.is_some() || options.frames.is_some();
-        Ok(Watch {
-            vtk: (options.vtk.as_deref())
-                .map(|folder| Polygons::new(folder, world))
-                .transpose()?,
-            recorder: options.record.as_deref().map(record).transpose()?,
-            audit: options.audit.then(|| Audit::of_world(world)),
-            replay: is_shown.then(|| options.empty_replay(options.narrow, scene, world)),
-        })
-    }
-
-    fn step(&mut self, record: &StepRecord) -> Result<(), Failure> {
-        if let Some((recorder, path)) = &mut self.recorder {
-            recorder
-                .record(record)
-                .map_err(|error| refused(path, error))?;
-        }
-        if let Some(audit) = &mut self.audit {
-            audit.step(record);
-        }
-        if let Some(replay) = &mut self.replay {
-            replay.step(record);
-        }
-        if let Some(polygons) = &mut self.vtk {
-            polygons.step(record)?;
-        }
-        Ok(())
     }
 }
 
@@ -305,11 +255,8 @@ fn refused(path: &Path, error: impl ToString) -> Failure {
 }
 
 fn narrow() -> impl TypedValueParser<Value = Narrow> {
-    PossibleValuesParser::new(Narrow::ALL.map(Narrow::name)).try_map(|name| {
-        let mut all = Narrow::ALL.into_iter();
-        all.find(|narrow| narrow.name() == name)
-            .ok_or("unknown narrow phase")
-    })
+    let parser = PossibleValuesParser::new(Narrow::ALL.map(Narrow::name));
+    parser.try_map(|name| Narrow::by_name(&name).ok_or("unknown narrow phase"))
 }
 
 impl Mode {
@@ -317,6 +264,15 @@ impl Mode {
         match self {
             Mode::Guard => "guard",
             Mode::Thesis => "thesis",
+        }
+    }
+}
+
+impl From<wire::Mode> for Mode {
+    fn from(mode: wire::Mode) -> Self {
+        match mode {
+            wire::Mode::Guard => Mode::Guard,
+            wire::Mode::Thesis => Mode::Thesis,
         }
     }
 }

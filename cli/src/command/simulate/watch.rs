@@ -1,0 +1,61 @@
+//! Who looks at every step of `simulate`.
+
+use std::fs::File;
+use std::path::Path;
+
+use tunnelproof::wire::StepRecord;
+use tunnelproof::wire::recording::Recorder;
+use tunnelproof_cli::audit::Audit;
+use tunnelproof_cli::replay::Replay;
+
+use super::plan::Plan;
+use super::{Simulate, refused};
+use crate::command::Failure;
+use crate::command::output::unwritable;
+use crate::command::polygons::Polygons;
+
+/// Who looks at every step.
+pub(super) struct Watch<'a> {
+    recorder: Option<(Recorder<File>, &'a Path)>,
+    pub(super) audit: Option<Audit>,
+    pub(super) replay: Option<Replay>,
+    pub(super) vtk: Option<Polygons<'a>>,
+}
+
+impl<'a> Watch<'a> {
+    pub(super) fn new(options: &'a Simulate, plan: &Plan) -> Result<Self, Failure> {
+        let world = &plan.start.world;
+        let record = |path: &'a Path| -> Result<_, Failure> {
+            let file = File::create(path).map_err(|error| unwritable(path, error))?;
+            let recorder = Recorder::new(file, world).map_err(|error| refused(path, error))?;
+            Ok((recorder, path))
+        };
+        let is_shown = options.replay.is_some() || options.frames.is_some();
+        Ok(Watch {
+            vtk: (options.vtk.as_deref())
+                .map(|folder| Polygons::new(folder, world))
+                .transpose()?,
+            recorder: options.record.as_deref().map(record).transpose()?,
+            audit: options.audit.then(|| Audit::of_world(world)),
+            replay: is_shown.then(|| plan.empty_replay(plan.narrow)),
+        })
+    }
+
+    pub(super) fn step(&mut self, record: &StepRecord) -> Result<(), Failure> {
+        if let Some((recorder, path)) = &mut self.recorder {
+            recorder
+                .record(record)
+                .map_err(|error| refused(path, error))?;
+        }
+        if let Some(audit) = &mut self.audit {
+            audit.step(record);
+        }
+        if let Some(replay) = &mut self.replay {
+            replay.step(record);
+        }
+        if let Some(polygons) = &mut self.vtk {
+            polygons.step(record)?;
+        }
+        Ok(())
+    }
+}
