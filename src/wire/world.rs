@@ -138,11 +138,12 @@ impl World {
         Ok(())
     }
 
-    /// Takes all velocity from nodes and dynamic bodies, as one does again and again to find a
-    /// place of rest.
+    /// Takes all velocity from nodes and dynamic bodies, that of sliding too, as one does again and
+    /// again to find a place of rest.
     pub fn halt(&mut self) {
         for node in self.wires.iter_mut().flat_map(|wire| &mut wire.nodes) {
             node.velocity.fill(0.0);
+            node.slide = 0.0;
         }
         for body in self.bodies.iter_mut().filter(|body| body.dynamic) {
             body.velocity.fill(0.0);
