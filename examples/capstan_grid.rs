@@ -22,8 +22,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     ];
     let some = ways.iter().any(|(name, _)| names(name));
     let parts = PARTS.map(|part| format!(" {part} |"));
-    println!("| way | wire | resolution, m | adapts | step, s |{} bounds |", parts.concat());
-    println!("| --- | --- | --- | --- | --- |{} --- |", " --- |".repeat(PARTS.len()));
+    println!(
+        "| way | wire | resolution, m | adapts | step, s |{} bounds |",
+        parts.concat()
+    );
+    println!(
+        "| --- | --- | --- | --- | --- |{} --- |",
+        " --- |".repeat(PARTS.len())
+    );
     for (name, way) in ways.into_iter().filter(|(name, _)| !some || names(name)) {
         let mut rows = BTreeMap::new();
         for (column, part) in PARTS.into_iter().enumerate() {
@@ -34,7 +40,8 @@ fn main() -> Result<(), Box<dyn Error>> {
                     drum.adaptive,
                     (1.0 / drum.step).round() as usize,
                 );
-                let (counts, residual): &mut ([[usize; 2]; PARTS.len()], f64) = rows.entry(key).or_default();
+                let (counts, residual): &mut ([[usize; 2]; PARTS.len()], f64) =
+                    rows.entry(key).or_default();
                 counts[column][1] += 1;
                 let is_right = match drum.run() {
                     Ok(outcome) => {

@@ -10,8 +10,8 @@ use nalgebra::UnitQuaternion;
 
 use tunnelproof::query::Point;
 use tunnelproof::wire::{
-    BodyId, BodyPlan, Collisions, Material, NodeKind, Settings, Shape, StepError, Stop,
-    Vector, WirePlan, World,
+    BodyId, BodyPlan, Collisions, Material, NodeKind, Settings, Shape, StepError, Stop, Vector,
+    WirePlan, World,
 };
 
 /// How a wire gets around its drum.
@@ -90,7 +90,9 @@ struct Turn {
 
 impl Turn {
     fn angles(&self) -> impl Iterator<Item = f64> {
-        let Turn { from, turn, nodes, .. } = *self;
+        let Turn {
+            from, turn, nodes, ..
+        } = *self;
         let each = turn / nodes as f64;
         (0..nodes).map(move |i| from - (i as f64 + 0.5) * each)
     }
@@ -119,7 +121,12 @@ impl Turn {
             let normal = to_drum * direction(angle);
             let local = normal * self.radius;
             let friction = self.friction;
-            Stop::Contact { body, local, normal, friction }
+            Stop::Contact {
+                body,
+                local,
+                normal,
+                friction,
+            }
         };
         Ok(self.angles().map(stop).collect())
     }
@@ -168,7 +175,9 @@ impl Drum {
             // Segments that touch the drum.
             drum.radius = (self.radius + self.material.radius) / (drum.aside() / drum.radius);
             let angles = drum.angles();
-            stops = angles.map(|angle| Stop::Free(Point::from(direction(angle) * drum.radius))).collect();
+            stops = angles
+                .map(|angle| Stop::Free(Point::from(direction(angle) * drum.radius)))
+                .collect();
         }
         let long = 2.0 + 2.0 * self.radius;
         let left = Point::new(-drum.aside(), 0.0, -long);
@@ -214,7 +223,8 @@ impl Drum {
             b = b * each + mass * (1.0 + each) / 2.0;
         }
         let pulley = on.end..wire.nodes().len();
-        let on_pulley = pulley.filter(|&node| matches!(wire.nodes()[node].kind, NodeKind::Contact { .. }));
+        let on_pulley =
+            pulley.filter(|&node| matches!(wire.nodes()[node].kind, NodeKind::Contact { .. }));
         b += on_pulley.map(|node| wire.node_mass(node)).sum::<f64>();
         ((heavy * G - a) / (heavy + b)).max(0.0)
     }
@@ -222,7 +232,9 @@ impl Drum {
     fn on_drum(&self, world: &World) -> std::ops::Range<usize> {
         let near = |node: &tunnelproof::wire::Node| {
             let away = Vector::new(node.position.x, 0.0, node.position.z).norm();
-            away < (self.radius + 2.0 * self.material.radius) / libm::cos(self.turn() / self.nodes as f64 / 2.0) * 1.001
+            away < (self.radius + 2.0 * self.material.radius)
+                / libm::cos(self.turn() / self.nodes as f64 / 2.0)
+                * 1.001
         };
         let nodes = world.wires()[0].nodes();
         let first = nodes.iter().position(near).unwrap_or(0);
@@ -235,7 +247,12 @@ impl Drum {
         let wire = &world.wires()[0];
         let on = self.on_drum(world);
         let is_off = |&node: &usize| !matches!(wire.nodes()[node].kind, NodeKind::Contact { .. });
-        let mass = |nodes: std::ops::Range<usize>| nodes.filter(is_off).map(|node| wire.node_mass(node)).sum::<f64>();
+        let mass = |nodes: std::ops::Range<usize>| {
+            nodes
+                .filter(is_off)
+                .map(|node| wire.node_mass(node))
+                .sum::<f64>()
+        };
         let count = world.bodies().len();
         [
             world.bodies()[count - 2].mass() + mass(0..on.start),
@@ -273,7 +290,10 @@ impl Drum {
         let count = world.bodies().len();
         let loads = [count - 2, count - 1];
         // To rest, or as near to it as what slips comes.
-        let (rest, pause) = ((SETTLING / self.step) as usize, (PAUSE / self.step) as usize);
+        let (rest, pause) = (
+            (SETTLING / self.step) as usize,
+            (PAUSE / self.step) as usize,
+        );
         let (mut last, mut since) = (0.0, 0);
         for _ in 0..rest {
             step(&mut world)?;
