@@ -20,6 +20,5 @@ mod order;
 mod rows;
 mod solve_step;
 mod spin;
-mod stages;
 mod system;
 pub(super) mod transverse;
