@@ -72,10 +72,8 @@ impl RemeshGuard for Permit {
 pub(super) fn adapt(world: &mut World, guard: &mut dyn RemeshGuard) -> Vec<Remesh> {
     let mut changes = Vec::new();
     for wire in 0..world.wires.len() {
-        if world.wires[wire].resolution.adaptive {
-            merge(world, wire, guard, &mut changes);
-            split(world, wire, guard, &mut changes);
-        }
+        merge(world, wire, guard, &mut changes);
+        split(world, wire, guard, &mut changes);
     }
     changes
 }
@@ -84,6 +82,9 @@ pub(super) fn adapt(world: &mut World, guard: &mut dyn RemeshGuard) -> Vec<Remes
 /// first and the last remember, unless the wire has to bend there.
 fn wanted(world: &World, at: usize, [first, last]: [usize; 2], guard: &dyn RemeshGuard) -> f64 {
     let wire = &world.wires[at];
+    if !wire.resolution.adaptive {
+        return wire.resolution.length;
+    }
     let tension = [first, last].map(|segment| wire.segments[segment].largest_tension());
     let stable = world
         .settings
@@ -107,7 +108,8 @@ fn merge(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
         let length = wire.rest_length(node - 1).min(wire.rest_length(node));
         let wanted = wanted(world, at, [node - 1, node], guard);
         let short = length < wanted * (1.0 - ROUNDING);
-        let may_change = this.remesh_from <= world.steps || is_slid_over(wire, node);
+        let slid_over = is_slid_over(wire, node);
+        let may_change = slid_over || wire.resolution.adaptive && this.remesh_from <= world.steps;
         if this.kind == NodeKind::Free && may_change && short {
             let nodes = [node - 1, node, node + 1].map(|i| wire.nodes[i]);
             let change = remesh(at, RemeshKind::Merge, &nodes);
@@ -132,7 +134,8 @@ fn split(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
         let wire = &world.wires[at];
         let long = wanted(world, at, [segment; 2], guard) * world.settings.split_ratio;
         let ends = [wire.nodes[segment], wire.nodes[segment + 1]];
-        let may_change = ends.iter().all(|node| node.remesh_from <= world.steps);
+        let may_change = ends.iter().all(|node| node.remesh_from <= world.steps)
+            && (wire.resolution.adaptive || ends.iter().any(|node| node.slide != 0.0));
         if may_change && wire.rest_length(segment) > long {
             let until = world.steps + TENSION_HISTORY as u64;
             let middle = between(&ends, until);

@@ -15,7 +15,7 @@ pub(super) enum ConstitutiveLaw {
     TensionOnly,
     /// Friction against the speed of sliding.
     Friction {
-        /// The bound is this factor, `f tan(D/2)`, times the sum of two other multipliers; one that
+        /// The bound is this factor, `tanh(f D/2)`, times the sum of two other multipliers; one that
         /// pushes counts as 0.
         factor: f64,
         /// These two, by their unknowns.
