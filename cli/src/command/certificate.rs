@@ -54,13 +54,9 @@ impl Certificate {
     /// A file that cannot be written, or a badge for several subjects.
     pub(super) fn prepare(&self, panel: &Panel) -> Result<Prepared, Failure> {
         if self.badge.is_some() && panel.subjects.len() != 1 {
-            return Err(Failure::File {
-                path: "--badge".to_owned(),
-                problem: format!(
-                    "is about one subject, and {} are judged",
-                    panel.subjects.len()
-                ),
-            });
+            let count = panel.subjects.len();
+            let problem = format!("is about one subject, and {count} are judged");
+            return Err(Failure::file("--badge", problem));
         }
         let file = |path: &Option<PathBuf>| path.as_deref().map(OutputFile::create).transpose();
         Ok(Prepared {

@@ -72,10 +72,8 @@ impl MeshStep {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
         let motion = Motion::read(&self.start, &self.end)?;
         let outputs = self.outputs()?;
-        let (report, positions) = self.ask(&motion).map_err(|error| Failure::File {
-            path: self.start.clone(),
-            problem: error.to_string(),
-        })?;
+        let asked = self.ask(&motion);
+        let (report, positions) = asked.map_err(|error| Failure::file(&self.start, error))?;
         if let Some((format, file)) = outputs.safe {
             file.write_bytes(&format.write(&motion, &positions))?;
         }
@@ -99,10 +97,8 @@ impl MeshStep {
                 .is_some_and(|out| Path::new(out) == *json)
         };
         if let Some(path) = json.filter(same) {
-            return Err(Failure::File {
-                path: path.display().to_string(),
-                problem: "--json and --out name the same file".to_owned(),
-            });
+            let problem = "--json and --out name the same file";
+            return Err(Failure::file(path, problem));
         }
         Ok(Outputs {
             json: JsonOutput::create(json)?,

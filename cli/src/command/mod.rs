@@ -6,6 +6,7 @@
 
 use std::fmt;
 use std::io;
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -197,6 +198,14 @@ impl Cli {
 }
 
 impl Failure {
+    /// What is wrong with a file, or with an option.
+    fn file(path: impl AsRef<Path>, problem: impl ToString) -> Self {
+        Failure::File {
+            path: path.as_ref().display().to_string(),
+            problem: problem.to_string(),
+        }
+    }
+
     fn merge(path: &str, error: MergeError) -> Self {
         let path = path.to_owned();
         Failure::Merge { path, error }
@@ -259,10 +268,7 @@ impl From<CorpusError> for Failure {
 
 impl From<SceneError> for Failure {
     fn from(error: SceneError) -> Self {
-        Failure::File {
-            path: "scene".to_owned(),
-            problem: error.to_string(),
-        }
+        Failure::file("scene", error)
     }
 }
 

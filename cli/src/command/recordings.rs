@@ -91,13 +91,9 @@ impl<'a> Recordings<'a> {
 
 impl<'a> One<'a> {
     fn open(path: &'a Path) -> Result<Self, Failure> {
-        let wrong = |problem: String| Failure::File {
-            path: path.display().to_string(),
-            problem,
-        };
-        let file = File::open(path).map_err(|error| wrong(error.to_string()))?;
+        let file = File::open(path).map_err(|error| Failure::file(path, error))?;
         let recording = Recording::open(BufReader::new(file));
-        let recording = recording.map_err(|error| wrong(error.to_string()))?;
+        let recording = recording.map_err(|error| Failure::file(path, error))?;
         Ok(One {
             path,
             header: recording.header().clone(),
@@ -111,10 +107,7 @@ impl<'a> One<'a> {
     }
 
     fn wrong(&self, error: impl ToString) -> Failure {
-        Failure::File {
-            path: self.path.display().to_string(),
-            problem: error.to_string(),
-        }
+        Failure::file(self.path, error)
     }
 }
 

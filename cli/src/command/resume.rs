@@ -39,10 +39,8 @@ impl<'a> Resumed<'a> {
     ) -> Result<Self, Failure> {
         let whole = json.filter(|_| resume);
         if whole.is_some_and(is_standard_output) {
-            return Err(Failure::File {
-                path: "--resume".to_owned(),
-                problem: "needs a file of --json, not the standard output".to_owned(),
-            });
+            let problem = "needs a file of --json, not the standard output";
+            return Err(Failure::file("--resume", problem));
         }
         let paths = whole.map(|whole| {
             let mut part = whole.as_os_str().to_owned();

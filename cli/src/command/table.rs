@@ -103,8 +103,5 @@ impl Table {
 
 /// An option that does not go with the table.
 fn refused(option: &str, problem: &str) -> Failure {
-    Failure::File {
-        path: option.to_owned(),
-        problem: problem.to_owned(),
-    }
+    Failure::file(option, problem)
 }

@@ -119,7 +119,7 @@ fn of_settings(was: &Settings, is: &Settings) -> Vec<Difference> {
         .collect()
 }
 
-/// That a state has something else than the scene at a path.
+/// Refuses a state that has something else than the scene at a path.
 fn otherwise(same: bool, path: &[&dyn Display], has: impl Display) -> Result<(), SceneError> {
     match same {
         true => Ok(()),
@@ -127,14 +127,13 @@ fn otherwise(same: bool, path: &[&dyn Display], has: impl Display) -> Result<(),
     }
 }
 
+fn same_count(list: &'static str, [expected, found]: [usize; 2]) -> Result<(), SceneError> {
+    otherwise(expected == found, &[&list], found)
+}
+
 fn same_bodies(scene: &World, state: &World) -> Result<(), SceneError> {
     let [expected, found] = [scene, state].map(World::bodies);
-    let count = found.len();
-    otherwise(
-        expected.len() == count,
-        &[&"bodies"],
-        format_args!("{count}"),
-    )?;
+    same_count("bodies", [expected.len(), found.len()])?;
     for (k, (expected, found)) in expected.iter().zip(found).enumerate() {
         let is = |same: bool, field: &'static str, has: &str| {
             otherwise(same, &[&"bodies", &k, &field], has)
@@ -151,12 +150,7 @@ fn same_bodies(scene: &World, state: &World) -> Result<(), SceneError> {
 
 fn same_wires(scene: &World, state: &World) -> Result<(), SceneError> {
     let [expected, found] = [scene, state].map(World::wires);
-    let count = found.len();
-    otherwise(
-        expected.len() == count,
-        &[&"wires"],
-        format_args!("{count}"),
-    )?;
+    same_count("wires", [expected.len(), found.len()])?;
     for (k, (expected, found)) in expected.iter().zip(found).enumerate() {
         let is = |same: bool, field: &'static str, has: String| {
             otherwise(same, &[&"wires", &k, &field], has)

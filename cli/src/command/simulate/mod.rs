@@ -229,10 +229,7 @@ impl Simulate {
     }
 
     fn wrong(&self, error: impl ToString) -> Failure {
-        Failure::File {
-            path: self.scene.clone().unwrap_or_default(),
-            problem: error.to_string(),
-        }
+        Failure::file(self.scene.as_deref().unwrap_or_default(), error)
     }
 }
 
@@ -245,13 +242,6 @@ fn draw(runs: &[Replay], folder: &Path) -> Result<(), Failure> {
         fs::write(&path, drawing.frame(frame)).map_err(|error| unwritable(&path, error))?;
     }
     Ok(())
-}
-
-fn refused(path: &Path, error: impl ToString) -> Failure {
-    Failure::File {
-        path: path.display().to_string(),
-        problem: error.to_string(),
-    }
 }
 
 fn narrow() -> impl TypedValueParser<Value = Narrow> {

@@ -11,7 +11,7 @@ use tunnelproof_cli::replay::Replay;
 use tunnelproof_cli::scenes::{Difference, EMBEDDED, Scene};
 use tunnelproof_cli::simulate::{Narrow, Run, Start};
 
-use super::{Mode, Simulate, refused};
+use super::{Mode, Simulate};
 use crate::command::Failure;
 
 /// A run that is about to be made.
@@ -39,8 +39,9 @@ impl Simulate {
                 differences: Vec::new(),
             });
         };
-        let state = File::open(path).map_err(|error| refused(path, error))?;
-        let state = State::load(BufReader::new(state)).map_err(|error| refused(path, error))?;
+        let state = File::open(path).map_err(|error| Failure::file(path, error))?;
+        let state =
+            State::load(BufReader::new(state)).map_err(|error| Failure::file(path, error))?;
         let (world, mut differences) = scene.continued(&state).map_err(wrong)?;
         let narrow = match self.narrow {
             Some(narrow) => narrow,
@@ -49,7 +50,7 @@ impl Simulate {
                     "stepped with the narrow phase {:?}: --narrow says with which to go on",
                     state.narrow
                 );
-                refused(path, problem)
+                Failure::file(path, problem)
             })?,
         };
         let mode = self.mode.unwrap_or(state.settings.mode.into());
@@ -78,7 +79,7 @@ impl Simulate {
             let problem = format!(
                 "the state is at {at} s and the run ends at {end} s: there is no step left, unless --duration is longer"
             );
-            return Err(refused(path, problem));
+            return Err(Failure::file(path, problem));
         }
         Ok(plan)
     }
@@ -128,7 +129,6 @@ fn read(path: &str) -> Result<String, Failure> {
     std::fs::read_to_string(path).map_err(|error| {
         let names = EMBEDDED.map(|(name, _)| name).join(", ");
         let problem = format!("{error} (and it is none of the scenes {names})");
-        let path = path.to_owned();
-        Failure::File { path, problem }
+        Failure::file(path, problem)
     })
 }

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use clap::{Args, value_parser};
 use tunnelproof::wire::state::State;
 use tunnelproof::wire::{Collisions, World};
-
 use tunnelproof_cli::simulate::Narrow;
 
 use crate::command::Failure;
@@ -64,9 +63,7 @@ impl Saving {
 fn save(path: &Path, state: &State) -> Result<(), Failure> {
     let file = OutputFile::create(path)?;
     let mut bytes = Vec::new();
-    state.save(&mut bytes).map_err(|error| Failure::File {
-        path: path.display().to_string(),
-        problem: error.to_string(),
-    })?;
+    let saved = state.save(&mut bytes);
+    saved.map_err(|error| Failure::file(path, error))?;
     file.write_bytes(&bytes)
 }

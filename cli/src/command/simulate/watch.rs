@@ -8,8 +8,8 @@ use tunnelproof::wire::recording::Recorder;
 use tunnelproof_cli::audit::Audit;
 use tunnelproof_cli::replay::Replay;
 
+use super::Simulate;
 use super::plan::Plan;
-use super::{Simulate, refused};
 use crate::command::Failure;
 use crate::command::output::unwritable;
 use crate::command::polygons::Polygons;
@@ -27,7 +27,8 @@ impl<'a> Watch<'a> {
         let world = &plan.start.world;
         let record = |path: &'a Path| -> Result<_, Failure> {
             let file = File::create(path).map_err(|error| unwritable(path, error))?;
-            let recorder = Recorder::new(file, world).map_err(|error| refused(path, error))?;
+            let recorder =
+                Recorder::new(file, world).map_err(|error| Failure::file(path, error))?;
             Ok((recorder, path))
         };
         let is_shown = options.replay.is_some() || options.frames.is_some();
@@ -45,7 +46,7 @@ impl<'a> Watch<'a> {
         if let Some((recorder, path)) = &mut self.recorder {
             recorder
                 .record(record)
-                .map_err(|error| refused(path, error))?;
+                .map_err(|error| Failure::file(path, error))?;
         }
         if let Some(audit) = &mut self.audit {
             audit.step(record);

@@ -7,10 +7,9 @@ use std::collections::BTreeMap;
 use std::env::args;
 use std::error::Error;
 
-#[path = "../tests/capstan/mod.rs"]
-mod capstan;
+mod drum;
 
-use capstan::{PARTS, Way, grid};
+use drum::{PARTS, Way, grid};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = args().skip(1).collect();
