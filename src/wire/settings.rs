@@ -30,6 +30,10 @@ pub struct Settings {
     pub impact_speed: f64,
     /// Most sweeps over contacts that are swept in one solve; usual value 200.
     pub sweeps: usize,
+    /// What a step may spend on finding what pulls, pushes, sticks and slides: multiplications for
+    /// each segment and contact, and for 2000 more; usual value 10,000. A step that has spent them ends
+    /// with what it has found ([`SolverRecord::cut_short`](super::SolverRecord::cut_short)).
+    pub work: usize,
     /// Largest accepted error of contact velocities in m/s, the change in the last sweep; usual
     /// value 1e-8.
     pub contact_tolerance: f64,
@@ -52,6 +56,7 @@ impl Default for Settings {
             contact_damping: 2.0,
             impact_speed: 0.01,
             sweeps: 200,
+            work: 10_000,
             contact_tolerance: 1e-8,
             stability_margin: 0.8,
             split_ratio: 2.5,

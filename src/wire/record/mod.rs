@@ -150,6 +150,9 @@ pub struct SolverRecord {
     pub factorisations: usize,
     /// Sweeps over the contacts; 0 where they are in the system.
     pub sweeps: usize,
+    /// Whether the step ended because it had spent its [`work`](super::Settings::work), or could not
+    /// find what pulls and slides.
+    pub cut_short: bool,
     /// The largest error of contact velocities, in m/s: the change in the last sweep, or the part
     /// that was not predicted. Above the tolerance of the settings if that took too long.
     pub contact_residual: f64,

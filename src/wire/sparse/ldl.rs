@@ -24,6 +24,8 @@ pub(in crate::wire) struct Ldl {
     rows: Vec<u32>,
     values: Vec<f64>,
     diagonal: Vec<f64>,
+    /// Multiplications of a factorisation.
+    multiplications: usize,
 }
 
 /// Three sparse columns with a common pattern.
@@ -60,7 +62,10 @@ impl Ldl {
         for k in 0..n {
             starts[k + 1] = starts[k] + count[k];
         }
+        // A column with `c` entries below the diagonal is used by the row of each of them.
+        let multiplications = count.iter().map(|c| c * (c + 1) / 2 + c);
         let mut ldl = Ldl {
+            multiplications: multiplications.sum(),
             rows: vec![0; starts[n]],
             values: vec![0.0; starts[n]],
             diagonal: vec![0.0; n],
@@ -208,6 +213,16 @@ impl Ldl {
             }
         }
         rows
+    }
+
+    /// Multiplications and divisions of a factorisation.
+    pub(in crate::wire) fn multiplications(&self) -> usize {
+        self.multiplications
+    }
+
+    /// Those of a solve.
+    pub(in crate::wire) fn multiplications_of_solve(&self) -> usize {
+        2 * self.values.len() + self.diagonal.len()
     }
 
     /// The pivots, row by row.

@@ -13,13 +13,14 @@
 //! each change moves the others by `f tan(D/2)` times itself, which is below 1 where wire
 //! slides at all.
 
+use super::budget::Budget;
 use super::capstan;
 use super::rows::Row;
 use super::system::{RESIDUAL, System};
 use crate::wire::bisect::bisect;
 use crate::wire::error::Reason;
 
-/// Newton steps that are tried before a step is given up; some dozens are usual for the longest
+/// Newton steps that are tried at most; some dozens are usual for the longest
 /// chains.
 const TRIES: usize = 1000;
 
@@ -34,6 +35,8 @@ pub(super) struct ActiveSet {
     pub(super) backward_error: f64,
     /// Factorisations that it took.
     pub(super) factorisations: usize,
+    /// Whether the branches are those that hold.
+    pub(super) is_found: bool,
 }
 
 /// Whether rows contradict the guess of their branches: one of a chain that counts and
@@ -51,40 +54,48 @@ pub(super) fn leaves_branch(rows: &[Row], x: &[f64]) -> bool {
     changing().any(|row| row.branch.is_left(row.excess(x), accepted))
 }
 
-/// Finds the branches of all rows under impulses on velocities, from the velocities of `x` on.
+/// Finds the branches of all rows under impulses on velocities, from the velocities of `x` on. If
+/// that takes too much, some rows have a branch that does not hold: a segment of a chain may push,
+/// or may be longer than it should. Momentum is that of the impulses all the same.
 ///
 /// # Errors
 ///
-/// Those of factoring and solving; [`Reason::ActiveSet`] after very many factorisations.
+/// Those of factoring and solving.
 pub(super) fn find_active_set(
     system: &mut System,
     impulses: &[(usize, f64)],
     mut x: Vec<f64>,
+    budget: &mut Budget,
 ) -> Result<ActiveSet, Reason> {
-    let (mut factorisations, mut updates) = (0, 0);
-    for _ in 0..TRIES {
+    let (mut tries, mut factorisations, mut updates) = (0, 0, 0);
+    loop {
+        tries += 1;
         if update_branches(&mut system.rows, &x) {
             system.factor()?;
+            budget.spend(system.multiplications());
             factorisations += 1;
         }
         let (newton, backward_error) = system.solve(impulses)?;
-        if leaves_branch(&system.rows, &newton) {
+        budget.spend(system.multiplications_of_solve());
+        let is_last = tries == TRIES || budget.is_spent();
+        if leaves_branch(&system.rows, &newton) && !is_last {
             let fraction = line_search(system, &x, &newton, 0.0);
             advance(&mut x, &newton, fraction);
             continue;
         }
         x = newton;
         updates += 1;
-        if updates > BOUNDS || !capstan::bounds_differ(&system.rows, &x) {
+        if is_last || updates > BOUNDS || !capstan::bounds_differ(&system.rows, &x) {
+            let is_found = !leaves_branch(&system.rows, &x);
             return Ok(ActiveSet {
                 x,
                 backward_error,
                 factorisations,
+                is_found,
             });
         }
         capstan::update_bounds(&mut system.rows, &x);
     }
-    Err(Reason::ActiveSet { tries: TRIES })
 }
 
 /// Takes the branches that hold at a solution. Returns whether this changes the system.

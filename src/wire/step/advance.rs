@@ -1,5 +1,6 @@
 //! The step of a world: solve, commit, change the resolution.
 
+use super::budget::Budget;
 use super::callbacks::{Given, MotionReview, StepCallbacks};
 use super::capstan;
 use super::contact_nodes;
@@ -15,7 +16,11 @@ use crate::wire::record::{AddedInertia, Phases, StepRecord};
 use crate::wire::resolution::{self, Permit, RemeshGuard};
 use crate::wire::solver_cache::WarmStart;
 use crate::wire::sparse::Structure;
+use crate::wire::vector::Vector;
 use crate::wire::world::World;
+
+/// A solve may spend one part in so many of what is left: so there is something left for solving again.
+const SOLVE: i64 = 2;
 
 impl World {
     /// Does one step with the contacts given. Every change of resolution is permitted.
@@ -84,7 +89,16 @@ impl World {
         watch: &mut dyn StepCallbacks,
         phases: &mut Phases,
     ) -> Result<(System, Candidate, ProposedMotion), Reason> {
-        let (mut system, mut candidate) = self.solve_step(structure, watch.contacts(), phases)?;
+        let contacts = watch.contacts();
+        let mut budget = Budget::of_step(self, contacts);
+        let start = contacts.iter();
+        let start: Vec<Vector> = start
+            .map(|contact| self.cache.warm_start.impulse(contact.key))
+            .collect();
+        let mut part = budget.part(SOLVE);
+        let (mut system, mut candidate) =
+            self.solve_step(structure, contacts, &start, &mut part, phases)?;
+        budget.take_back(part);
         let mut scales = MotionScales::all(self);
         loop {
             let mut motion = self.motion(&system.layout, &candidate.x, &scales);
@@ -97,12 +111,18 @@ impl World {
             phases.narrow += clock.lap();
             match judgement {
                 MotionReview::Accept => return Ok((system, candidate, motion)),
+                MotionReview::SolveAgain if budget.is_spent() => watch.keep_solution(),
                 MotionReview::SolveAgain => {
                     *structure = system.take_structure();
-                    match self.solve_step(structure, watch.contacts(), phases) {
+                    let contacts = watch.contacts();
+                    let mut start = candidate.swept.impulses.clone();
+                    start.resize(contacts.len(), Vector::zeros());
+                    let mut part = budget.part(SOLVE);
+                    match self.solve_step(structure, contacts, &start, &mut part, phases) {
                         Ok(solved) => (system, candidate) = solved,
                         Err(_) => watch.keep_solution(),
                     }
+                    budget.take_back(part);
                 }
                 MotionReview::Scale(scales_now) => scales = scales_now,
             }

@@ -118,6 +118,13 @@ impl Blocks {
         Blocks { list, paths }
     }
 
+    /// Multiplications of a sweep, about.
+    pub(super) fn multiplications(&self) -> usize {
+        /// Of a contact, beside its path.
+        const OWN: usize = 100;
+        6 * self.paths.rows.len() + OWN * self.list.len()
+    }
+
     /// Rows, values and pivots on the path of a block.
     pub(super) fn path(&self, block: &Block) -> impl Iterator<Item = (u32, [f64; 3], f64)> {
         let entries = self.paths.entries(&block.path);

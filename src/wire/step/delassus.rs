@@ -33,6 +33,12 @@ impl Delassus {
         delassus
     }
 
+    /// Multiplications that it takes to form it, at most, and of a sweep.
+    pub(super) fn multiplications(blocks: &Blocks) -> [usize; 2] {
+        let contacts = blocks.list.len();
+        [blocks.multiplications() * contacts, 9 * contacts * contacts]
+    }
+
     /// `Y^T D^-1 Y`, row by row of the factor: every two blocks that have it on their paths.
     fn fill(&mut self, blocks: &Blocks) {
         let n = 3 * blocks.list.len();

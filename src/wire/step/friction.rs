@@ -11,6 +11,7 @@
 use std::ops::RangeInclusive;
 
 use super::anderson;
+use super::budget::Budget;
 use super::carrier::Columns;
 use super::contact_blocks::{Blocks, Swept};
 use super::delassus::Delassus;
@@ -29,7 +30,8 @@ const FORMED: RangeInclusive<usize> = 8..=256;
 const FIRST_SWEEPS: usize = 10;
 
 /// Contact impulses for the system as factored, from a start on. `free` is the solution
-/// without contacts.
+/// without contacts. What is left of the budget limits how many sweeps there are, beyond
+/// [`FIRST_SWEEPS`].
 ///
 /// Sweeps with a formed Schur complement come three to ten times as close to the solution; three
 /// fifths of the sweeps are enough for them.
@@ -39,23 +41,31 @@ pub(super) fn sweep(
     contacts: &[ContactConstraint],
     free: &[f64],
     start: &[Vector],
+    budget: &mut Budget,
 ) -> Swept {
     let settings = &world.settings;
     let mut blocks = Blocks::new(world, system, contacts, free, start);
     let mut swept = Swept::default();
-    if FORMED.contains(&contacts.len()) {
-        let sweeps = settings.sweeps * 3 / 5;
-        let settings = Settings {
-            sweeps,
-            ..settings.clone()
-        };
-        swept.repeat(&settings, FIRST_SWEEPS, || blocks.relax());
-        if !swept.is_done(&settings) {
+    swept.repeat(settings, FIRST_SWEEPS, || blocks.relax());
+    budget.spend(swept.sweeps * blocks.multiplications());
+    let limited = |most: usize, cost: usize, budget: &Budget| Settings {
+        sweeps: most.min(swept.sweeps + budget.times(cost)),
+        ..settings.clone()
+    };
+    if !swept.is_done(settings) {
+        let [forming, cost] = Delassus::multiplications(&blocks);
+        if FORMED.contains(&contacts.len()) && budget.times(forming + FIRST_SWEEPS * cost) > 0 {
+            budget.spend(forming);
+            let settings = limited(settings.sweeps * 3 / 5, cost, budget);
             let delassus = Delassus::new(&blocks);
             anderson::sweep(delassus, &mut blocks.list, &settings, &mut swept);
+            budget.spend((swept.sweeps - FIRST_SWEEPS) * cost);
+        } else {
+            let cost = blocks.multiplications();
+            let settings = limited(settings.sweeps, cost, budget);
+            swept.repeat(&settings, usize::MAX, || blocks.relax());
+            budget.spend((swept.sweeps - FIRST_SWEEPS) * cost);
         }
-    } else {
-        swept.repeat(settings, usize::MAX, || blocks.relax());
     }
     for block in &blocks.list {
         let impulse = block.frame.tr_mul(&block.impulse);

@@ -4,6 +4,7 @@ mod active_set;
 pub(super) mod advance;
 mod anderson;
 mod augmented;
+mod budget;
 pub(super) mod callbacks;
 mod capstan;
 mod carrier;

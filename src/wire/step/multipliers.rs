@@ -8,11 +8,12 @@
 //! its bound, friction takes energy.
 
 use super::active_set::{advance, leaves_branch, line_search, update_branches};
+use super::budget::Budget;
 use super::capstan;
 use super::system::System;
 use crate::wire::error::Reason;
 
-/// Factorisations after which this is given up; some dozens are usual.
+/// The most factorisations; some dozens are usual.
 const TRIES: usize = 200;
 
 /// The most predictions; a dozen is usual. Then the solution is accepted, and the record has its
@@ -40,23 +41,35 @@ pub(super) struct Solution {
     pub(super) contact_residual: f64,
     /// Factorisations.
     pub(super) factorisations: usize,
+    /// Whether this is a solution. If not, all that is good for something are the impulses that the
+    /// contacts have predicted.
+    pub(super) is_found: bool,
 }
 
 /// Finds velocities and impulses, from the velocities of `x` on. The tolerance is in m/s.
 ///
 /// # Errors
 ///
-/// Those of factoring and solving; [`Reason::ActiveSet`] after very many factorisations.
-pub(super) fn solve(system: &mut System, x: Vec<f64>, tolerance: f64) -> Result<Solution, Reason> {
+/// Those of factoring and solving.
+pub(super) fn solve(
+    system: &mut System,
+    x: Vec<f64>,
+    tolerance: f64,
+    budget: &mut Budget,
+) -> Result<Solution, Reason> {
     let mut solution = Solution {
         x,
         backward_error: 0.0,
         contact_residual: f64::INFINITY,
         factorisations: 0,
+        is_found: true,
     };
     let (mut least, mut stayed) = (f64::INFINITY, 0);
     for _ in 0..ROUNDS {
-        solution = minimise_for_predicted(system, solution, tolerance)?;
+        solution = minimise_for_predicted(system, solution, tolerance, budget)?;
+        if !solution.is_found {
+            return Ok(solution);
+        }
         stayed = if solution.contact_residual < 0.9 * least {
             0
         } else {
@@ -83,16 +96,18 @@ fn minimise_for_predicted(
     system: &mut System,
     mut solution: Solution,
     tolerance: f64,
+    budget: &mut Budget,
 ) -> Result<Solution, Reason> {
     // The first linearisation is at the predicted impulses: the velocities so far minimise another
     // function.
     let mut predicted = true;
-    while solution.factorisations < TRIES {
+    while solution.factorisations < TRIES && !budget.is_spent() {
         update_branches(&mut system.rows, &solution.x);
         for contact in &mut system.implicit {
             contact.linearise(&solution.x, predicted);
         }
         system.factor()?;
+        budget.spend(system.multiplications());
         solution.factorisations += 1;
         let newton = system.estimate();
         let [linearisation_error, contact_residual] = residuals(system, &newton);
@@ -110,7 +125,8 @@ fn minimise_for_predicted(
         advance(&mut solution.x, &newton, fraction);
         predicted = false;
     }
-    Err(Reason::ActiveSet { tries: TRIES })
+    solution.is_found = false;
+    Ok(solution)
 }
 
 /// The largest errors of velocities in m/s: because laws are not linear, and because other impulses

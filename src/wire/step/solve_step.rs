@@ -2,9 +2,11 @@
 //! pull, and which wires slide.
 
 use super::active_set::{find_active_set, violates_branches};
+use super::budget::Budget;
 use super::capstan::{bound_residual, stop_slip};
 use super::contact_blocks::Swept;
 use super::friction::{contact_residual, sweep};
+use super::implicit::Implicit;
 use super::multipliers;
 use super::order::{self, Block};
 use super::system::System;
@@ -19,6 +21,10 @@ use crate::wire::world::World;
 /// How often contacts are swept again because other segments of chains pull.
 const ROUNDS: usize = 20;
 
+/// With the contacts in the system a solve may spend all but one part in so many, so that what did not come to an
+/// end can be swept.
+const IN_SYSTEM: i64 = 2;
+
 /// A solution of a step that is not committed yet.
 pub(super) struct Candidate {
     pub(super) x: Vec<f64>,
@@ -29,14 +35,16 @@ pub(super) struct Candidate {
 impl World {
     /// Solves for velocities, multipliers and contact impulses; finds out which segments of chains
     /// pull and which wires slide over contact nodes, starting from those that did in the last
-    /// step.
+    /// step, and from the impulses in `start`.
     pub(super) fn solve_step(
         &self,
         structure: &mut Option<Structure>,
         contacts: &[ContactConstraint],
+        start: &[Vector],
+        budget: &mut Budget,
         phases: &mut Phases,
     ) -> Result<(System, Candidate), Reason> {
-        let (system, mut candidate) = self.solution(structure, contacts, phases)?;
+        let (system, mut candidate) = self.solution(structure, contacts, start, budget, phases)?;
         candidate.solver.slide_residual = bound_residual(&system.rows, &candidate.x);
         stop_slip(&system.rows, &mut candidate.x);
         Ok((system, candidate))
@@ -47,25 +55,29 @@ impl World {
         &self,
         structure: &mut Option<Structure>,
         contacts: &[ContactConstraint],
+        start: &[Vector],
+        budget: &mut Budget,
         phases: &mut Phases,
     ) -> Result<(System, Candidate), Reason> {
-        let start: Vec<Vector> = contacts
-            .iter()
-            .map(|contact| self.cache.warm_start.impulse(contact.key))
-            .collect();
+        let mut start = start.to_vec();
         let mut clock = Clock::start();
         let by_least_degree = order::by_least_degree(self, contacts);
         phases.assembly += clock.lap();
         if let Some(order) = by_least_degree {
             let mut system = self.assemble(&order, structure, phases);
-            match self.solve_with_implicit_contacts(&mut system, contacts, &start, phases) {
+            let mut part = budget.part(IN_SYSTEM);
+            let candidate =
+                self.solve_with_implicit_contacts(&mut system, contacts, &mut start, &mut part, phases);
+            budget.take_back(part);
+            match candidate {
                 Some(candidate) => return Ok((system, candidate)),
                 // What does not come to an end is swept.
                 None => *structure = system.take_structure(),
             }
         }
         let mut system = self.assemble(&order::by_wires(self), structure, phases);
-        let candidate = self.solve_with_swept_contacts(&mut system, contacts, &start, phases)?;
+        let candidate =
+            self.solve_with_swept_contacts(&mut system, contacts, &start, budget, phases)?;
         Ok((system, candidate))
     }
 
@@ -83,33 +95,38 @@ impl World {
 
     /// Contacts are swept while the same segments pull; then it is found which pull and slide under
     /// these impulses, until that changes nothing. Friction may let it change for ever: after
-    /// [`ROUNDS`] the impulses stay as they are, and the record has the residual of the contacts.
+    /// [`ROUNDS`], or when the budget is spent, the impulses stay as they are, and the record has the
+    /// residual of the contacts.
     fn solve_with_swept_contacts(
         &self,
         system: &mut System,
         contacts: &[ContactConstraint],
         start: &[Vector],
+        budget: &mut Budget,
         phases: &mut Phases,
     ) -> Result<Candidate, Reason> {
         let mut clock = Clock::start();
         system.factor()?;
+        budget.spend(system.multiplications());
         phases.factor += clock.lap();
-        let mut candidate = self.solve(system, contacts, start, phases)?;
+        let mut candidate = self.solve(system, contacts, start, budget, phases)?;
         let mut factorisations = 1;
         for round in 1..=ROUNDS {
             if !violates_branches(&system.rows, &candidate.x) {
                 break;
             }
             clock.lap();
-            let active_set = find_active_set(system, &candidate.swept.columns, candidate.x)?;
+            let impulses = &candidate.swept.columns;
+            let active_set = find_active_set(system, impulses, candidate.x, budget)?;
             phases.factor += clock.lap();
             factorisations += active_set.factorisations;
-            if round < ROUNDS && !contacts.is_empty() {
+            if round < ROUNDS && !contacts.is_empty() && !budget.is_spent() {
                 let impulses = candidate.swept.impulses;
-                candidate = self.solve(system, contacts, &impulses, phases)?;
+                candidate = self.solve(system, contacts, &impulses, budget, phases)?;
                 continue;
             }
             (candidate.x, candidate.solver.residual) = (active_set.x, active_set.backward_error);
+            candidate.solver.cut_short = !active_set.is_found;
             if !contacts.is_empty() {
                 let (free, _) = system.solve(&[])?;
                 let impulses = &candidate.swept.impulses;
@@ -119,28 +136,36 @@ impl World {
             break;
         }
         candidate.solver.factorisations = factorisations;
+        candidate.solver.cut_short |= budget.is_spent();
         Ok(candidate)
     }
 
     /// Solves with the contacts in the system, from predicted impulses. None if that does not
-    /// converge.
+    /// converge; then these are better than before.
     fn solve_with_implicit_contacts(
         &self,
         system: &mut System,
         contacts: &[ContactConstraint],
-        predicted: &[Vector],
+        predicted: &mut Vec<Vector>,
+        budget: &mut Budget,
         phases: &mut Phases,
     ) -> Option<Candidate> {
         let mut clock = Clock::start();
         system.take(self, contacts, predicted);
-        let found = multipliers::solve(system, system.start(self), self.settings.contact_tolerance);
+        let tolerance = self.settings.contact_tolerance;
+        let found = multipliers::solve(system, system.start(self), tolerance, budget);
         let implicit = std::mem::take(&mut system.implicit);
         phases.contacts += clock.lap();
         let found = found.ok()?;
+        if !found.is_found {
+            *predicted = implicit.iter().map(Implicit::predicted).collect();
+            return None;
+        }
         let solver = SolverRecord {
             residual: found.backward_error,
             factorisations: found.factorisations,
             sweeps: 0,
+            cut_short: false,
             contact_residual: found.contact_residual,
             slide_residual: 0.0,
         };
@@ -164,6 +189,7 @@ impl World {
         system: &System,
         contacts: &[ContactConstraint],
         start: &[Vector],
+        budget: &mut Budget,
         phases: &mut Phases,
     ) -> Result<Candidate, Reason> {
         let mut clock = Clock::start();
@@ -171,7 +197,7 @@ impl World {
         phases.solve += clock.lap();
         let mut swept = Swept::default();
         if !contacts.is_empty() {
-            swept = sweep(self, system, contacts, &x, start);
+            swept = sweep(self, system, contacts, &x, start, budget);
             (x, residual) = system.solve(&swept.columns)?;
             phases.contacts += clock.lap();
         }
@@ -179,6 +205,7 @@ impl World {
             residual,
             factorisations: 1,
             sweeps: swept.sweeps,
+            cut_short: false,
             contact_residual: swept.residual,
             slide_residual: 0.0,
         };

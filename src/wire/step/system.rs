@@ -220,6 +220,19 @@ impl System {
         factored.map_err(|unknown| Reason::Pivot { unknown })
     }
 
+    /// Multiplications of a factorisation and a solve.
+    pub(super) fn multiplications(&self) -> usize {
+        let ldl = self.structure.as_ref().map(|structure| &structure.ldl);
+        ldl.map_or(0, |ldl| ldl.multiplications() + ldl.multiplications_of_solve())
+    }
+
+    /// Multiplications of a solve that is refined and checked.
+    pub(super) fn multiplications_of_solve(&self) -> usize {
+        let entries = 4 * self.triplets.index.len();
+        let ldl = self.structure.as_ref().map(|structure| &structure.ldl);
+        ldl.map_or(0, |ldl| 2 * ldl.multiplications_of_solve() + entries)
+    }
+
     /// The solution with impulses on velocities, given as columns and values, and its backward
     /// error.
     pub(super) fn solve(&self, impulses: &[(usize, f64)]) -> Result<(Vec<f64>, f64), Reason> {

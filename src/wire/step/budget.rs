@@ -1,0 +1,59 @@
+//! What a step may spend on what pulls, pushes, sticks and slides, in multiplications.
+//!
+//! Time would give other results on another machine. Multiplications of the factor, of solves with
+//! it and of sweeps are what takes the time, and their number is known beforehand.
+
+use crate::wire::contact::ContactConstraint;
+use crate::wire::world::World;
+
+/// What every step may spend, as if there were so many more segments.
+const AT_LEAST: usize = 2000;
+
+/// What is left to spend. Whoever spends looks first whether anything is left, and may then spend
+/// more than that, once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Budget {
+    left: i64,
+}
+
+impl Budget {
+    /// That of a step.
+    pub(super) fn of_step(world: &World, contacts: &[ContactConstraint]) -> Self {
+        let segments = world.wires.iter().map(|wire| wire.segments.len());
+        let things = AT_LEAST + segments.sum::<usize>() + contacts.len();
+        Budget::new(world.settings.work.saturating_mul(things))
+    }
+
+    /// So many multiplications.
+    pub(super) fn new(left: usize) -> Self {
+        Budget {
+            left: i64::try_from(left).unwrap_or(i64::MAX),
+        }
+    }
+
+    /// Takes a part of it out, one in so many.
+    pub(super) fn part(&mut self, one_in: i64) -> Self {
+        let left = (self.left / one_in).max(0);
+        self.left -= left;
+        Budget { left }
+    }
+
+    /// Takes back what is left of a part, or what it spent too much.
+    pub(super) fn take_back(&mut self, part: Budget) {
+        self.left = self.left.saturating_add(part.left);
+    }
+
+    pub(super) fn spend(&mut self, multiplications: usize) {
+        let spent = i64::try_from(multiplications).unwrap_or(i64::MAX);
+        self.left = self.left.saturating_sub(spent);
+    }
+
+    pub(super) fn is_spent(&self) -> bool {
+        self.left <= 0
+    }
+
+    /// How often something that costs so much may be done.
+    pub(super) fn times(&self, cost: usize) -> usize {
+        usize::try_from(self.left).unwrap_or(0) / cost.max(1)
+    }
+}
