@@ -30,7 +30,7 @@ const SMALL: f64 = 1e-8;
 
 /// Sweeps until the contacts have converged, or there are no more sweeps.
 pub(super) fn sweep(
-    mut delassus: Delassus,
+    delassus: &mut Delassus,
     blocks: &mut [Block],
     settings: &Settings,
     swept: &mut Swept,
@@ -47,11 +47,11 @@ pub(super) fn sweep(
         if swept.is_done(settings) || swept.sweeps + PLAIN >= settings.sweeps {
             continue;
         }
-        let mut sample = sample(&before, blocks, &delassus, &units);
+        let mut sample = sample(&before, blocks, delassus, &units);
         history.learn(&sample);
         if swept.sweeps.is_multiple_of(PERIOD) {
             history.extrapolate(&mut sample);
-            start_from(&sample, blocks, &mut delassus);
+            start_from(&sample, blocks, delassus);
         }
     }
 }

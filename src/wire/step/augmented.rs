@@ -132,10 +132,6 @@ impl Augmented {
         given_way.max(unbound * self.mobility)
     }
 
-    pub(super) fn predicted(&self) -> Vector {
-        self.predicted
-    }
-
     /// Predicts the impulse that came out at a velocity.
     pub(super) fn update_prediction(&mut self, velocity: &Vector, impulse: &Vector) {
         self.slides = self.is_sliding(velocity);

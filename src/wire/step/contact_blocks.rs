@@ -118,6 +118,22 @@ impl Blocks {
         Blocks { list, paths }
     }
 
+    /// Takes the multiple of all impulses that is best, at most 1: a start that does not suit these
+    /// contacts, or sweeps that do not converge, may have more energy in them than there is.
+    pub(super) fn scale_to_best(&mut self) {
+        let excess = self.list.iter().map(|block| block.excess(&self.paths));
+        let excess: Vec<f64> = excess.flat_map(|e| [e.x, e.y, e.z]).collect();
+        let scale = best_multiple(&self.list, &excess);
+        if scale < 1.0 {
+            for block in &mut self.list {
+                block.impulse *= scale;
+            }
+            for entry in &mut self.paths.factor {
+                entry.z *= scale;
+            }
+        }
+    }
+
     /// Multiplications of a sweep, about.
     pub(super) fn multiplications(&self) -> usize {
         /// Of a contact, beside its path.
@@ -140,6 +156,27 @@ impl Blocks {
             largest = largest.max((block.mobility * change).amax());
         }
         largest
+    }
+}
+
+/// The multiple of all impulses `l`, from 0 to 1, at which `l . (S l / 2 + b)` is least, from
+/// velocities less what is asked for, `S l + b`. At a solution of Coulomb's law with these
+/// directions it is 1: what pushes has `u = 0`, and friction takes energy.
+pub(super) fn best_multiple(blocks: &[Block], excess: &[f64]) -> f64 {
+    let pairs = blocks.iter().zip(excess.chunks_exact(3));
+    let (curved, linear) = pairs.fold((0.0, 0.0), |(curved, linear), (block, excess)| {
+        let due = block.impulse.dot(&block.bias);
+        let now = block.impulse.dot(&Vector::from_column_slice(excess));
+        (curved + now - due, linear + due)
+    });
+    // NaN and infinities are no multiple to go by.
+    let best = -linear / curved;
+    if best >= 1.0 || !(curved > 0.0) && linear <= 0.0 {
+        1.0
+    } else if best > 0.0 {
+        best
+    } else {
+        0.0
     }
 }
 

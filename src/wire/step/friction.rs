@@ -13,7 +13,7 @@ use std::ops::RangeInclusive;
 use super::anderson;
 use super::budget::Budget;
 use super::carrier::Columns;
-use super::contact_blocks::{Blocks, Swept};
+use super::contact_blocks::{Blocks, Swept, best_multiple};
 use super::delassus::Delassus;
 use super::system::System;
 use crate::wire::Vector;
@@ -45,6 +45,7 @@ pub(super) fn sweep(
 ) -> Swept {
     let settings = &world.settings;
     let mut blocks = Blocks::new(world, system, contacts, free, start);
+    blocks.scale_to_best();
     let mut swept = Swept::default();
     swept.repeat(settings, FIRST_SWEEPS, || blocks.relax());
     budget.spend(swept.sweeps * blocks.multiplications());
@@ -57,13 +58,22 @@ pub(super) fn sweep(
         if FORMED.contains(&contacts.len()) && budget.times(forming + FIRST_SWEEPS * cost) > 0 {
             budget.spend(forming);
             let settings = limited(settings.sweeps * 3 / 5, cost, budget);
-            let delassus = Delassus::new(&blocks);
-            anderson::sweep(delassus, &mut blocks.list, &settings, &mut swept);
+            let mut delassus = Delassus::new(&blocks);
+            anderson::sweep(&mut delassus, &mut blocks.list, &settings, &mut swept);
+            if !swept.is_converged(&settings) {
+                let scale = best_multiple(&blocks.list, &delassus.excess);
+                for block in &mut blocks.list {
+                    block.impulse *= scale;
+                }
+            }
             budget.spend((swept.sweeps - FIRST_SWEEPS) * cost);
         } else {
             let cost = blocks.multiplications();
             let settings = limited(settings.sweeps, cost, budget);
             swept.repeat(&settings, usize::MAX, || blocks.relax());
+            if !swept.is_converged(&settings) {
+                blocks.scale_to_best();
+            }
             budget.spend((swept.sweeps - FIRST_SWEEPS) * cost);
         }
     }

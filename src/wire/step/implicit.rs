@@ -116,11 +116,6 @@ impl Implicit {
         self.frame.tr_mul(&impulse)
     }
 
-    /// The predicted impulse on place A along x, y, z, in N s.
-    pub(super) fn predicted(&self) -> Vector {
-        self.frame.tr_mul(&self.law.predicted())
-    }
-
     /// How far velocities are off because the law is not linear, and because another impulse was
     /// predicted, in m/s.
     pub(super) fn residuals(&self, x: &[f64]) -> [f64; 2] {

@@ -11,6 +11,7 @@ use super::active_set::{advance, leaves_branch, line_search, update_branches};
 use super::budget::Budget;
 use super::capstan;
 use super::system::System;
+use crate::wire::Vector;
 use crate::wire::error::Reason;
 
 /// The most factorisations; some dozens are usual.
@@ -31,102 +32,117 @@ const RESOLUTION: f64 = 1e-3;
 const NEARLY: f64 = 100.0;
 const STAYS: usize = 3;
 
-/// A solution for the last prediction.
+/// A solution for some prediction.
 pub(super) struct Solution {
     /// Velocities and multipliers.
     pub(super) x: Vec<f64>,
     /// Their backward error.
     pub(super) backward_error: f64,
+    /// Impulse of each contact on its place A, along x, y, z, in N s.
+    pub(super) impulses: Vec<Vector>,
     /// The largest error of velocities because other impulses were predicted, in m/s.
     pub(super) contact_residual: f64,
-    /// Factorisations.
+    /// Factorisations, those that came after it included.
     pub(super) factorisations: usize,
-    /// Whether this is a solution. If not, all that is good for something are the impulses that the
-    /// contacts have predicted.
-    pub(super) is_found: bool,
+    /// Whether it is as close as was asked for, or as it gets. If not, contacts give way to what was
+    /// not predicted, by the residual.
+    pub(super) is_settled: bool,
 }
 
-/// Finds velocities and impulses, from the velocities of `x` on. The tolerance is in m/s.
+/// Finds velocities and impulses, from the velocities of `x` on. The tolerance is in m/s. None if
+/// not even the first prediction has a solution within the budget.
 ///
 /// # Errors
 ///
 /// Those of factoring and solving.
 pub(super) fn solve(
     system: &mut System,
-    x: Vec<f64>,
+    mut x: Vec<f64>,
     tolerance: f64,
     budget: &mut Budget,
-) -> Result<Solution, Reason> {
-    let mut solution = Solution {
-        x,
-        backward_error: 0.0,
-        contact_residual: f64::INFINITY,
-        factorisations: 0,
-        is_found: true,
-    };
-    let (mut least, mut stayed) = (f64::INFINITY, 0);
+) -> Result<Option<Solution>, Reason> {
+    let mut solution: Option<Solution> = None;
+    let (mut least, mut stayed, mut factorisations) = (f64::INFINITY, 0, 0);
     for _ in 0..ROUNDS {
-        solution = minimise_for_predicted(system, solution, tolerance, budget)?;
-        if !solution.is_found {
-            return Ok(solution);
-        }
-        stayed = if solution.contact_residual < 0.9 * least {
+        let phase = minimise_for_predicted(system, &mut x, tolerance, &mut factorisations, budget)?;
+        let Some(contact_residual) = phase else {
+            break;
+        };
+        stayed = if contact_residual < 0.9 * least {
             0
         } else {
             stayed + 1
         };
-        least = least.min(solution.contact_residual);
-        let stays = solution.contact_residual <= NEARLY * tolerance && stayed >= STAYS;
-        let converged = solution.contact_residual <= tolerance
-            && !capstan::bounds_differ(&system.rows, &solution.x);
+        least = least.min(contact_residual);
+        let stays = contact_residual <= NEARLY * tolerance && stayed >= STAYS;
+        let converged =
+            contact_residual <= tolerance && !capstan::bounds_differ(&system.rows, &x);
+        let (refined, backward_error) = system.solve(&[])?;
+        budget.spend(system.multiplications_of_solve());
+        let impulses = system.implicit.iter();
+        solution = Some(Solution {
+            impulses: impulses
+                .map(|contact| contact.world_impulse(&refined))
+                .collect(),
+            x: refined,
+            backward_error,
+            contact_residual,
+            factorisations,
+            is_settled: true,
+        });
         if converged || stays {
-            break;
+            return Ok(solution);
         }
-        capstan::update_bounds(&mut system.rows, &solution.x);
+        capstan::update_bounds(&mut system.rows, &x);
         for contact in &mut system.implicit {
-            contact.update_prediction(&solution.x);
+            contact.update_prediction(&x);
         }
     }
-    (solution.x, solution.backward_error) = system.solve(&[])?;
+    if let Some(solution) = &mut solution {
+        solution.is_settled = factorisations < TRIES && !budget.is_spent();
+        solution.factorisations = factorisations;
+    }
     Ok(solution)
 }
 
-/// Minimises the function for the present prediction, as accurately as the residual asks for.
+/// Minimises the function for the present prediction, as accurately as the residual asks for, from
+/// the velocities of `x` to those that it ends at. Returns the residual, or none if that takes too
+/// much.
 fn minimise_for_predicted(
     system: &mut System,
-    mut solution: Solution,
+    x: &mut Vec<f64>,
     tolerance: f64,
+    factorisations: &mut usize,
     budget: &mut Budget,
-) -> Result<Solution, Reason> {
+) -> Result<Option<f64>, Reason> {
     // The first linearisation is at the predicted impulses: the velocities so far minimise another
     // function.
     let mut predicted = true;
-    while solution.factorisations < TRIES && !budget.is_spent() {
-        update_branches(&mut system.rows, &solution.x);
+    while *factorisations < TRIES && !budget.is_spent() {
+        update_branches(&mut system.rows, x);
         for contact in &mut system.implicit {
-            contact.linearise(&solution.x, predicted);
+            contact.linearise(x, predicted);
         }
         system.factor()?;
         budget.spend(system.multiplications());
-        solution.factorisations += 1;
+        *factorisations += 1;
         let newton = system.estimate();
         let [linearisation_error, contact_residual] = residuals(system, &newton);
         if linearisation_error <= LINEARISATION * contact_residual.max(tolerance)
             && !leaves_branch(&system.rows, &newton)
         {
-            (solution.x, solution.contact_residual) = (newton, contact_residual);
-            return Ok(solution);
+            *x = newton;
+            return Ok(Some(contact_residual));
         }
         let fraction = if predicted {
             1.0
         } else {
-            line_search(system, &solution.x, &newton, RESOLUTION)
+            line_search(system, x, &newton, RESOLUTION)
         };
-        advance(&mut solution.x, &newton, fraction);
+        advance(x, &newton, fraction);
         predicted = false;
     }
-    solution.is_found = false;
-    Ok(solution)
+    Ok(None)
 }
 
 /// The largest errors of velocities in m/s: because laws are not linear, and because other impulses

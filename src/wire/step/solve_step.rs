@@ -6,7 +6,6 @@ use super::budget::Budget;
 use super::capstan::{bound_residual, stop_slip};
 use super::contact_blocks::Swept;
 use super::friction::{contact_residual, sweep};
-use super::implicit::Implicit;
 use super::multipliers;
 use super::order::{self, Block};
 use super::system::System;
@@ -59,7 +58,6 @@ impl World {
         budget: &mut Budget,
         phases: &mut Phases,
     ) -> Result<(System, Candidate), Reason> {
-        let mut start = start.to_vec();
         let mut clock = Clock::start();
         let by_least_degree = order::by_least_degree(self, contacts);
         phases.assembly += clock.lap();
@@ -67,7 +65,7 @@ impl World {
             let mut system = self.assemble(&order, structure, phases);
             let mut part = budget.part(IN_SYSTEM);
             let candidate =
-                self.solve_with_implicit_contacts(&mut system, contacts, &mut start, &mut part, phases);
+                self.solve_with_implicit_contacts(&mut system, contacts, start, &mut part, phases);
             budget.take_back(part);
             match candidate {
                 Some(candidate) => return Ok((system, candidate)),
@@ -77,7 +75,7 @@ impl World {
         }
         let mut system = self.assemble(&order::by_wires(self), structure, phases);
         let candidate =
-            self.solve_with_swept_contacts(&mut system, contacts, &start, budget, phases)?;
+            self.solve_with_swept_contacts(&mut system, contacts, start, budget, phases)?;
         Ok((system, candidate))
     }
 
@@ -140,13 +138,13 @@ impl World {
         Ok(candidate)
     }
 
-    /// Solves with the contacts in the system, from predicted impulses. None if that does not
-    /// converge; then these are better than before.
+    /// Solves with the contacts in the system, from predicted impulses. None if that
+    /// takes too much.
     fn solve_with_implicit_contacts(
         &self,
         system: &mut System,
         contacts: &[ContactConstraint],
-        predicted: &mut Vec<Vector>,
+        predicted: &[Vector],
         budget: &mut Budget,
         phases: &mut Phases,
     ) -> Option<Candidate> {
@@ -154,26 +152,19 @@ impl World {
         system.take(self, contacts, predicted);
         let tolerance = self.settings.contact_tolerance;
         let found = multipliers::solve(system, system.start(self), tolerance, budget);
-        let implicit = std::mem::take(&mut system.implicit);
+        system.implicit.clear();
         phases.contacts += clock.lap();
-        let found = found.ok()?;
-        if !found.is_found {
-            *predicted = implicit.iter().map(Implicit::predicted).collect();
-            return None;
-        }
+        let found = found.ok()??;
         let solver = SolverRecord {
             residual: found.backward_error,
             factorisations: found.factorisations,
             sweeps: 0,
-            cut_short: false,
+            cut_short: !found.is_settled,
             contact_residual: found.contact_residual,
             slide_residual: 0.0,
         };
-        let impulses = implicit
-            .iter()
-            .map(|contact| contact.world_impulse(&found.x));
         let swept = Swept {
-            impulses: impulses.collect(),
+            impulses: found.impulses,
             ..Swept::default()
         };
         Some(Candidate {
