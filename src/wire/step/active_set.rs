@@ -48,10 +48,20 @@ pub(super) fn violates_branches(rows: &[Row], x: &[f64]) -> bool {
 
 /// Whether a solution lies outside the range of the branch of a row.
 pub(super) fn leaves_branch(rows: &[Row], x: &[f64]) -> bool {
-    let changing = || rows.iter().filter(|row| row.may_change());
-    let fastest = changing().fold(0.0, |a: f64, row| a.max(row.speed(x)));
+    leaves(rows.iter().filter(|row| row.may_change()), x)
+}
+
+/// The same of the rows alone whose law is not softened.
+pub(super) fn leaves_hard_branch(rows: &[Row], x: &[f64]) -> bool {
+    let hard = |row: &&Row| row.may_change() && row.softened.is_none();
+    leaves(rows.iter().filter(hard), x)
+}
+
+fn leaves<'a>(changing: impl Iterator<Item = &'a Row> + Clone, x: &[f64]) -> bool {
+    let fastest = changing.clone().fold(0.0, |a: f64, row| a.max(row.speed(x)));
     let accepted = RESIDUAL * fastest;
-    changing().any(|row| row.branch.is_left(row.excess(x), accepted))
+    let mut changing = changing;
+    changing.any(|row| row.branch.is_left(row.excess(x), accepted))
 }
 
 /// Finds the branches of all rows under impulses on velocities, from the velocities of `x` on. If
@@ -102,9 +112,7 @@ pub(super) fn find_active_set(
 pub(super) fn update_branches(rows: &mut [Row], x: &[f64]) -> bool {
     let mut changed = false;
     for row in rows.iter_mut().filter(|row| row.may_change()) {
-        let branch = row.law.branch(row.excess(x), row.sigma);
-        changed |= (branch.active, branch.start) != (row.branch.active, row.branch.start);
-        row.branch = branch;
+        changed |= row.take_branch(x, false);
     }
     changed
 }
@@ -125,7 +133,7 @@ pub(super) fn line_search(system: &System, x: &[f64], newton: &[f64], resolution
     for row in &system.rows {
         let ends = [row.excess(x), row.excess(newton)];
         let counts = if row.branch.active { 1.0 } else { 0.0 };
-        displacement[row.multiplier] = counts * (ends[1] - ends[0]) / row.sigma;
+        displacement[row.multiplier] = counts * (ends[1] - ends[0]) / row.regularisation();
         if row.may_change() {
             changes.push((ends, row));
         }
@@ -139,8 +147,9 @@ pub(super) fn line_search(system: &System, x: &[f64], newton: &[f64], resolution
         let terms = changes.iter().map(|([start, end], row)| {
             let rise = end - start;
             let excess = start + fraction * rise;
-            let law = row.law.branch(excess, row.sigma).load(excess, row.sigma);
-            rise / row.sigma * (law - row.branch.load(excess, row.sigma))
+            let sigma = row.regularisation();
+            let law = row.branch_at(excess).load(excess, sigma);
+            rise / sigma * (law - row.branch.load(excess, sigma))
         });
         let contacts = contacts.iter().map(|slope| slope(fraction));
         (fraction - 1.0) * curvature + terms.sum::<f64>() + contacts.sum::<f64>()

@@ -6,6 +6,7 @@ use super::capstan;
 use super::contact_nodes;
 use super::motion::{MotionScales, ProposedMotion, SlideRate};
 use super::solve_step::Candidate;
+use super::start::Start;
 use super::system::System;
 use crate::wire::clock::Clock;
 use crate::wire::contact::{ContactConstraint, check};
@@ -16,11 +17,14 @@ use crate::wire::record::{AddedInertia, Phases, StepRecord};
 use crate::wire::resolution::{self, Permit, RemeshGuard};
 use crate::wire::solver_cache::WarmStart;
 use crate::wire::sparse::Structure;
-use crate::wire::vector::Vector;
 use crate::wire::world::World;
 
-/// A solve may spend one part in so many of what is left: so there is something left for solving again.
-const SOLVE: i64 = 2;
+/// A solve may spend one part in so many of what is left: so there is something left for solving
+/// again.
+const SOLVE: usize = 2;
+
+/// A step is solved again as long as that may take one part in so many of what the first solve took.
+const AGAIN: usize = 4;
 
 impl World {
     /// Does one step with the contacts given. Every change of resolution is permitted.
@@ -91,14 +95,11 @@ impl World {
     ) -> Result<(System, Candidate, ProposedMotion), Reason> {
         let contacts = watch.contacts();
         let mut budget = Budget::of_step(self, contacts);
-        let start = contacts.iter();
-        let start: Vec<Vector> = start
-            .map(|contact| self.cache.warm_start.impulse(contact.key))
-            .collect();
-        let mut part = budget.part(SOLVE);
+        let whole = budget;
+        let start = Start::of_step(self, contacts);
         let (mut system, mut candidate) =
-            self.solve_step(structure, contacts, &start, &mut part, phases)?;
-        budget.take_back(part);
+            self.solve_in_part(structure, contacts, &start, &mut budget, phases)?;
+        let of_first = budget.spent_since(whole);
         let mut scales = MotionScales::all(self);
         loop {
             let mut motion = self.motion(&system.layout, &candidate.x, &scales);
@@ -111,22 +112,40 @@ impl World {
             phases.narrow += clock.lap();
             match judgement {
                 MotionReview::Accept => return Ok((system, candidate, motion)),
-                MotionReview::SolveAgain if budget.is_spent() => watch.keep_solution(),
+                MotionReview::SolveAgain if budget.times(of_first / AGAIN) < SOLVE => {
+                    candidate.solver.cut_short = true;
+                    watch.keep_solution();
+                }
                 MotionReview::SolveAgain => {
-                    *structure = system.take_structure();
                     let contacts = watch.contacts();
-                    let mut start = candidate.swept.impulses.clone();
-                    start.resize(contacts.len(), Vector::zeros());
-                    let mut part = budget.part(SOLVE);
-                    match self.solve_step(structure, contacts, &start, &mut part, phases) {
+                    let impulses = candidate.swept.impulses.clone();
+                    let start = Start::again(self, contacts, (&system, &candidate.x), impulses);
+                    *structure = system.take_structure();
+                    let again =
+                        self.solve_in_part(structure, contacts, &start, &mut budget, phases);
+                    match again {
                         Ok(solved) => (system, candidate) = solved,
                         Err(_) => watch.keep_solution(),
                     }
-                    budget.take_back(part);
                 }
                 MotionReview::Scale(scales_now) => scales = scales_now,
             }
         }
+    }
+
+    /// Solves with a part of what may be spent.
+    fn solve_in_part(
+        &self,
+        structure: &mut Option<Structure>,
+        contacts: &[ContactConstraint],
+        start: &Start,
+        budget: &mut Budget,
+        phases: &mut Phases,
+    ) -> Result<(System, Candidate), Reason> {
+        let mut part = budget.part(SOLVE);
+        let solved = self.solve_step(structure, contacts, start, &mut part, phases);
+        budget.take_back(part);
+        solved
     }
 
     /// The energies of the motion that was made; see [`StepRecord::energy`].

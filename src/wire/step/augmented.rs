@@ -10,25 +10,13 @@
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
 use super::coulomb::{to_cone, to_disk};
+use super::softness::Softness;
 use crate::wire::Vector;
-
-/// The first compliance of a contact to an impulse that was not predicted, as a fraction of its
-/// mobility. A large compliance takes few Newton steps; a small one leaves a small residual.
-const SOFT: f64 = 1e-2;
-
-/// The factor on that compliance at each new prediction.
-const HARDER: f64 = 0.1;
-
-/// The smallest compliance.
-const HARD: f64 = 1e-7;
 
 /// The impulse of one contact by its velocity `u`, both in the contact's frame: along the normal,
 /// then across.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Augmented {
-    /// What an impulse of this contact changes of its own velocity, in 1/kg. Only the order of
-    /// magnitude counts.
-    mobility: f64,
     /// Regularisation of the normal row, in 1/kg.
     sigma: f64,
     /// What is asked for of the normal velocity, in m/s.
@@ -40,8 +28,7 @@ pub(super) struct Augmented {
     bound: f64,
     /// Whether it is predicted to slide.
     slides: bool,
-    /// Compliance to what is not predicted, in 1/kg.
-    soft: f64,
+    softness: Softness,
 }
 
 impl Augmented {
@@ -57,14 +44,13 @@ impl Augmented {
         let slides = impulse.yz().norm() >= BORDER * friction * impulse.x;
         let impulse = to_cone(impulse, friction);
         Augmented {
-            mobility,
             sigma,
             target,
             friction,
             predicted: impulse,
             bound: friction * impulse.x,
             slides,
-            soft: SOFT * mobility,
+            softness: Softness::new(mobility),
         }
     }
 
@@ -76,7 +62,7 @@ impl Augmented {
     /// The impulse at a velocity: `((target - u_n + soft predicted_n) / (soft + sigma))+` and what
     /// of `predicted_t - u_t / soft` is within the bound.
     pub(super) fn impulse(&self, velocity: &Vector) -> Vector {
-        let normal = (self.push(velocity) / (self.sigma + self.soft)).max(0.0);
+        let normal = (self.push(velocity) / (self.sigma + self.softness.compliance)).max(0.0);
         let tangential = to_disk(self.stuck(velocity), self.bound);
         Vector::new(normal, tangential.x, tangential.y)
     }
@@ -93,10 +79,10 @@ impl Augmented {
         };
         let mut slope = Matrix3::zeros();
         if self.push(velocity) > 0.0 {
-            slope[(0, 0)] = 1.0 / (self.sigma + self.soft);
+            slope[(0, 0)] = 1.0 / (self.sigma + self.softness.compliance);
         }
         let mut tangential = slope.fixed_view_mut::<2, 2>(1, 1);
-        tangential.copy_from(&(across / self.soft));
+        tangential.copy_from(&(across / self.softness.compliance));
         slope
     }
 
@@ -117,19 +103,19 @@ impl Augmented {
 
     /// How far velocities are off if an impulse is taken for that of the law, in m/s.
     pub(super) fn linearisation_error(&self, velocity: &Vector, impulse: &Vector) -> f64 {
-        (self.impulse(velocity) - impulse).amax() * self.mobility
+        (self.impulse(velocity) - impulse).amax() * self.softness.mobility
     }
 
     /// How far velocities are off because an impulse differs from the prediction, in m/s.
     pub(super) fn residual(&self, velocity: &Vector, impulse: &Vector) -> f64 {
-        let given_way = (impulse - self.predicted).amax() * self.soft;
+        let given_way = (impulse - self.predicted).amax() * self.softness.compliance;
         let bound = self.friction * impulse.x;
         let unbound = if self.is_sliding(velocity) {
             (bound - self.bound).abs()
         } else {
             impulse.yz().norm() - bound
         };
-        given_way.max(unbound * self.mobility)
+        given_way.max(unbound * self.softness.mobility)
     }
 
     /// Predicts the impulse that came out at a velocity.
@@ -137,17 +123,17 @@ impl Augmented {
         self.slides = self.is_sliding(velocity);
         self.predicted = Vector::new(impulse.x.max(0.0), impulse.y, impulse.z);
         self.bound = self.friction * self.predicted.x;
-        self.soft = (self.soft * HARDER).max(self.mobility * HARD);
+        self.softness.harden();
     }
 
     /// Above 0 where it pushes, in m/s.
     fn push(&self, velocity: &Vector) -> f64 {
-        self.target - velocity.x + self.soft * self.predicted.x
+        self.target - velocity.x + self.softness.compliance * self.predicted.x
     }
 
     /// The friction if there were no bound.
     fn stuck(&self, velocity: &Vector) -> Vector2<f64> {
-        self.predicted.yz() - velocity.yz() / self.soft
+        self.predicted.yz() - velocity.yz() / self.softness.compliance
     }
 
     fn is_sliding(&self, velocity: &Vector) -> bool {

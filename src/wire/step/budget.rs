@@ -31,11 +31,16 @@ impl Budget {
         }
     }
 
-    /// Takes a part of it out, one in so many.
-    pub(super) fn part(&mut self, one_in: i64) -> Self {
-        let left = (self.left / one_in).max(0);
-        self.left -= left;
-        Budget { left }
+    /// One part of it in so many.
+    pub(super) fn share(&self, one_in: usize) -> usize {
+        usize::try_from(self.left).unwrap_or(0) / one_in.max(1)
+    }
+
+    /// Takes such a part out.
+    pub(super) fn part(&mut self, one_in: usize) -> Self {
+        let part = Budget::new(self.share(one_in));
+        self.left -= part.left;
+        part
     }
 
     /// Takes back what is left of a part, or what it spent too much.
@@ -54,6 +59,11 @@ impl Budget {
 
     /// How often something that costs so much may be done.
     pub(super) fn times(&self, cost: usize) -> usize {
-        usize::try_from(self.left).unwrap_or(0) / cost.max(1)
+        self.share(cost)
+    }
+
+    /// What was spent since it was another one.
+    pub(super) fn spent_since(&self, before: Budget) -> usize {
+        usize::try_from(before.left.saturating_sub(self.left)).unwrap_or(0)
     }
 }

@@ -59,6 +59,7 @@ pub(super) fn friction_rows(world: &World, layout: &Layout) -> Vec<Row> {
                 target: 0.0,
                 branch: law.branch(wire.nodes[node].slide, sigma),
                 law,
+                softened: None,
             });
         }
     }

@@ -7,7 +7,7 @@
 //! the fixed point of Haslinger (1983) for the friction that their normal impulses allow. Whatever
 //! its bound, friction takes energy.
 
-use super::active_set::{advance, leaves_branch, line_search, update_branches};
+use super::active_set::{advance, leaves_hard_branch, line_search};
 use super::budget::Budget;
 use super::capstan;
 use super::system::System;
@@ -28,9 +28,11 @@ const LINEARISATION: f64 = 0.1;
 const RESOLUTION: f64 = 1e-3;
 
 /// A residual of at most `NEARLY` times the tolerance that does not fall `STAYS` times in a row is
-/// accepted: it is rounding, or no contact can have the impulses that are asked for.
+/// accepted: it is rounding, or no contact can have the impulses that are asked for. A larger one has
+/// `FAR_STAYS` times: where things jam there may be no solution at all.
 const NEARLY: f64 = 100.0;
 const STAYS: usize = 3;
+const FAR_STAYS: usize = 6;
 
 /// A solution for some prediction.
 pub(super) struct Solution {
@@ -42,15 +44,17 @@ pub(super) struct Solution {
     pub(super) impulses: Vec<Vector>,
     /// The largest error of velocities because other impulses were predicted, in m/s.
     pub(super) contact_residual: f64,
-    /// Factorisations, those that came after it included.
+    /// Factorisations, those for other predictions included.
     pub(super) factorisations: usize,
-    /// Whether it is as close as was asked for, or as it gets. If not, contacts give way to what was
-    /// not predicted, by the residual.
+    /// Whether it is as close as was asked for, or as it gets; else this would have taken too much. The
+    /// solution is exact for its prediction all the same: momentum is kept, and contacts give way to what
+    /// was not predicted, by the residual.
     pub(super) is_settled: bool,
 }
 
-/// Finds velocities and impulses, from the velocities of `x` on. The tolerance is in m/s. None if
-/// not even the first prediction has a solution within the budget.
+/// Finds velocities and impulses, from the velocities of `x` on: of all predictions the solution with the
+/// least residual. The tolerance is in m/s. None if not even the first prediction has a solution within the
+/// budget.
 ///
 /// # Errors
 ///
@@ -61,48 +65,59 @@ pub(super) fn solve(
     tolerance: f64,
     budget: &mut Budget,
 ) -> Result<Option<Solution>, Reason> {
-    let mut solution: Option<Solution> = None;
-    let (mut least, mut stayed, mut factorisations) = (f64::INFINITY, 0, 0);
-    for _ in 0..ROUNDS {
+    let mut best: Option<Solution> = None;
+    let (mut stayed, mut factorisations, mut is_settled) = (0, 0, false);
+    for round in 1..=ROUNDS {
         let phase = minimise_for_predicted(system, &mut x, tolerance, &mut factorisations, budget)?;
         let Some(contact_residual) = phase else {
             break;
         };
+        let least = best.as_ref().map_or(f64::INFINITY, |best| best.contact_residual);
         stayed = if contact_residual < 0.9 * least {
             0
         } else {
             stayed + 1
         };
-        least = least.min(contact_residual);
-        let stays = contact_residual <= NEARLY * tolerance && stayed >= STAYS;
+        if best.is_none() || contact_residual < least {
+            best = Some(Solution::of(system, contact_residual)?);
+            budget.spend(system.multiplications_of_solve());
+        }
         let converged =
             contact_residual <= tolerance && !capstan::bounds_differ(&system.rows, &x);
-        let (refined, backward_error) = system.solve(&[])?;
-        budget.spend(system.multiplications_of_solve());
-        let impulses = system.implicit.iter();
-        solution = Some(Solution {
-            impulses: impulses
-                .map(|contact| contact.world_impulse(&refined))
-                .collect(),
-            x: refined,
-            backward_error,
-            contact_residual,
-            factorisations,
-            is_settled: true,
-        });
-        if converged || stays {
-            return Ok(solution);
+        let near = least <= NEARLY * tolerance;
+        is_settled = converged || round == ROUNDS || stayed >= if near { STAYS } else { FAR_STAYS };
+        if is_settled {
+            break;
         }
         capstan::update_bounds(&mut system.rows, &x);
+        for row in &mut system.rows {
+            row.update_prediction(&x);
+        }
         for contact in &mut system.implicit {
             contact.update_prediction(&x);
         }
     }
-    if let Some(solution) = &mut solution {
-        solution.is_settled = factorisations < TRIES && !budget.is_spent();
-        solution.factorisations = factorisations;
+    Ok(best.map(|best| Solution {
+        factorisations,
+        is_settled,
+        ..best
+    }))
+}
+
+impl Solution {
+    /// That of the system as factored.
+    fn of(system: &System, contact_residual: f64) -> Result<Self, Reason> {
+        let (x, backward_error) = system.solve(&[])?;
+        let contacts = system.implicit.iter();
+        Ok(Solution {
+            impulses: contacts.map(|contact| contact.world_impulse(&x)).collect(),
+            x,
+            backward_error,
+            contact_residual,
+            factorisations: 0,
+            is_settled: false,
+        })
     }
-    Ok(solution)
 }
 
 /// Minimises the function for the present prediction, as accurately as the residual asks for, from
@@ -119,7 +134,9 @@ fn minimise_for_predicted(
     // function.
     let mut predicted = true;
     while *factorisations < TRIES && !budget.is_spent() {
-        update_branches(&mut system.rows, x);
+        for row in system.rows.iter_mut().filter(|row| row.may_change()) {
+            row.take_branch(x, predicted);
+        }
         for contact in &mut system.implicit {
             contact.linearise(x, predicted);
         }
@@ -129,7 +146,7 @@ fn minimise_for_predicted(
         let newton = system.estimate();
         let [linearisation_error, contact_residual] = residuals(system, &newton);
         if linearisation_error <= LINEARISATION * contact_residual.max(tolerance)
-            && !leaves_branch(&system.rows, &newton)
+            && !leaves_hard_branch(&system.rows, &newton)
         {
             *x = newton;
             return Ok(Some(contact_residual));
@@ -148,9 +165,9 @@ fn minimise_for_predicted(
 /// The largest errors of velocities in m/s: because laws are not linear, and because other impulses
 /// were predicted.
 fn residuals(system: &System, x: &[f64]) -> [f64; 2] {
-    let contacts = system.implicit.iter();
-    contacts.fold([0.0; 2], |most: [f64; 2], contact| {
-        let own = contact.residuals(x);
+    let contacts = system.implicit.iter().map(|contact| contact.residuals(x));
+    let rows = system.rows.iter().map(|row| row.residuals(x));
+    contacts.chain(rows).fold([0.0; 2], |most: [f64; 2], own| {
         [most[0].max(own[0]), most[1].max(own[1])]
     })
 }

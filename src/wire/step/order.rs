@@ -55,8 +55,13 @@ pub(super) fn by_wires(world: &World) -> Vec<Block> {
     blocks
 }
 
-/// By least degree, with contacts as ties. None if contacts are few, or take too much.
-pub(super) fn by_least_degree(world: &World, contacts: &[ContactConstraint]) -> Option<Vec<Block>> {
+/// By least degree, with contacts as ties. None if contacts are few, or a factorisation takes more than
+/// `most` multiplications, or too many for each contact.
+pub(super) fn by_least_degree(
+    world: &World,
+    contacts: &[ContactConstraint],
+    most: usize,
+) -> Option<Vec<Block>> {
     if contacts.len() < MANY {
         return None;
     }
@@ -93,7 +98,7 @@ pub(super) fn by_least_degree(world: &World, contacts: &[ContactConstraint]) -> 
         ties.sort_unstable();
         ties.dedup();
     }
-    let order = least_degree(&sizes, ties, MOST * contacts.len())?;
+    let order = least_degree(&sizes, ties, most.min(MOST * contacts.len()))?;
     Some(order.into_iter().map(|block| blocks[block]).collect())
 }
 
@@ -191,7 +196,7 @@ mod tests {
     fn wires_across_one_are_solved_with_it_and_a_net_is_swept() {
         let suits = |along, across| {
             let (world, contacts) = net(along, across);
-            by_least_degree(&world, &contacts).is_some()
+            by_least_degree(&world, &contacts, usize::MAX).is_some()
         };
         assert!(!suits(1, 2));
         assert!(suits(1, 40));
@@ -207,7 +212,7 @@ mod tests {
         };
         let [mut wires, mut ties] = [
             by_wires(&world),
-            by_least_degree(&world, &contacts).unwrap(),
+            by_least_degree(&world, &contacts, usize::MAX).unwrap(),
         ]
         .map(|order| {
             let numbers: Vec<_> = order.iter().map(number).collect();

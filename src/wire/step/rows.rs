@@ -5,6 +5,7 @@ use smallvec::{SmallVec, smallvec};
 
 use super::carrier::{Carrier, Layout};
 use super::constitutive::{Branch, ConstitutiveLaw};
+use super::softness::Softness;
 use crate::wire::contact::ContactConstraint;
 use crate::wire::model::Wire;
 use crate::wire::settings::Settings;
@@ -30,6 +31,16 @@ pub(super) struct Row {
     pub(super) law: ConstitutiveLaw,
     /// The branch of the law that is solved with.
     pub(super) branch: Branch,
+    /// Where contacts are in the system, the law of a chain is softened.
+    pub(super) softened: Option<Softened>,
+}
+
+/// A law that gives way to a multiplier that was not predicted.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Softened {
+    softness: Softness,
+    /// The predicted multiplier in N s.
+    predicted: f64,
 }
 
 impl Row {
@@ -90,6 +101,88 @@ impl Row {
                 terms.any(|(_, along)| along.norm_squared() > 0.0)
             }
             ConstitutiveLaw::Friction { .. } => true,
+        }
+    }
+
+    /// Softens the law of a chain near a predicted multiplier, and takes the branch that gives it.
+    /// `masses` is the diagonal of the mass matrix.
+    pub(super) fn soften(&mut self, masses: &[f64], predicted: f64) {
+        if self.law != ConstitutiveLaw::TensionOnly || !self.may_change() {
+            return;
+        }
+        let mut mobility = 0.0;
+        self.each_column(|column, value| mobility += value * value / masses[column]);
+        // What nothing can move has no velocity to find.
+        if mobility > 0.0 {
+            self.softened = Some(Softened {
+                softness: Softness::new(mobility),
+                predicted: predicted.max(0.0),
+            });
+        }
+    }
+
+    /// What the multiplier changes of the row's velocity, in 1/kg.
+    pub(super) fn regularisation(&self) -> f64 {
+        let soft = self.softened.as_ref();
+        self.sigma + soft.map_or(0.0, |soft| soft.softness.compliance)
+    }
+
+    /// The branch of the law, softened or not, at an excess.
+    pub(super) fn branch_at(&self, excess: f64) -> Branch {
+        match &self.softened {
+            None => self.law.branch(excess, self.sigma),
+            Some(soft) => {
+                let start = -soft.softness.compliance * soft.predicted;
+                if excess > start {
+                    Branch {
+                        start,
+                        range: [start, f64::INFINITY],
+                        ..Branch::ACTIVE
+                    }
+                } else {
+                    Branch {
+                        range: [f64::NEG_INFINITY, start],
+                        ..Branch::INACTIVE
+                    }
+                }
+            }
+        }
+    }
+
+    /// Takes the branch that holds at a solution, or, of a law that is softened, that which gives
+    /// what was predicted. Returns whether this changes the system.
+    pub(super) fn take_branch(&mut self, x: &[f64], predicted: bool) -> bool {
+        let excess = match &self.softened {
+            Some(soft) if predicted && soft.predicted > 0.0 => self.sigma * soft.predicted,
+            _ => self.excess(x),
+        };
+        let branch = self.branch_at(excess);
+        let changed = (branch.active, branch.start) != (self.branch.active, self.branch.start);
+        self.branch = branch;
+        changed
+    }
+
+    /// How far velocities are off at a solution because the law is not the branch that was taken, and
+    /// because another multiplier was predicted, in m/s; zeros for a law that is not softened.
+    pub(super) fn residuals(&self, x: &[f64]) -> [f64; 2] {
+        let Some(soft) = &self.softened else {
+            return [0.0; 2];
+        };
+        let (excess, sigma) = (self.excess(x), self.regularisation());
+        let due = self.branch_at(excess).load(excess, sigma);
+        let off = (due - self.branch.load(excess, sigma)).abs() / sigma;
+        let unforeseen = (x[self.multiplier].max(0.0) - soft.predicted).abs();
+        [
+            off * soft.softness.mobility,
+            unforeseen * soft.softness.compliance,
+        ]
+    }
+
+    /// Makes the multiplier of a solution the next prediction.
+    pub(super) fn update_prediction(&mut self, x: &[f64]) {
+        if let Some(soft) = &mut self.softened {
+            soft.predicted = x[self.multiplier].max(0.0);
+            soft.softness.harden();
         }
     }
 
@@ -217,6 +310,7 @@ fn stretch(
         } else {
             Branch::INACTIVE
         },
+        softened: None,
     }
 }
 
@@ -260,6 +354,7 @@ fn bend(
             } else {
                 Branch::INACTIVE
             },
+            softened: None,
         }
     })
 }

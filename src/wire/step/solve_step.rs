@@ -8,6 +8,7 @@ use super::contact_blocks::Swept;
 use super::friction::{contact_residual, sweep};
 use super::multipliers;
 use super::order::{self, Block};
+use super::start::Start;
 use super::system::System;
 use crate::wire::Vector;
 use crate::wire::clock::Clock;
@@ -22,7 +23,10 @@ const ROUNDS: usize = 20;
 
 /// With the contacts in the system a solve may spend all but one part in so many, so that what did not come to an
 /// end can be swept.
-const IN_SYSTEM: i64 = 2;
+const IN_SYSTEM: usize = 2;
+
+/// Factorisations that there have to be enough for, or the contacts are swept at once.
+const NEWTON_STEPS: usize = 10;
 
 /// A solution of a step that is not committed yet.
 pub(super) struct Candidate {
@@ -34,12 +38,12 @@ pub(super) struct Candidate {
 impl World {
     /// Solves for velocities, multipliers and contact impulses; finds out which segments of chains
     /// pull and which wires slide over contact nodes, starting from those that did in the last
-    /// step, and from the impulses in `start`.
+    /// step, and from what `start` predicts.
     pub(super) fn solve_step(
         &self,
         structure: &mut Option<Structure>,
         contacts: &[ContactConstraint],
-        start: &[Vector],
+        start: &Start,
         budget: &mut Budget,
         phases: &mut Phases,
     ) -> Result<(System, Candidate), Reason> {
@@ -54,12 +58,13 @@ impl World {
         &self,
         structure: &mut Option<Structure>,
         contacts: &[ContactConstraint],
-        start: &[Vector],
+        start: &Start,
         budget: &mut Budget,
         phases: &mut Phases,
     ) -> Result<(System, Candidate), Reason> {
         let mut clock = Clock::start();
-        let by_least_degree = order::by_least_degree(self, contacts);
+        let most = budget.share(IN_SYSTEM * NEWTON_STEPS);
+        let by_least_degree = order::by_least_degree(self, contacts, most);
         phases.assembly += clock.lap();
         if let Some(order) = by_least_degree {
             let mut system = self.assemble(&order, structure, phases);
@@ -75,7 +80,7 @@ impl World {
         }
         let mut system = self.assemble(&order::by_wires(self), structure, phases);
         let candidate =
-            self.solve_with_swept_contacts(&mut system, contacts, start, budget, phases)?;
+            self.solve_with_swept_contacts(&mut system, contacts, &start.impulses, budget, phases)?;
         Ok((system, candidate))
     }
 
@@ -144,12 +149,12 @@ impl World {
         &self,
         system: &mut System,
         contacts: &[ContactConstraint],
-        predicted: &[Vector],
+        start: &Start,
         budget: &mut Budget,
         phases: &mut Phases,
     ) -> Option<Candidate> {
         let mut clock = Clock::start();
-        system.take(self, contacts, predicted);
+        system.take(self, contacts, start);
         let tolerance = self.settings.contact_tolerance;
         let found = multipliers::solve(system, system.start(self), tolerance, budget);
         system.implicit.clear();

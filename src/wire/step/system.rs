@@ -8,6 +8,7 @@ use super::implicit::Implicit;
 use super::order::Block;
 use super::rows::{Row, rows};
 use super::spin::spin_freely;
+use super::start::Start;
 use super::transverse::{TransverseInertia, transverse_inertias};
 use crate::wire::contact::ContactConstraint;
 use crate::wire::error::Reason;
@@ -141,13 +142,8 @@ impl System {
         }
     }
 
-    /// Takes contacts into the system, with their predicted impulses.
-    pub(super) fn take(
-        &mut self,
-        world: &World,
-        contacts: &[ContactConstraint],
-        impulses: &[Vector],
-    ) {
+    /// Takes contacts into the system, with their predicted impulses, and softens what chains hold.
+    pub(super) fn take(&mut self, world: &World, contacts: &[ContactConstraint], start: &Start) {
         let mut masses = vec![0.0; self.layout.size];
         let entries = self.triplets.index.iter().zip(&self.triplets.value);
         for (&(i, j), value) in entries.take(self.mass_entries) {
@@ -155,11 +151,14 @@ impl System {
                 masses[i as usize] += value;
             }
         }
-        let contacts = contacts.iter().zip(impulses);
+        let contacts = contacts.iter().zip(&start.impulses);
         let contacts = contacts.map(|(contact, impulse)| {
             Implicit::new(world, &self.layout, &masses, contact, impulse)
         });
         self.implicit = contacts.collect();
+        for (row, &tension) in self.rows.iter_mut().zip(&start.tensions) {
+            row.soften(&masses, tension);
+        }
     }
 
     /// The velocities before the step.
@@ -202,7 +201,7 @@ impl System {
             let weight = if active { 1.0 } else { 0.0 };
             let triplets = &mut self.triplets;
             row.each_column(|column, value| triplets.add(column, row.multiplier, weight * value));
-            let sigma = if active { row.sigma } else { 1.0 };
+            let sigma = if active { row.regularisation() } else { 1.0 };
             self.triplets.add(row.multiplier, row.multiplier, -sigma);
             self.right[row.multiplier] = weight * (row.target + start - row.given());
         }
@@ -220,10 +219,15 @@ impl System {
         factored.map_err(|unknown| Reason::Pivot { unknown })
     }
 
-    /// Multiplications of a factorisation and a solve.
+    /// Multiplications of a factorisation and a solve, and what putting the system together takes as
+    /// long as.
     pub(super) fn multiplications(&self) -> usize {
+        /// Of an entry, and of a contact: its law, and its part in a line search.
+        const ENTRY: usize = 8;
+        const CONTACT: usize = 500;
+        let own = ENTRY * self.triplets.index.len() + CONTACT * self.implicit.len();
         let ldl = self.structure.as_ref().map(|structure| &structure.ldl);
-        ldl.map_or(0, |ldl| ldl.multiplications() + ldl.multiplications_of_solve())
+        own + ldl.map_or(0, |ldl| ldl.multiplications() + ldl.multiplications_of_solve())
     }
 
     /// Multiplications of a solve that is refined and checked.
