@@ -23,6 +23,9 @@ pub(super) struct Settings {
     impact_speed: f64,
     /// Most sweeps over contacts that are swept in one solve; usual value 200.
     sweeps: usize,
+    /// What a step may spend on finding what pulls, pushes, sticks and slides: multiplications for
+    /// each segment and contact, and for 2000 more; usual value 10,000.
+    work: usize,
     /// Velocity in m/s by which contacts may be off: by which none may change in the last sweep;
     /// usual value 1e-8.
     contact_tolerance: f64,
@@ -46,6 +49,7 @@ impl Default for Settings {
             contact_damping: usual.contact_damping,
             impact_speed: usual.impact_speed,
             sweeps: usual.sweeps,
+            work: usual.work,
             contact_tolerance: usual.contact_tolerance,
             stability_margin: usual.stability_margin,
             split_ratio: usual.split_ratio,

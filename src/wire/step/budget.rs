@@ -67,3 +67,29 @@ impl Budget {
         usize::try_from(before.left.saturating_sub(self.left)).unwrap_or(0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_part_does_not_spend_or_spends_too_much_counts_for_the_whole() {
+        let mut budget = Budget::new(100);
+        let whole = budget;
+        let mut part = budget.part(4);
+        assert_eq!([budget.share(1), part.share(1)], [75, 25]);
+        part.spend(10);
+        budget.take_back(part);
+        assert_eq!((budget.share(1), budget.spent_since(whole)), (90, 10));
+        let mut part = budget.part(2);
+        part.spend(200);
+        assert!(part.is_spent() && !budget.is_spent());
+        budget.take_back(part);
+        assert!(budget.is_spent());
+        assert_eq!((budget.times(3), budget.spent_since(whole)), (0, 210));
+        assert_eq!(budget.part(2).share(1), 0);
+        let mut endless = Budget::new(usize::MAX);
+        endless.spend(usize::MAX);
+        assert!(endless.is_spent());
+    }
+}

@@ -6,7 +6,7 @@
 
 /// The first compliance, as a fraction of the mobility. A large one takes few Newton steps; a
 /// small one leaves a small residual.
-const SOFT: f64 = 1e-2;
+const SOFT: f64 = 1e-1;
 
 /// The factor on it at each new prediction.
 const HARDER: f64 = 0.1;

@@ -40,6 +40,7 @@ pub(super) fn every_field() -> State {
         contact_damping: n.next(),
         impact_speed: n.next(),
         sweeps: 17,
+        work: 19,
         contact_tolerance: n.next(),
         stability_margin: 0.25,
         split_ratio: n.next(),

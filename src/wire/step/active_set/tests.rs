@@ -66,13 +66,38 @@ fn pulling_segments_are_those_of_the_only_guess_that_holds() {
         // From whatever velocities the search starts.
         for speed in [0.0, 1.0, 1000.0] {
             let start = expected.iter().map(|_| rng.random_range(-1.0..1.0) * speed);
-            let pulled = find_active_set(&mut system, &[], start.collect()).unwrap();
+            let pulled = find_active_set(
+                &mut system,
+                &[],
+                start.collect(),
+                &mut Budget::new(usize::MAX),
+            )
+            .unwrap();
+            assert!(pulled.is_found);
             more_than_one += usize::from(pulled.factorisations > 1);
             let difference = pulled.x.iter().zip(&expected).map(|(a, b)| (a - b).abs());
             assert!(difference.fold(0.0, f64::max) < 1e-9);
         }
     }
     assert!(more_than_one > 20, "{more_than_one}");
+}
+
+/// What is not found in time still has the momentum of the impulses.
+#[test]
+fn search_that_is_cut_short_says_so_and_keeps_momentum() {
+    let rng = &mut ChaCha8Rng::seed_from_u64(4);
+    let mut cut = 0;
+    for _ in 0..20 {
+        let world = chain(rng);
+        let mut system = System::new(&world, &by_wires(&world), None);
+        let start = vec![0.0; system.layout.size];
+        let found = find_active_set(&mut system, &[], start, &mut Budget::new(0)).unwrap();
+        cut += usize::from(!found.is_found);
+        assert_eq!(found.is_found, !violates_branches(&system.rows, &found.x));
+        let (x, _) = system.solve(&[]).unwrap();
+        assert_eq!(found.x, x);
+    }
+    assert!(cut > 3, "{cut}");
 }
 
 #[test]

@@ -71,6 +71,48 @@ fn delassus_velocities_are_those_along_the_paths() {
     agree(&blocks, &delassus);
 }
 
+/// At a solution with friction the best multiple is 1; impulses that are too large are taken back to
+/// where they do the least, and those that do no good to nothing.
+#[test]
+fn impulses_are_scaled_back_to_where_they_take_energy() {
+    let (mut world, contacts) = over_a_drum();
+    (world.settings.sweeps, world.settings.contact_tolerance) = (100_000, 1e-11);
+    let (system, free) = solved(&world);
+    let start = vec![Vector::zeros(); contacts.len()];
+    let mut blocks = Blocks::new(&world, &system, &contacts, &free, &start);
+    Swept::default().repeat(&world.settings, usize::MAX, || blocks.relax());
+    let solution: Vec<Vector> = blocks
+        .list
+        .iter()
+        .map(|block| block.frame.tr_mul(&block.impulse))
+        .collect();
+    let scaled = |factor: f64| {
+        let start: Vec<Vector> = solution.iter().map(|impulse| impulse * factor).collect();
+        let mut blocks = Blocks::new(&world, &system, &contacts, &free, &start);
+        blocks.scale_to_best();
+        let excess = blocks.list.iter().map(|block| block.excess(&blocks.paths));
+        let excess: Vec<f64> = excess.flat_map(|e| [e.x, e.y, e.z]).collect();
+        let gained: f64 = blocks
+            .list
+            .iter()
+            .zip(excess.chunks_exact(3))
+            .map(|(block, e)| {
+                let mean = (Vector::from_column_slice(e) + block.bias) / 2.0;
+                block.impulse.dot(&mean)
+            })
+            .sum();
+        let impulse = blocks.list[3].frame.tr_mul(&blocks.list[3].impulse);
+        (impulse.norm() / solution[3].norm(), gained)
+    };
+    let (kept, gained) = scaled(1.0);
+    assert!((kept - 1.0).abs() < 1e-12 && gained < 0.0, "{kept} {gained}");
+    let (kept, of_large) = scaled(100.0);
+    assert!(kept < 2.0 && kept >= 1.0, "{kept}");
+    assert!(of_large <= gained, "{of_large} {gained}");
+    let (kept, gained) = scaled(-1.0);
+    assert_eq!([kept, gained], [0.0, 0.0]);
+}
+
 #[test]
 fn foretold_sweeps_reach_the_impulses_of_plain_ones_sooner() {
     let (mut world, contacts) = over_a_drum();
@@ -82,8 +124,8 @@ fn foretold_sweeps_reach_the_impulses_of_plain_ones_sooner() {
     expected.repeat(&world.settings, usize::MAX, || plain.relax());
     let mut blocks = Blocks::new(&world, &system, &contacts, &free, &start);
     let mut swept = Swept::default();
-    let delassus = Delassus::new(&blocks);
-    anderson::sweep(delassus, &mut blocks.list, &world.settings, &mut swept);
+    let mut delassus = Delassus::new(&blocks);
+    anderson::sweep(&mut delassus, &mut blocks.list, &world.settings, &mut swept);
     for found in [&expected, &swept] {
         assert!(found.is_converged(&world.settings), "{found:?}");
     }

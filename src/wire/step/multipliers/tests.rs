@@ -9,6 +9,7 @@ use crate::wire::contact::{ContactConstraint, ContactSite};
 use crate::wire::step::carrier::Columns;
 use crate::wire::step::friction::sweep;
 use crate::wire::step::order::{by_least_degree, by_wires};
+use crate::wire::step::start::Start;
 use crate::wire::step::rows::normal_row;
 use crate::wire::{Material, Settings, Stop, Vector, WireId, WirePlan, World};
 
@@ -92,17 +93,26 @@ fn laid_across(
     (world, contacts)
 }
 
+/// What is found from impulses of 0 within a budget.
+fn found_with(
+    world: &World,
+    contacts: &[ContactConstraint],
+    budget: &mut Budget,
+) -> (System, Option<Solution>) {
+    let order = by_least_degree(world, contacts, usize::MAX).unwrap();
+    let mut system = System::new(world, &order, None);
+    system.take(world, contacts, &Start::of_step(world, contacts));
+    let start = system.start(world);
+    let found = solve(&mut system, start, world.settings.contact_tolerance, budget).unwrap();
+    (system, found)
+}
+
 /// What is found from impulses of 0, and the impulses.
 fn found(world: &World, contacts: &[ContactConstraint]) -> (System, Solution, Vec<Vector>) {
-    let order = by_least_degree(world, contacts).unwrap();
-    let mut system = System::new(world, &order, None);
-    system.take(world, contacts, &vec![Vector::zeros(); contacts.len()]);
-    let start = system.start(world);
-    let found = solve(&mut system, start, world.settings.contact_tolerance).unwrap();
-    let impulses = system.implicit.iter();
-    let impulses = impulses
-        .map(|contact| contact.world_impulse(&found.x))
-        .collect();
+    let (system, found) = found_with(world, contacts, &mut Budget::new(usize::MAX));
+    let found = found.unwrap();
+    assert!(found.is_settled);
+    let impulses = found.impulses.clone();
     (system, found, impulses)
 }
 
@@ -112,6 +122,69 @@ fn velocity(world: &World, system: &System, contact: &ContactConstraint, x: &[f6
     carriers
         .map(|(carrier, share)| carrier.velocity(x) * share)
         .sum()
+}
+
+/// What the impulses alone do to the system without contacts, with the same segments pulling.
+fn moved_by(
+    system: &mut System,
+    world: &World,
+    contacts: &[ContactConstraint],
+    impulses: &[Vector],
+) -> Vec<f64> {
+    let mut columns = Vec::new();
+    for (contact, impulse) in contacts.iter().zip(impulses) {
+        for (carrier, share) in system.layout.place(world, &contact.a) {
+            let mut own = Columns::new();
+            carrier.columns(&(impulse * share), &mut own);
+            columns.extend(own);
+        }
+    }
+    system.implicit.clear();
+    system.factor().unwrap();
+    system.solve(&columns).unwrap().0
+}
+
+/// A budget may end the search anywhere: what it has found by then keeps momentum, its impulses push
+/// and keep to the friction that its prediction allows, and more of it is never further off.
+#[test]
+fn solution_of_any_budget_is_one_for_its_prediction() {
+    let rng = &mut ChaCha8Rng::seed_from_u64(3);
+    let [mut cut, mut nothing] = [0; 2];
+    for k in 0..10 {
+        let (world, contacts) = dragged(rng, Material::steel(0.01), 1.0);
+        let mut last = f64::INFINITY;
+        for steps in 0..50 {
+            // Up to three million.
+            let mut budget = Budget::new(10_000 + 1250 * steps * steps);
+            let (mut system, found) = found_with(&world, &contacts, &mut budget);
+            let Some(found) = found else {
+                assert_eq!(last, f64::INFINITY, "{k}: more found less");
+                nothing += 1;
+                continue;
+            };
+            cut += usize::from(!found.is_settled);
+            assert!(found.contact_residual <= last, "{k} {steps}");
+            last = found.contact_residual;
+            let energy = |impulse: &Vector, contact: &ContactConstraint| {
+                let push = impulse.dot(&contact.normal);
+                let slip = velocity(&world, &system, contact, &found.x);
+                (impulse - contact.normal * push).dot(&slip)
+            };
+            for (contact, impulse) in contacts.iter().zip(&found.impulses) {
+                assert!(impulse.dot(&contact.normal) >= 0.0);
+                assert!(energy(impulse, contact) < 1e-2, "{k} {steps}");
+            }
+            let impulses = found.impulses.clone();
+            let moved = moved_by(&mut system, &world, &contacts, &impulses);
+            for contact in &contacts {
+                let [u, expected] =
+                    [&found.x, &moved].map(|x| velocity(&world, &system, contact, x));
+                assert!((u - expected).amax() < 1e-6, "{k} {steps}: {u} {expected}");
+            }
+        }
+        assert!(last <= 1e-8, "{k}: {last}");
+    }
+    assert!(cut.min(nothing) > 10, "{cut} {nothing}");
 }
 
 #[test]
@@ -159,20 +232,9 @@ fn contacts_keep_to_coulombs_law_and_their_impulses_are_what_moves_the_wire() {
                 sticking += 1;
             }
         }
-        // The impulses alone, on the system without contacts.
-        let mut columns = Vec::new();
-        for (contact, impulse) in contacts.iter().zip(&impulses) {
-            for (carrier, share) in system.layout.place(&world, &contact.a) {
-                let mut own = Columns::new();
-                carrier.columns(&(impulse * share), &mut own);
-                columns.extend(own);
-            }
-        }
-        system.implicit.clear();
-        system.factor().unwrap();
-        let (x, _) = system.solve(&columns).unwrap();
+        let moved = moved_by(&mut system, &world, &contacts, &impulses);
         for contact in &contacts {
-            let [u, expected] = [&found.x, &x].map(|x| velocity(&world, &system, contact, x));
+            let [u, expected] = [&found.x, &moved].map(|x| velocity(&world, &system, contact, x));
             assert!((u - expected).amax() < 1e-7, "{k}: {u} {expected}");
         }
     }
@@ -194,7 +256,8 @@ fn impulses_are_those_that_sweeps_come_to() {
         system.factor().unwrap();
         let (free, _) = system.solve(&[]).unwrap();
         let start = vec![Vector::zeros(); contacts.len()];
-        let swept = sweep(&world, &system, &contacts, &free, &start);
+        let mut budget = Budget::new(usize::MAX);
+        let swept = sweep(&world, &system, &contacts, &free, &start, &mut budget);
         assert!(swept.residual <= 1e-12, "{k}: {}", swept.residual);
         for (impulse, expected) in impulses.iter().zip(&swept.impulses) {
             let difference = (impulse - expected).amax();
