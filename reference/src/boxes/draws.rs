@@ -56,7 +56,7 @@ impl Solid {
         let reach = if turned { (reach / 8).max(1) } else { reach };
         let halves = Vector3::from_fn(|_, _| rng.random_range(1..=reach));
         let rotation = match turned {
-            true => integer_rotation(rng).0,
+            true => turn(rng),
             false => Matrix3::identity(),
         };
         Solid::cuboid(halves).mapped(&rotation)
@@ -150,6 +150,16 @@ fn cast(rng: &mut dyn Rng, solids: [Solid; 2], steps: [Place; 2], exponent: i32)
         false => [second, first],
     };
     BoxCast::new(bodies).expect("the first is a box")
+}
+
+/// A rotation, with all lengths larger, that does not map axes to axes.
+fn turn(rng: &mut dyn Rng) -> Matrix3<i32> {
+    loop {
+        let (rotation, _) = integer_rotation(rng);
+        if rotation.iter().filter(|entry| **entry != 0).count() > 3 {
+            return rotation;
+        }
+    }
 }
 
 /// A map that permutes the axes and reverses some.
@@ -311,7 +321,7 @@ pub(super) fn start(rng: &mut dyn Rng, other: Other) -> BoxCast {
         // A corner of the other is inside the box.
         0..2 => {
             let large = Solid::any_box(rng, other, REACH);
-            let size = rng.random_range(4..=8);
+            let size = rng.random_range(8..=11);
             let other = Solid::other(rng, other, 1 << size);
             let corner = other.corner(rng);
             let share = rng.random_range(0..=8);
