@@ -5,10 +5,10 @@ use std::process::ExitCode;
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use tunnelproof_reference::boxes::{
-    BOX_FAMILIES, BoxFamily, Judged, box_family, judge_family, report,
-};
+use tunnelproof_reference::boxes::{BOX_FAMILIES, BoxFamily, box_family};
+use tunnelproof_reference::certify::boxes::{Judged, judge_family};
 use tunnelproof_reference::certify::tally::Fault;
+use tunnelproof_reference::report::boxes::report;
 use tunnelproof_reference::subject::Subject;
 
 use super::Failure;

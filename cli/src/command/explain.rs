@@ -5,12 +5,13 @@ use std::process::ExitCode;
 
 use clap::Args;
 use tunnelproof_cli::report::{self, picture};
-use tunnelproof_reference::boxes::{self, BoxId};
+use tunnelproof_reference::boxes::BoxId;
 use tunnelproof_reference::corpus::locate::locate;
 use tunnelproof_reference::corpus::turning;
 use tunnelproof_reference::generate::RigidId;
 use tunnelproof_reference::oracle::{decide_query, decide_rigid_query};
 use tunnelproof_reference::registry;
+use tunnelproof_reference::report::boxes;
 use tunnelproof_reference::report::explanation::Explanation;
 
 use super::output::{OutputFile, print};

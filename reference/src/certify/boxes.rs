@@ -1,4 +1,4 @@
-//! A program judged on the casts of a family.
+//! A program judged on boxes that are cast.
 
 use std::collections::BTreeMap;
 
@@ -8,37 +8,14 @@ use num_traits::{One, ToPrimitive};
 use rayon::prelude::*;
 use tunnelproof::contact::Case;
 
-use super::body::BoxCast;
-use super::families::{BoxFamily, BoxId};
-use super::nearest::{comes_within, least_square};
-use super::pairs::decide_pairs;
-use super::spans::span;
-use crate::answer::Enclosure;
-use crate::certify::tally::Fault;
-use crate::certify::verdict::{Judgement, Outline, OutlineHit, judge_outline};
+use super::tally::Fault;
+use super::verdict::{Judgement, Outline, OutlineHit, judge_outline};
+use crate::boxes::{BoxAnswer, BoxCast, BoxFamily, BoxId, comes_within, decide, least_square};
 use crate::program::{Program, frames};
 use crate::subject::{Answer, Lapse, LapseKind, NoAnswer, Said, Subject};
 
 /// How many casts a program is asked in one go.
 const CHUNK: u64 = 64;
-
-/// The exact answer to a cast.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BoxAnswer {
-    /// The first contact; `None` for a miss.
-    pub toi: Option<Enclosure>,
-    /// Whether the bodies, without their radii, pass into each other at any time of the step: then to
-    /// miss the contact is a tunnel, otherwise it is a missed graze.
-    pub overlaps: bool,
-}
-
-/// The exact answer to a cast.
-pub fn decide(cast: &BoxCast) -> BoxAnswer {
-    BoxAnswer {
-        toi: decide_pairs(cast),
-        overlaps: span(cast).is_some_and(|span| span.overlaps),
-    }
-}
 
 /// What was found of one program on one family.
 #[derive(Clone, Debug)]

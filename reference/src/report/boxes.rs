@@ -2,10 +2,9 @@
 
 use serde_json::{Map, Value, json};
 
-use super::body::{Body, BoxCast};
-use super::families::BoxId;
-use super::judge::{BoxWitness, Judged, decide};
 use crate::answer::Enclosure;
+use crate::boxes::{Body, BoxCast, BoxId, decide};
+use crate::certify::boxes::{BoxWitness, Judged};
 use crate::certify::tally::Fault;
 use crate::program::Conduct;
 
