@@ -152,7 +152,7 @@ fn box_numbers_are_exact_in_single_precision() {
             let points = corners.iter().copied().chain(ends);
             assert!(
                 points
-                    .flat_map(|p| <[f64; 3]>::from(p))
+                    .flat_map(<[f64; 3]>::from)
                     .chain(<[f64; 3]>::from(body.step()))
                     .all(is_single),
                 "{id}"
