@@ -1,7 +1,7 @@
 /*
  * What a shared library offers to be judged: tunnelproof certify --subject lib:./libmy_ccd.so
  *
- * It defines one or both of the functions below. They are called in a process of their own, one at a time, from one
+ * It defines some of the functions below. They are called in a process of their own, one at a time, from one
  * thread; several such processes run at once. A crash is counted as no answer to that query. What they write to the
  * standard output goes to the standard error.
  */
@@ -35,6 +35,19 @@ TUNNELPROOF_EXPORT int tunnelproof_edge_edge(const double points[24], const doub
 
 /* The same of a vertex A and a face BCD. */
 TUNNELPROOF_EXPORT int tunnelproof_vertex_face(const double points[24], const double radius[2], double *toi);
+
+/* The shapes of a cast. */
+#define TUNNELPROOF_SPHERE 0
+#define TUNNELPROOF_EDGE 1
+#define TUNNELPROOF_TRIANGLE 2
+#define TUNNELPROOF_BOX 3
+
+/*
+ * Whether two convex bodies that are translated touch, one of them a box: for certify-boxes. bodies: of each body x y z of four
+ * points at the start of the step, and of its translation. A sphere has the first point, an edge the first two, a triangle three;
+ * a box has a corner and the three corners beside it. radius: by how much a sphere or an edge is larger.
+ */
+TUNNELPROOF_EXPORT int tunnelproof_box_cast(const int shapes[2], const double bodies[30], const double radius[2], double *toi);
 
 #ifdef __cplusplus
 }

@@ -1,21 +1,21 @@
 "use strict";
 
 const witnesses = JSON.parse(document.getElementById("witnesses").textContent);
-const bench = document.getElementById("bench");
+const tables = [...document.querySelectorAll("table.bench")];
 
 // Sorting.
-bench.tHead.addEventListener("click", (event) => {
+for (const table of tables) table.tHead.addEventListener("click", (event) => {
   const button = event.target.closest("button");
   if (!button) return;
   const head = button.closest("th");
   const column = head.cellIndex;
   const isUp = head.getAttribute("aria-sort") !== "ascending";
-  for (const other of bench.tHead.rows[0].cells) other.removeAttribute("aria-sort");
+  for (const other of table.tHead.rows[0].cells) other.removeAttribute("aria-sort");
   head.setAttribute("aria-sort", isUp ? "ascending" : "descending");
   const key = (row) => column === 0 ? row.cells[0].textContent.trim().toLowerCase() : Number(row.cells[column].dataset.value);
-  const rows = [...bench.tBodies[0].rows];
+  const rows = [...table.tBodies[0].rows];
   rows.sort((a, b) => (key(a) < key(b) ? -1 : key(a) > key(b) ? 1 : 0) * (isUp ? 1 : -1));
-  bench.tBodies[0].append(...rows);
+  table.tBodies[0].append(...rows);
 });
 
 // Vectors.
@@ -30,17 +30,24 @@ const slider = section.querySelector("input");
 const output = section.querySelector("output");
 let shown = null;
 
-// What is drawn, in the frame of the second body.
+// What is drawn, in the frame of the second body: each body by its first point and the ways from there to others, of which the
+// body is all sums (of a triangle those with weights up to 1 together).
 function sceneOf(witness) {
+  const { bodies } = witness;
+  if (bodies) {
+    const base = bodies[1].points[0];
+    const points = bodies.map(({ points }) => points.map((point) => minus(point, base)));
+    return { points, passing: minus(bodies[0].step, bodies[1].step), radii: bodies.map(({ radius }) => radius) };
+  }
   const isFace = witness.kind === "vertex-face";
   const numbers = witness.points.map((point) => point.map(Number));
-  const bodies = isFace ? [[0], [1, 2, 3]] : [[0, 1], [2, 3]];
+  const sides = isFace ? [[0], [1, 2, 3]] : [[0, 1], [2, 3]];
   const step = (i) => minus(numbers[i + 4], numbers[i]);
-  const passing = minus(step(bodies[0][0]), step(bodies[1][0]));
-  const base = numbers[bodies[1][0]];
-  const points = bodies.map((body) => body.map((i) => minus(numbers[i], base)));
+  const passing = minus(step(sides[0][0]), step(sides[1][0]));
+  const base = numbers[sides[1][0]];
+  const points = sides.map((side) => side.map((i) => minus(numbers[i], base)));
   const radii = [witness.radius].flat().map(Number);
-  return { points, passing, radii: [radii[0], radii[1] ?? 0], isFace };
+  return { points, passing, radii: [radii[0], radii[1] ?? 0] };
 }
 
 function timeOf(toi) {
@@ -50,24 +57,27 @@ function timeOf(toi) {
 
 const at = (scene, body, time) => scene.points[body].map((p) => (body === 0 ? plus(p, scene.passing, time) : p));
 
+// A point of a body by as many numbers from 0 to 1 as it has ways: of a triangle v turns from one way to the other.
+function span(points, [u, v, w]) {
+  const ways = points.slice(1).map((point) => minus(point, points[0]));
+  const weights = ways.length === 2 ? [u * (1 - v), u * v] : [u, v, w];
+  return ways.reduce((sum, way, i) => plus(sum, way, weights[i]), points[0]);
+}
+
 // About where the two are nearest at a time: by samples, finer and finer.
 function nearest(scene, time) {
-  const [first, second] = [0, 1].map((body) => at(scene, body, time));
-  const span = (points, [u, v]) => points.length < 2 ? points[0]
-    : points.length < 3 ? plus(points[0], minus(points[1], points[0]), u)
-    : plus(plus(points[0], minus(points[1], points[0]), u * (1 - v)), minus(points[2], points[0]), u * v);
-  let best = { distance: Infinity, s: [0.5, 0.5], t: [0.5, 0.5] };
-  const grid = [-1, -0.5, 0, 0.5, 1];
+  const both = [0, 1].map((body) => at(scene, body, time));
+  const count = both[0].length + both[1].length - 2;
+  const grid = count > 3 ? [-1, 0, 1] : [-1, -0.5, 0, 0.5, 1];
+  let best = { distance: Infinity, places: Array(count).fill(0.5) };
   for (let reach = 0.5; reach > 1e-8; reach *= 0.6) {
-    const { s, t } = best;
-    const near = (x) => grid.map((g) => Math.min(1, Math.max(0, x + g * reach)));
-    for (const a of first.length > 1 ? near(s[0]) : [0])
-      for (const c of near(t[0]))
-        for (const d of second.length > 2 ? near(t[1]) : [0]) {
-          const [p, q] = [span(first, [a, 0]), span(second, [c, d])];
-          const distance = length(minus(p, q));
-          if (distance < best.distance) best = { distance, s: [a, 0], t: [c, d], p, q };
-        }
+    const start = best.places;
+    for (let sample = 0; sample < grid.length ** count; sample += 1) {
+      const places = start.map((x, i) => Math.min(1, Math.max(0, x + reach * grid[Math.floor(sample / grid.length ** i) % grid.length])));
+      const [p, q] = [span(both[0], places), span(both[1], places.slice(both[0].length - 1))];
+      const distance = length(minus(p, q));
+      if (distance < best.distance) best = { distance, places, p, q };
+    }
   }
   return best;
 }
@@ -81,7 +91,7 @@ function show(button, scrolls = true) {
   const sizes = scene.points.map((body) => Math.max(...body.map((point) => length(minus(point, body[0])))));
   const reach = Math.max(scene.radii[0] + scene.radii[1], length(scene.passing) * 0.6, Math.min(...sizes) * 0.6, 1e-9);
   shown = { scene, centre: plus(p, minus(q, p), 0.5), reach, turn: [0.6, 0.4], zoom: 1, exact, said };
-  for (const other of bench.querySelectorAll("[aria-pressed]")) other.removeAttribute("aria-pressed");
+  for (const other of document.querySelectorAll("[data-witness][aria-pressed]")) other.removeAttribute("aria-pressed");
   button.setAttribute("aria-pressed", "true");
   section.hidden = false;
   section.querySelector("h2").textContent = `${witness.method}: ${title(witness)}`;
@@ -134,20 +144,34 @@ function draw() {
     context.globalAlpha = alpha;
     context.strokeStyle = context.fillStyle = colours[which];
     context.lineCap = context.lineJoin = "round";
-    path(context, points);
-    context.lineWidth = Math.max(2 * scene.radii[which] * scale, 0.5);
-    context.stroke();
-    if (points.length > 2) context.fill();
+    const paths = points.length === 4 ? facesOf(points) : [points];
+    for (const face of paths) {
+      path(context, face);
+      context.lineWidth = Math.max(2 * scene.radii[which] * scale, 0.5);
+      context.stroke();
+      if (face.length > 2) context.fill();
+    }
     context.globalAlpha = Math.min(1, alpha * 2.5);
     context.lineWidth = 1.5;
-    path(context, points);
-    context.stroke();
+    for (const face of paths) {
+      path(context, face);
+      context.stroke();
+    }
   };
   body(0, 0, 0.12);
   body(0, 1, 0.12);
   body(1, 0, 0.4);
   body(0, time, 0.4);
   context.globalAlpha = 1;
+}
+
+// The faces of a box from a corner and those beside it.
+function facesOf([corner, ...beside]) {
+  const ways = beside.map((point) => minus(point, corner));
+  return [0, 1, 2].flatMap((normal) => {
+    const [p, q] = [ways[(normal + 1) % 3], ways[(normal + 2) % 3]];
+    return [corner, beside[normal]].map((at) => [at, plus(at, p), plus(plus(at, p), q), plus(at, q)]);
+  });
 }
 
 function path(context, points) {
@@ -158,7 +182,7 @@ function path(context, points) {
   if (points.length > 2) context.closePath();
 }
 
-bench.tBodies[0].addEventListener("click", (event) => {
+for (const table of tables) table.tBodies[0].addEventListener("click", (event) => {
   const button = event.target.closest("[data-witness]");
   if (button) show(button);
 });
@@ -193,5 +217,5 @@ canvas.addEventListener("wheel", (event) => {
 }, { passive: false });
 
 // The worst missed contact, to begin with.
-const first = bench.querySelector('tr:not(.own) [data-witness$="/within"], tr:not(.own) [data-witness$="/missed"]');
+const first = tables[0].querySelector('tr:not(.own) [data-witness$="/within"], tr:not(.own) [data-witness$="/missed"]');
 if (first) show(first, false);

@@ -11,7 +11,7 @@
 #include "tunnelproof_subject.h"
 
 struct body {
-    b3Vec3 points[3];
+    b3Vec3 points[8];
     int count;
     float radius;
     b3Vec3 step;
@@ -86,5 +86,31 @@ int tunnelproof_edge_edge(const double points[24], const double radius[2], doubl
 
 int tunnelproof_vertex_face(const double points[24], const double radius[2], double *toi) {
     struct body a = body(points, 0, 1, radius[0] + radius[1] + peers_skin(), points), b = body(points, 1, 3, 0, points);
+    return cast(&a, &b, toi);
+}
+
+/* A box is its corners, which are exact however it is turned. */
+static struct body convex(const struct peers_body *from, const double origin[3]) {
+    static const int counts[] = {1, 2, 3, 8};
+    struct body body;
+    body.count = counts[from->shape];
+    for (int i = 0; i < body.count; i++) {
+        double p[3];
+        struct peers_body sharp = *from;
+        sharp.radius = 0;
+        if (from->shape == TUNNELPROOF_BOX) peers_corner(&sharp, i, p);
+        else memcpy(p, from->points + 3 * i, sizeof p);
+        body.points[i] = vector(p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]);
+    }
+    if (body.count == 2 && memcmp(&body.points[0], &body.points[1], sizeof(b3Vec3)) == 0) body.count = 1;
+    body.radius = (float)from->radius;
+    body.step = vector(from->step[0], from->step[1], from->step[2]);
+    return body;
+}
+
+int tunnelproof_box_cast(const int shapes[2], const double bodies[30], const double radius[2], double *toi) {
+    struct peers_body both[2];
+    peers_bodies(shapes, bodies, radius, both);
+    struct body a = convex(&both[0], bodies), b = convex(&both[1], bodies);
     return cast(&a, &b, toi);
 }

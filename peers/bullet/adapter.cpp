@@ -1,8 +1,11 @@
 // The convex casts of Bullet as a library that tunnelproof judges. PEERS_METHOD chooses the cast: subsimplex, gjk or
 // continuous. The casts are for bodies that are apart: so the closest points are asked for first, and a distance of at most 0
 // is a hit at the start. Edges with a radius are capsules or spheres; edges without are not asked, since its shapes are not meant to
-// be without a margin. The triangle has a margin of 0.
+// be without a margin. Triangles have a margin of 0, boxes too but for btGjkConvexCast; a box that is turned is the hull of its
+// corners.
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/CollisionShapes/btTriangleShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
@@ -65,6 +68,58 @@ Body triangle(const double points[24]) {
     return body;
 }
 
+// btGjkConvexCast has nothing for shapes that touch without their margins: without margins it misses most contacts of boxes.
+// So its boxes have the margin that Bullet gives them, a tenth of the least half side, which rounds the corners. A hull with a
+// margin would be larger than the box.
+bool needs_margin() {
+    static const char *method = getenv("PEERS_METHOD");
+    return method && !strcmp(method, "gjk");
+}
+
+// Of a box along the axes the box, else the hull of the corners, seen from the first.
+Body box(const peers_body &from) {
+    Body body;
+    double centre[3], half[3];
+    if (peers_aligned(&from, centre, half)) {
+        auto shape = std::make_unique<btBoxShape>(vector(half));
+        if (!needs_margin()) {
+            shape->setMargin(0);
+            // A margin that was taken off and added again is rounded.
+            shape->setImplicitShapeDimensions(vector(half));
+        }
+        body.shape = std::move(shape);
+    } else {
+        auto hull = std::make_unique<btConvexHullShape>();
+        memcpy(centre, from.points, sizeof centre);
+        for (int i = 0; i < 8; i++) {
+            double corner[3];
+            peers_corner(&from, i, corner);
+            hull->addPoint(btVector3(corner[0] - centre[0], corner[1] - centre[1], corner[2] - centre[2]), i == 7);
+        }
+        hull->setMargin(0);
+        body.shape = std::move(hull);
+    }
+    body.from = btTransform(btQuaternion::getIdentity(), vector(centre));
+    body.to = btTransform(btQuaternion::getIdentity(), vector(centre) + vector(from.step));
+    return body;
+}
+
+// A body of a cast of a box, by the points of a query: A B of a capsule, A of a sphere, B C D of a triangle.
+Body convex(const peers_body &from) {
+    double points[24];
+    int first = from.shape == TUNNELPROOF_TRIANGLE ? 1 : 0;
+    for (int i = 0; i < 9; i++) {
+        points[3 * first + i] = from.points[i];
+        points[12 + 3 * first + i] = from.points[i] + from.step[i % 3];
+    }
+    switch (from.shape) {
+        case TUNNELPROOF_BOX: return box(from);
+        case TUNNELPROOF_TRIANGLE: return triangle(points);
+        case TUNNELPROOF_SPHERE: return sphere(points, from.radius);
+        default: return capsule(points, 0, from.radius);
+    }
+}
+
 std::unique_ptr<btConvexCast> make_cast(const Body &a, const Body &b, btVoronoiSimplexSolver &simplex,
                                         btGjkEpaPenetrationDepthSolver &depth) {
     static const char *method = getenv("PEERS_METHOD");
@@ -110,4 +165,16 @@ int tunnelproof_vertex_face(const double points[24], const double radius[2], dou
     double both = radius[0] + radius[1];
     if (both <= 0) return TUNNELPROOF_UNSUPPORTED;
     return cast(sphere(points, both + peers_skin()), triangle(points), toi);
+}
+
+int tunnelproof_box_cast(const int shapes[2], const double bodies[30], const double radius[2], double *toi) {
+    peers_body both[2];
+    peers_bodies(shapes, bodies, radius, both);
+    for (const peers_body &body : both) {
+        double centre[3], half[3];
+        bool is_turned = body.shape == TUNNELPROOF_BOX && !peers_aligned(&body, centre, half);
+        if (is_turned && needs_margin()) return TUNNELPROOF_UNSUPPORTED;
+        if (body.shape <= TUNNELPROOF_EDGE && body.radius <= 0) return TUNNELPROOF_UNSUPPORTED;
+    }
+    return cast(convex(both[0]), convex(both[1]), toi);
 }

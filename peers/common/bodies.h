@@ -8,6 +8,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "tunnelproof_subject.h"
+
 /* How much larger the first body is asked to be: the value of PEERS_SKIN, in metres. */
 static double peers_skin(void) {
     static double skin = -1;
@@ -50,6 +52,57 @@ static struct peers_capsule peers_capsule(const double points[24], int first, in
     capsule.rotation[last] = along[next] / norm;
     capsule.rotation[3] = w / norm;
     return capsule;
+}
+
+/* A body of a cast of a box: its shape, points and translation as in tunnelproof_subject.h, and by how much it is larger. */
+struct peers_body {
+    int shape;
+    const double *points, *step;
+    double radius;
+};
+
+/* Both bodies. The skin is that of the first body with a radius or, without one, of the first box. */
+static void peers_bodies(const int shapes[2], const double bodies[30], const double radius[2], struct peers_body both[2]) {
+    for (int i = 0; i < 2; i++) {
+        struct peers_body body = {shapes[i], bodies + 15 * i, bodies + 15 * i + 12, radius[i]};
+        both[i] = body;
+    }
+    int round = radius[0] > 0 ? 0 : radius[1] > 0 ? 1 : -1;
+    both[round >= 0 ? round : shapes[0] == TUNNELPROOF_BOX ? 0 : 1].radius += peers_skin();
+}
+
+/* Corner `number` of a box: bit i says whether it is at the far end of side i. A box that is asked larger has longer sides. */
+static void peers_corner(const struct peers_body *box, int number, double corner[3]) {
+    const double *p = box->points;
+    for (int k = 0; k < 3; k++) corner[k] = p[k];
+    for (int side = 0; side < 3; side++) {
+        double along[3], length = 0;
+        for (int k = 0; k < 3; k++) {
+            along[k] = p[3 * (side + 1) + k] - p[k];
+            length += along[k] * along[k];
+        }
+        int far = number >> side & 1;
+        /* Without a skin nothing is rounded. */
+        double by = box->radius > 0 ? box->radius / sqrt(length) : 0;
+        for (int k = 0; k < 3; k++) corner[k] += far ? along[k] + by * along[k] : -by * along[k];
+    }
+}
+
+/* The middle of a box along the axes and half of its sides. Returns 0 for a box that is turned. */
+static int peers_aligned(const struct peers_body *box, double centre[3], double half[3]) {
+    for (int k = 0; k < 3; k++) centre[k] = box->points[k], half[k] = 0;
+    for (int side = 0; side < 3; side++) {
+        int axes = 0;
+        for (int k = 0; k < 3; k++) {
+            double along = box->points[3 * (side + 1) + k] - box->points[k];
+            if (along == 0) continue;
+            axes += 1;
+            centre[k] += 0.5 * along;
+            half[k] = 0.5 * fabs(along) + box->radius;
+        }
+        if (axes != 1) return 0;
+    }
+    return 1;
 }
 
 #endif

@@ -2,7 +2,6 @@
 // input it says how long the engine took, in one line of JSON on the standard error.
 import fs from "node:fs";
 
-const QUERY = 228;
 const ANSWER = 24;
 
 // What an engine prints must not be taken for answers.
@@ -43,8 +42,25 @@ function parse(frame) {
   };
 }
 
-// `answer` returns a time of impact, null for a miss, or undefined for a query that the engine does not take.
-export function serve(answer) {
+// Both bodies of a cast of a box: a shape, its points and translation, and by how much it is larger. The skin is that of the
+// first body with a radius or, without one, of the first box.
+function parseCast(frame) {
+  const number = (i) => frame.readDoubleLE(20 + 8 * i);
+  const point = (i) => [0, 1, 2].map((k) => number(2 + 3 * i + k));
+  const bodies = [0, 1].map((i) => ({
+    shape: ["sphere", "edge", "triangle", "box"][frame.readUInt16LE(16 + 2 * i)],
+    points: [0, 1, 2, 3].map((k) => point(5 * i + k)),
+    step: point(5 * i + 4),
+    radius: number(i),
+  }));
+  const larger = bodies.find((body) => body.radius > 0) ?? bodies.find((body) => body.shape === "box");
+  larger.radius += skin;
+  return bodies;
+}
+
+// `answer` and, for casts of boxes, `answerCast` return a time of impact, null for a miss, or undefined for a query that the
+// engine does not take.
+export function serve(answer, answerCast) {
   let input = Buffer.alloc(0);
   const chunk = Buffer.alloc(1 << 16);
   for (;;) {
@@ -52,15 +68,16 @@ export function serve(answer) {
     if (count === 0) break;
     input = Buffer.concat([input, chunk.subarray(0, count)]);
     const answers = [];
-    while (input.length >= QUERY) {
-      const toi = answer(parse(input));
+    while (input.length >= 4 && input.length >= 4 + input.readUInt32LE(0)) {
+      const query = input.subarray(0, 4 + input.readUInt32LE(0));
+      const toi = query.readUInt32LE(12) === 2 ? answerCast(parseCast(query)) : answer(parse(query));
       const frame = Buffer.alloc(4 + ANSWER);
       frame.writeUInt32LE(ANSWER, 0);
-      input.copy(frame, 4, 4, 12);
+      query.copy(frame, 4, 4, 12);
       frame.writeUInt32LE(toi === undefined ? 2 : toi === null ? 0 : 1, 12);
       frame.writeDoubleLE(toi ?? 0, 20);
       answers.push(frame);
-      input = input.subarray(QUERY);
+      input = input.subarray(query.length);
     }
     write(Buffer.concat(answers));
   }
@@ -112,4 +129,35 @@ export function capsule([a, b], axis) {
 // The corners of a face relative to the first, which is the origin of its frame.
 export function corners(points) {
   return points.slice(1).map((point) => subtract(point, points[1]));
+}
+
+const sides = (box) => box.points.slice(1).map((point) => subtract(point, box.points[0]));
+
+// The middle of a box along the axes and half of its sides; null for one that is turned.
+export function aligned(box) {
+  const [centre, half] = [[...box.points[0]], [0, 0, 0]];
+  for (const along of sides(box)) {
+    if (along.filter((x) => x !== 0).length !== 1) return null;
+    const axis = along.findIndex((x) => x !== 0);
+    centre[axis] += 0.5 * along[axis];
+    half[axis] = 0.5 * Math.abs(along[axis]) + box.radius;
+  }
+  return { centre, half };
+}
+
+// The corners of a box relative to the first, and two triangles for each face, counterclockwise from outside.
+export function hull(box) {
+  const ways = sides(box);
+  const lengths = ways.map((way) => Math.hypot(...way));
+  // Without a skin nothing is rounded.
+  const by = lengths.map((length) => (box.radius > 0 ? box.radius / length : 0));
+  const corner = (number) => [0, 1, 2].map((k) =>
+    ways.reduce((sum, way, side) => sum + ((number >> side) & 1 ? way[k] + by[side] * way[k] : -by[side] * way[k]), 0));
+  const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(corner);
+  const [x, y, z] = ways;
+  const cross = [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]];
+  const isRight = cross[0] * z[0] + cross[1] * z[1] + cross[2] * z[2] > 0;
+  const quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+  const faces = quads.flatMap(([a, b, c, d]) => [[a, b, c], [a, c, d]]).map(([a, b, c]) => (isRight ? [a, b, c] : [a, c, b]));
+  return { corners, faces };
 }

@@ -12,6 +12,73 @@ pub struct Asked {
     pub points: [[f64; 3]; 8],
 }
 
+/// What a body of a cast of a box is, without its radius.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    Sphere,
+    Edge,
+    Triangle,
+    /// Its points are a corner and the three corners beside it.
+    Box,
+}
+
+/// A body of a cast of a box.
+pub struct Convex {
+    pub form: Form,
+    /// At the start of the step; as many of them as the form has.
+    pub points: [[f64; 3]; 4],
+    pub step: [f64; 3],
+    /// By how much it is larger; of a box, with a skin alone.
+    pub radius: f64,
+}
+
+impl Convex {
+    /// The corners of a box: bit `i` of the number of one says whether it is at the far end of side `i`.
+    pub fn corners(&self) -> [[f64; 3]; 8] {
+        std::array::from_fn(|number| {
+            let mut corner = self.points[0];
+            for (side, along) in self.sides().into_iter().enumerate() {
+                let length = along.iter().map(|x| x * x).sum::<f64>().sqrt();
+                // Without a skin nothing is rounded.
+                let by = if self.radius > 0.0 {
+                    self.radius / length
+                } else {
+                    0.0
+                };
+                for (x, way) in corner.iter_mut().zip(along) {
+                    *x += if number >> side & 1 == 1 {
+                        way + by * way
+                    } else {
+                        -by * way
+                    };
+                }
+            }
+            corner
+        })
+    }
+
+    /// The middle of a box along the axes and half of its sides; `None` for one that is turned.
+    #[allow(dead_code, reason = "not every adapter has boxes of its own")]
+    pub fn aligned(&self) -> Option<[[f64; 3]; 2]> {
+        let [mut centre, mut half] = [self.points[0], [0.0; 3]];
+        for along in self.sides() {
+            let mut axes = (0..3).filter(|axis| along[*axis] != 0.0);
+            let (axis, None) = (axes.next()?, axes.next()) else {
+                return None;
+            };
+            centre[axis] += 0.5 * along[axis];
+            half[axis] = 0.5 * along[axis].abs() + self.radius;
+        }
+        Some([centre, half])
+    }
+
+    /// From the corner to those beside it.
+    fn sides(&self) -> [[f64; 3]; 3] {
+        let [corner, beside @ ..] = &self.points;
+        std::array::from_fn(|side| std::array::from_fn(|k| beside[side][k] - corner[k]))
+    }
+}
+
 /// What an engine says.
 pub enum Said {
     Hit(f64),
@@ -56,23 +123,32 @@ pub fn skin() -> f64 {
     text.parse().unwrap_or(0.0)
 }
 
-/// Answers until the input ends.
+/// Answers until the input ends. `cast` answers casts of boxes.
 ///
 /// # Errors
 ///
 /// What the pipes say.
-pub fn serve(mut answer: impl FnMut(&Asked, &mut Clock) -> Said) -> io::Result<()> {
+pub fn serve(
+    mut answer: impl FnMut(&Asked, &mut Clock) -> Said,
+    mut cast: impl FnMut(&[Convex; 2], &mut Clock) -> Said,
+) -> io::Result<()> {
     let (mut input, mut output) = (io::stdin().lock(), io::stdout().lock());
     let mut clock = Clock::default();
-    let mut frame = [0; 228];
-    while let Ok(()) = input.read_exact(&mut frame) {
-        let (verdict, toi) = match answer(&asked(&frame), &mut clock) {
+    let mut length = [0; 4];
+    while let Ok(()) = input.read_exact(&mut length) {
+        let mut frame = vec![0; u32::from_le_bytes(length) as usize];
+        input.read_exact(&mut frame)?;
+        let said = match frame[8] {
+            2 => cast(&bodies(&frame), &mut clock),
+            _ => answer(&asked(&frame), &mut clock),
+        };
+        let (verdict, toi) = match said {
             Said::Miss => (0u64, 0.0),
             Said::Hit(toi) => (1, toi),
             Said::Unsupported => (2, 0.0),
         };
         let mut reply = 24u32.to_le_bytes().to_vec();
-        reply.extend_from_slice(&frame[4..12]);
+        reply.extend_from_slice(&frame[..8]);
         reply.extend_from_slice(&verdict.to_le_bytes());
         reply.extend_from_slice(&toi.to_le_bytes());
         output.write_all(&reply)?;
@@ -82,15 +158,41 @@ pub fn serve(mut answer: impl FnMut(&Asked, &mut Clock) -> Said) -> io::Result<(
     Ok(())
 }
 
-fn asked(frame: &[u8; 228]) -> Asked {
-    let number = |i: usize| {
-        let mut bytes = [0; 8];
-        bytes.copy_from_slice(&frame[20 + 8 * i..28 + 8 * i]);
-        f64::from_le_bytes(bytes)
-    };
+fn number(frame: &[u8], i: usize) -> f64 {
+    let mut bytes = [0; 8];
+    bytes.copy_from_slice(&frame[16 + 8 * i..24 + 8 * i]);
+    f64::from_le_bytes(bytes)
+}
+
+fn point(frame: &[u8], i: usize) -> [f64; 3] {
+    std::array::from_fn(|k| number(frame, 2 + 3 * i + k))
+}
+
+fn asked(frame: &[u8]) -> Asked {
     Asked {
-        is_face: frame[12] == 1,
-        radii: [number(0), number(1)],
-        points: std::array::from_fn(|i| std::array::from_fn(|k| number(2 + 3 * i + k))),
+        is_face: frame[8] == 1,
+        radii: [number(frame, 0), number(frame, 1)],
+        points: std::array::from_fn(|i| point(frame, i)),
     }
+}
+
+/// Both bodies. The skin is that of the first body with a radius or, without one, of the first box.
+fn bodies(frame: &[u8]) -> [Convex; 2] {
+    let mut bodies = [0, 1].map(|i| Convex {
+        form: match frame[12 + 2 * i] {
+            0 => Form::Sphere,
+            1 => Form::Edge,
+            2 => Form::Triangle,
+            _ => Form::Box,
+        },
+        points: std::array::from_fn(|k| point(frame, 5 * i + k)),
+        step: point(frame, 5 * i + 4),
+        radius: number(frame, i),
+    });
+    let round = bodies.iter().position(|body| body.radius > 0.0);
+    let first = bodies.iter().position(|body| body.form == Form::Box);
+    if let Some(body) = round.or(first) {
+        bodies[body].radius += skin();
+    }
+    bodies
 }

@@ -1,6 +1,6 @@
 // Continuous collision of FCL as a library that tunnelproof judges. PEERS_METHOD chooses the solver: naive, with all
 // settings as the library has them, or conservative-advancement. Edges with a radius are capsules or spheres, a face is a
-// mesh of one triangle.
+// mesh of one triangle, a box that is turned the hull of its corners.
 #include <fcl/fcl.h>
 
 #include <cstring>
@@ -66,6 +66,51 @@ Body triangle(const double points[24]) {
     return body;
 }
 
+// Of a box along the axes the box, else the hull of the corners, seen from the first, with its faces outwards.
+Body box(const peers_body &from) {
+    static const int faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    Body body;
+    double centre[3], half[3];
+    if (peers_aligned(&from, centre, half)) {
+        body.shape = std::make_shared<fcl::Boxd>(2 * half[0], 2 * half[1], 2 * half[2]);
+    } else {
+        memcpy(centre, from.points, sizeof centre);
+        auto corners = std::make_shared<std::vector<Vector>>();
+        for (int i = 0; i < 8; i++) {
+            double corner[3];
+            peers_corner(&from, i, corner);
+            corners->push_back(vector(corner) - vector(centre));
+        }
+        bool is_right = (*corners)[1].cross((*corners)[2]).dot((*corners)[4]) > 0;
+        auto list = std::make_shared<std::vector<int>>();
+        for (const int *face : faces) {
+            list->push_back(4);
+            for (int i = 0; i < 4; i++) list->push_back(face[is_right ? i : 3 - i]);
+        }
+        body.shape = std::make_shared<fcl::Convexd>(corners, 6, list);
+    }
+    body.shape->computeLocalAABB();
+    body.from.translation() = vector(centre);
+    body.to.translation() = vector(centre) + vector(from.step);
+    return body;
+}
+
+// A body of a cast of a box, by the points of a query: A B of a capsule, A of a sphere, B C D of a triangle.
+Body convex(const peers_body &from) {
+    double points[24];
+    int first = from.shape == TUNNELPROOF_TRIANGLE ? 1 : 0;
+    for (int i = 0; i < 9; i++) {
+        points[3 * first + i] = from.points[i];
+        points[12 + 3 * first + i] = from.points[i] + from.step[i % 3];
+    }
+    switch (from.shape) {
+        case TUNNELPROOF_BOX: return box(from);
+        case TUNNELPROOF_TRIANGLE: return triangle(points);
+        case TUNNELPROOF_SPHERE: return sphere(points, from.radius);
+        default: return capsule(points, 0, from.radius);
+    }
+}
+
 fcl::ContinuousCollisionRequestd request() {
     fcl::ContinuousCollisionRequestd request;
     const char *method = getenv("PEERS_METHOD");
@@ -95,4 +140,12 @@ int tunnelproof_vertex_face(const double points[24], const double radius[2], dou
     double both = radius[0] + radius[1];
     if (both <= 0) return TUNNELPROOF_UNSUPPORTED;
     return cast(sphere(points, both + peers_skin()), triangle(points), toi);
+}
+
+int tunnelproof_box_cast(const int shapes[2], const double bodies[30], const double radius[2], double *toi) {
+    peers_body both[2];
+    peers_bodies(shapes, bodies, radius, both);
+    for (const peers_body &body : both)
+        if (body.shape <= TUNNELPROOF_EDGE && body.radius <= 0) return TUNNELPROOF_UNSUPPORTED;
+    return cast(convex(both[0]), convex(both[1]), toi);
 }

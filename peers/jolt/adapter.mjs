@@ -1,7 +1,7 @@
 // The shape cast of Jolt Physics, in WebAssembly and single precision: the first body is cast by the difference of the
 // two translations against the second one at rest.
 import initJolt from "jolt-physics";
-import { capsule, corners, serve, skin, timed } from "../common/frames.mjs";
+import { aligned, capsule, corners, serve, skin, timed } from "../common/frames.mjs";
 
 const Jolt = await initJolt();
 
@@ -63,6 +63,32 @@ function bodies({ isFace, points, radii }) {
   return [{ shape: ball, centre: points[0], rotation: [0, 0, 0, 1] }, face(points)];
 }
 
+// A body of a cast of a box, or undefined for one that is not asked.
+function convex(body) {
+  const { shape, points, radius } = body;
+  if (shape === "triangle") return face([null, ...points.slice(0, 3)]);
+  if (shape !== "box") return radius > 0 ? edge([points[0], points[shape === "edge" ? 1 : 0]], radius) : undefined;
+  const box = aligned(body);
+  if (box === null) return undefined;
+  const half = new Jolt.Vec3(...box.half);
+  const made = new Jolt.BoxShape(half, 0);
+  Jolt.destroy(half);
+  return { shape: made, centre: box.centre, rotation: [0, 0, 0, 1] };
+}
+
+// A mesh is cast against alone: where it is the first body, the second is cast.
+function castConvex(both) {
+  const isMesh = both[0].shape === "triangle";
+  const [first, second] = isMesh ? [both[1], both[0]] : both;
+  const [a, b] = [convex(first), convex(second)];
+  const isAsked = a !== undefined && b !== undefined;
+  const step = first.step.map((x, k) => x - second.step[k]);
+  const toi = !isAsked ? undefined : b.shape === null ? null : cast(a, b, step);
+  if (a !== undefined) release(a);
+  if (b !== undefined) release(b);
+  return toi;
+}
+
 function cast(a, b, step) {
   place.Set(...b.centre);
   turn.Set(...b.rotation);
@@ -91,4 +117,4 @@ serve((query) => {
   release(a);
   release(b);
   return toi;
-});
+}, castConvex);

@@ -1,7 +1,7 @@
 // The geometry sweep of PhysX, in WebAssembly and single precision: the first body is swept by the difference of the two
 // translations against the second one at rest. Where there is no difference, the two are asked for an overlap.
 import fs from "node:fs";
-import { capsule, corners, serve, skin, timed } from "../common/frames.mjs";
+import { aligned, capsule, corners, serve, skin, timed } from "../common/frames.mjs";
 
 // It is built for browsers: it is let believe in one.
 async function load() {
@@ -76,6 +76,28 @@ function bodies({ isFace, points, radii }) {
   return [{ geometry, pose: pose(points[0], [0, 0, 0, 1]) }, face(points)];
 }
 
+// A body of a cast of a box, undefined for one that is not asked, or null for one that is refused.
+function convex(body) {
+  const { shape, points, radius } = body;
+  if (shape === "triangle") return face([null, ...points.slice(0, 3)]);
+  if (shape !== "box") return radius > 0 ? edge([points[0], points[shape === "edge" ? 1 : 0]], radius) : undefined;
+  const box = aligned(body);
+  if (box === null) return undefined;
+  return { geometry: new PhysX.PxBoxGeometry(...box.half), pose: pose(box.centre, [0, 0, 0, 1]) };
+}
+
+// A mesh is swept against alone: where it is the first body, the second is swept.
+function sweepConvex(both) {
+  const [first, second] = both[0].shape === "triangle" ? [both[1], both[0]] : both;
+  const [a, b] = [convex(first), convex(second)];
+  const isAsked = a !== undefined && b !== undefined;
+  const step = first.step.map((x, k) => x - second.step[k]);
+  const toi = !isAsked ? undefined : b === null ? null : sweep(a, b, step);
+  if (a) release(a);
+  if (b) release(b);
+  return toi;
+}
+
 function sweep(a, b, step) {
   const { PxGeometryQuery } = PhysX;
   const distance = Math.hypot(...step);
@@ -103,4 +125,4 @@ serve((query) => {
   release(a);
   release(b);
   return toi;
-});
+}, sweepConvex);

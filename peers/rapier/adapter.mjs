@@ -1,6 +1,6 @@
 // The shape cast of Rapier, in WebAssembly and single precision.
 import RAPIER from "@dimforge/rapier3d-compat";
-import { capsule, corners, serve, skin, timed } from "../common/frames.mjs";
+import { aligned, capsule, corners, hull, serve, skin, timed } from "../common/frames.mjs";
 
 await RAPIER.init();
 
@@ -32,10 +32,28 @@ function bodies({ isFace, points, steps, radii }) {
   ];
 }
 
-serve((query) => {
-  if (query.isFace && query.radii[0] + query.radii[1] === 0) return undefined;
-  const [a, b] = bodies(query);
+// A body of a cast of a box: a box along the axes is a cuboid, another the hull of its corners.
+function convex(body) {
+  const { shape, points, step, radius } = body;
+  const at = (place, made) => ({ shape: made, at: vector(place), rotation: identity, step: vector(step) });
+  switch (shape) {
+    case "edge": return edge(points, step, radius);
+    case "sphere": return at(points[0], new RAPIER.Ball(radius));
+    case "triangle": return at(points[0], new RAPIER.Triangle(...corners([null, ...points.slice(0, 3)]).map(vector)));
+  }
+  const box = aligned(body);
+  if (box !== null) return at(box.centre, new RAPIER.Cuboid(...box.half));
+  const { corners: turned, faces } = hull(body);
+  return at(points[0], new RAPIER.ConvexPolyhedron(new Float32Array(turned.flat()), new Uint32Array(faces.flat())));
+}
+
+function cast([a, b]) {
   const hit = timed(() =>
     a.shape.castShape(a.at, a.rotation, a.step, b.shape, b.at, b.rotation, b.step, 0, 1, true));
   return hit === null ? null : hit.time_of_impact;
-});
+}
+
+serve((query) => {
+  if (query.isFace && query.radii[0] + query.radii[1] === 0) return undefined;
+  return cast(bodies(query));
+}, (both) => cast(both.map(convex)));

@@ -3,6 +3,7 @@
 
 pub mod algebraic;
 pub mod answer;
+pub mod boxes;
 pub mod certify;
 pub mod corpus;
 pub mod difference;

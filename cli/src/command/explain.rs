@@ -5,11 +5,13 @@ use std::process::ExitCode;
 
 use clap::Args;
 use tunnelproof_cli::report::{self, picture};
+use tunnelproof_reference::boxes::BoxId;
 use tunnelproof_reference::corpus::locate::locate;
 use tunnelproof_reference::corpus::turning;
 use tunnelproof_reference::generate::RigidId;
 use tunnelproof_reference::oracle::{decide_query, decide_rigid_query};
 use tunnelproof_reference::registry;
+use tunnelproof_reference::report::boxes;
 use tunnelproof_reference::report::explanation::Explanation;
 
 use super::output::{OutputFile, print};
@@ -48,6 +50,9 @@ pub(super) struct Explain {
 
 impl Explain {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
+        if let Some(id) = BoxId::parse(&self.query) {
+            return self.run_box(&id.map_err(|error| Failure::file(&self.query, error))?);
+        }
         if self.turning || RigidId::parse(&self.query).is_some() {
             return self.run_turning();
         }
@@ -69,6 +74,16 @@ impl Explain {
             file.write(&picture::draw(&entry.id, &entry.query, &answer))?;
         }
         print(&text)?;
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// The numbers of a cast of a box, and its exact answer; programs are not asked.
+    fn run_box(&self, id: &BoxId) -> Result<ExitCode, Failure> {
+        if self.svg.is_some() || !self.subject.is_empty() {
+            let problem = "is a cast of a box, of which there are no pictures and nobody is asked";
+            return Err(Failure::file(&self.query, problem));
+        }
+        print(&boxes::explain(id))?;
         Ok(ExitCode::SUCCESS)
     }
 

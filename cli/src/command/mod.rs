@@ -25,6 +25,7 @@ mod audit;
 mod axes;
 mod certificate;
 mod certify;
+mod certify_boxes;
 mod eval;
 mod explain;
 mod gap;
@@ -65,6 +66,7 @@ pub(crate) struct Cli {
 enum Command {
     Eval(eval::Eval),
     Certify(certify::Certify),
+    CertifyBoxes(certify_boxes::CertifyBoxes),
     Merge(merge::Merge),
     #[command(hide = true)]
     LibHost(lib_host::LibHost),
@@ -177,6 +179,7 @@ impl Cli {
         match self.command {
             Command::Eval(eval) => eval.run(),
             Command::Certify(certify) => certify.run(),
+            Command::CertifyBoxes(certify) => certify.run(),
             Command::Merge(merge) => merge.run(),
             Command::LibHost(host) => host.run(),
             Command::Explain(explain) => explain.run(),

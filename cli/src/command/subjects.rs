@@ -141,6 +141,21 @@ impl Programs {
         refused.map_or(Ok(()), Err)
     }
 
+    /// That a program can be asked casts of boxes.
+    ///
+    /// # Errors
+    ///
+    /// A program that reads lines.
+    pub(super) fn check_casts(&self, program: &Program) -> Result<(), Failure> {
+        match program.name().starts_with(LIBRARY) || self.wire == Wire::Binary {
+            true => Ok(()),
+            false => Err(Failure::Program {
+                name: program.name().to_owned(),
+                reason: "casts of boxes are asked in bytes alone: pass --wire binary".to_owned(),
+            }),
+        }
+    }
+
     /// The values of the options, to be written.
     pub(super) fn values(&self) -> [String; 2] {
         [self.wire.name().to_owned(), self.time_limit.to_string()]

@@ -51,7 +51,7 @@ int tunnelproof_vertex_face(const double points[24], const double radius[2], dou
 "#;
 
 /// A library of this source in a folder; the header has to compile without a warning.
-fn library(folder: &Path, name: &str, source: &str) -> String {
+pub(crate) fn library(folder: &Path, name: &str, source: &str) -> String {
     let code = folder.join(format!("{name}.c"));
     let library = folder.join(format!("lib{name}.so"));
     fs::write(&code, source).unwrap();

@@ -7,6 +7,8 @@
 )]
 
 mod advance;
+#[cfg(unix)]
+mod boxes;
 mod certificate;
 mod certify;
 mod eval;

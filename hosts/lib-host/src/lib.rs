@@ -15,8 +15,14 @@ use tunnelproof_float_env::{Control, with_own};
 /// `tunnelproof_edge_edge` and `tunnelproof_vertex_face`.
 type Answer = unsafe extern "C" fn(*const [f64; 24], *const [f64; 2], *mut f64) -> c_int;
 
+/// `tunnelproof_box_cast`.
+type CastAnswer =
+    unsafe extern "C" fn(*const [c_int; 2], *const [f64; 30], *const [f64; 2], *mut f64) -> c_int;
+
 /// The bytes of a query after those of its length.
 const QUERY: usize = 224;
+/// The bytes of a cast of a box after those of its length.
+const CAST: usize = 272;
 /// The bytes of an answer after those of its length.
 const ANSWER: u32 = 24;
 /// The answer to queries of a kind that the library does not take.
@@ -24,6 +30,9 @@ const UNSUPPORTED: c_int = 2;
 
 /// The names of the functions, by the number of the kind of query.
 const FUNCTIONS: [&str; 2] = ["tunnelproof_edge_edge", "tunnelproof_vertex_face"];
+
+/// The name of the function that answers casts of boxes.
+const CAST_FUNCTION: &str = "tunnelproof_box_cast";
 
 /// What this project's own C library calls them, so that libraries that are linked with it can
 /// define the functions above.
@@ -35,6 +44,7 @@ const OWN_FUNCTIONS: [&str; 2] = [
 /// A shared library that answers queries.
 pub struct Host {
     functions: [Option<Answer>; 2],
+    cast: Option<CastAnswer>,
     /// The floating-point environment that the library has set for itself, as one that is linked
     /// with `-ffast-math` does when it is loaded: it answers in this one, as in the user's program.
     environment: Control,
@@ -90,9 +100,13 @@ impl Host {
         if functions == [None; 2] && names_own_functions(path) {
             functions = find(OWN_FUNCTIONS);
         }
-        match functions.iter().any(Option::is_some) {
+        // SAFETY: as above.
+        let cast = unsafe { library.get::<CastAnswer>(CAST_FUNCTION.as_bytes()) };
+        let cast = cast.ok().map(|function| *function);
+        match functions.iter().any(Option::is_some) || cast.is_some() {
             true => Ok(Host {
                 functions,
+                cast,
                 environment,
                 answers,
                 _library: library,
@@ -119,26 +133,11 @@ impl Host {
         Ok(())
     }
 
-    fn answer(&mut self, query: &[u8; QUERY]) -> Vec<u8> {
-        let number = |index: usize| {
-            let at = 16 + 8 * index;
-            let bytes = query[at..at + 8].iter().rev();
-            f64::from_bits(bytes.fold(0, |bits, byte| bits << 8 | u64::from(*byte)))
-        };
-        let radius: [f64; 2] = std::array::from_fn(number);
-        let points: [f64; 24] = std::array::from_fn(|index| number(index + 2));
+    fn answer(&mut self, query: &[u8]) -> Vec<u8> {
         let mut toi = f64::NAN;
-        let function = self.functions.get(usize::from(query[8])).copied().flatten();
-        let verdict = match function {
-            None => UNSUPPORTED,
-            // SAFETY: the function has the type of the header; the three pointers are to memory of
-            // the sizes that the header states, which lives until the call ends, and only `toi` is
-            // given to be written. It is foreign code, and nothing else runs there.
-            Some(function) => unsafe {
-                with_own(&mut self.environment, || {
-                    function(&raw const points, &raw const radius, &raw mut toi)
-                })
-            },
+        let verdict = match query.len() {
+            QUERY => self.query(query, &mut toi),
+            _ => self.cast(query, &mut toi),
         };
         let mut answer = ANSWER.to_le_bytes().to_vec();
         answer.extend(&query[..8]);
@@ -147,6 +146,52 @@ impl Host {
         answer.extend(toi.to_le_bytes());
         answer
     }
+
+    fn query(&mut self, query: &[u8], toi: &mut f64) -> c_int {
+        let radius: [f64; 2] = numbers(query, 0);
+        let points: [f64; 24] = numbers(query, 2);
+        let function = self.functions.get(usize::from(query[8])).copied().flatten();
+        let Some(function) = function else {
+            return UNSUPPORTED;
+        };
+        // SAFETY: the function has the type of the header; the three pointers are to memory of the
+        // sizes that the header states, which lives until the call ends, and only `toi` is given to be
+        // written. It is foreign code, and nothing else runs there.
+        unsafe {
+            with_own(&mut self.environment, || {
+                function(&raw const points, &raw const radius, &raw mut *toi)
+            })
+        }
+    }
+
+    fn cast(&mut self, query: &[u8], toi: &mut f64) -> c_int {
+        let shapes = [12, 14].map(|at| c_int::from(query[at]));
+        let radius: [f64; 2] = numbers(query, 0);
+        let bodies: [f64; 30] = numbers(query, 2);
+        let Some(function) = self.cast else {
+            return UNSUPPORTED;
+        };
+        // SAFETY: as of a query, with four pointers.
+        unsafe {
+            with_own(&mut self.environment, || {
+                function(
+                    &raw const shapes,
+                    &raw const bodies,
+                    &raw const radius,
+                    &raw mut *toi,
+                )
+            })
+        }
+    }
+}
+
+/// Numbers of a frame, from this one on.
+fn numbers<const N: usize>(frame: &[u8], first: usize) -> [f64; N] {
+    std::array::from_fn(|index| {
+        let at = 16 + 8 * (first + index);
+        let bytes = frame[at..at + 8].iter().rev();
+        f64::from_bits(bytes.fold(0, |bits, byte| bits << 8 | u64::from(*byte)))
+    })
 }
 
 impl fmt::Display for HostError {
@@ -160,7 +205,7 @@ impl fmt::Display for HostError {
                 let [edges, face] = FUNCTIONS;
                 write!(
                     f,
-                    "has neither {edges} nor {face}; include/tunnelproof_subject.h declares them"
+                    "has neither {edges} nor {face} nor {CAST_FUNCTION}; include/tunnelproof_subject.h declares them"
                 )
             }
         }
@@ -180,24 +225,38 @@ fn names_own_functions(path: &str) -> bool {
     OWN_FUNCTIONS.iter().all(|name| is_named(name))
 }
 
-/// The next query; `None` at the end.
-fn read(queries: &mut impl Read) -> io::Result<Option<[u8; QUERY]>> {
-    let mut frame = [0; QUERY + 4];
+/// The next query, of one of the two lengths; `None` at the end.
+fn read(queries: &mut impl Read) -> io::Result<Option<Vec<u8>>> {
+    let mut length = [0; 4];
+    if !fill(queries, &mut length)? {
+        return Ok(None);
+    }
+    let length = u32::from_le_bytes(length) as usize;
+    if length != QUERY && length != CAST {
+        return Err(io::ErrorKind::InvalidData.into());
+    }
+    let mut query = vec![0; length];
+    match fill(queries, &mut query)? {
+        true => Ok(Some(query)),
+        false => Err(io::ErrorKind::UnexpectedEof.into()),
+    }
+}
+
+/// Fills the bytes, all of them or, at the end of the input, none: then it is `false`.
+fn fill(input: &mut impl Read, bytes: &mut [u8]) -> io::Result<bool> {
     let mut filled = 0;
-    while filled < frame.len() {
-        let count = match queries.read(&mut frame[filled..]) {
+    while filled < bytes.len() {
+        let count = match input.read(&mut bytes[filled..]) {
             Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
             other => other?,
         };
         match count {
-            0 if filled == 0 => return Ok(None),
+            0 if filled == 0 => return Ok(false),
             0 => return Err(io::ErrorKind::UnexpectedEof.into()),
             count => filled += count,
         }
     }
-    let mut query = [0; QUERY];
-    query.copy_from_slice(&frame[4..]);
-    Ok(Some(query))
+    Ok(true)
 }
 
 /// The standard output, which from now on is the standard error for everyone else in this process.

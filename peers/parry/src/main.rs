@@ -3,12 +3,12 @@
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query::{NonlinearRigidMotion, ShapeCastOptions};
 use parry3d_f64::query::{cast_shapes, cast_shapes_nonlinear};
-use parry3d_f64::shape::{Ball, Capsule, Segment, Shape, Triangle};
+use parry3d_f64::shape::{Ball, Capsule, ConvexPolyhedron, Cuboid, Segment, Shape, Triangle};
 
 #[path = "../../common/frames.rs"]
 mod frames;
 
-use frames::{Asked, Clock, Said, serve, skin};
+use frames::{Asked, Clock, Convex, Form, Said, serve, skin};
 
 /// A shape with its points where they are at the start, and its translation.
 struct Body {
@@ -46,33 +46,77 @@ fn bodies(asked: &Asked) -> [Body; 2] {
     [body(ball, 0), body(Box::new(Triangle::new(b, c, d)), 1)]
 }
 
-fn place(asked: &Asked) -> Pose {
-    match asked.is_face {
-        true => Pose::from_translation(vector(asked.points[0])),
-        false => Pose::IDENTITY,
-    }
+/// A body of a cast of a box, and its place: a box along the axes is a cuboid, another the hull of its
+/// corners. `None` if the engine refuses it.
+fn convex(from: &Convex) -> Option<(Body, Pose)> {
+    let [a, b, c, _] = from.points.map(vector);
+    let (shape, place): (Box<dyn Shape>, Pose) = match (from.form, from.aligned()) {
+        (Form::Box, Some([centre, half])) => {
+            let place = Pose::from_translation(vector(centre));
+            (Box::new(Cuboid::new(vector(half))), place)
+        }
+        (Form::Box, None) => {
+            let corners = from.corners().map(|corner| vector(corner) - a);
+            let hull = ConvexPolyhedron::from_convex_mesh(corners.to_vec(), &faces(&corners))?;
+            (Box::new(hull), Pose::from_translation(a))
+        }
+        (Form::Triangle, _) => (Box::new(Triangle::new(a, b, c)), Pose::IDENTITY),
+        (Form::Sphere, _) => (Box::new(Ball::new(from.radius)), Pose::from_translation(a)),
+        (Form::Edge, _) if from.radius > 0.0 => {
+            (Box::new(Capsule::new(a, b, from.radius)), Pose::IDENTITY)
+        }
+        (Form::Edge, _) => (Box::new(Segment::new(a, b)), Pose::IDENTITY),
+    };
+    let step = vector(from.step);
+    Some((Body { shape, step }, place))
 }
 
-fn linear(asked: &Asked, clock: &mut Clock) -> Said {
+/// Two triangles for each face of a box, counterclockwise from outside.
+fn faces(corners: &[Vector; 8]) -> Vec<[u32; 3]> {
+    let quads = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    let [x, y, z] = [1, 2, 4].map(|corner| corners[corner] - corners[0]);
+    let is_right = x.cross(y).dot(z) > 0.0;
+    let triangles = quads
+        .iter()
+        .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
+    triangles
+        .map(|[a, b, c]| if is_right { [a, b, c] } else { [a, c, b] })
+        .collect()
+}
+
+type Placed = [(Body, Pose); 2];
+
+fn placed(asked: &Asked) -> Placed {
+    let place = match asked.is_face {
+        true => Pose::from_translation(vector(asked.points[0])),
+        false => Pose::IDENTITY,
+    };
     let [a, b] = bodies(asked);
-    let (at, rest) = (place(asked), Pose::IDENTITY);
+    [(a, place), (b, Pose::IDENTITY)]
+}
+
+fn linear([(a, at), (b, rest)]: &Placed, clock: &mut Clock) -> Said {
     let options = ShapeCastOptions {
         max_time_of_impact: 1.0,
         ..ShapeCastOptions::default()
     };
-    let hit =
-        clock.timed(|| cast_shapes(&at, a.step, &*a.shape, &rest, b.step, &*b.shape, options));
+    let hit = clock.timed(|| cast_shapes(at, a.step, &*a.shape, rest, b.step, &*b.shape, options));
     said(hit.map(|hit| hit.map(|hit| hit.time_of_impact)))
 }
 
-fn nonlinear(asked: &Asked, clock: &mut Clock) -> Said {
-    let [a, b] = bodies(asked);
+fn nonlinear([(a, at), (b, rest)]: &Placed, clock: &mut Clock) -> Said {
     let still = Vector::ZERO;
-    let motion = |at, step| NonlinearRigidMotion::new(at, still, step, still);
-    let motions = [motion(place(asked), a.step), motion(Pose::IDENTITY, b.step)];
-    let [first, second] = &motions;
-    let hit =
-        clock.timed(|| cast_shapes_nonlinear(first, &*a.shape, second, &*b.shape, 0.0, 1.0, true));
+    let motion = |at: &Pose, step| NonlinearRigidMotion::new(*at, still, step, still);
+    let [first, second] = [motion(at, a.step), motion(rest, b.step)];
+    let hit = clock
+        .timed(|| cast_shapes_nonlinear(&first, &*a.shape, &second, &*b.shape, 0.0, 1.0, true));
     said(hit.map(|hit| hit.map(|hit| hit.time_of_impact)))
 }
 
@@ -85,9 +129,15 @@ fn said<E>(hit: Result<Option<f64>, E>) -> Said {
 }
 
 fn main() -> std::io::Result<()> {
-    let method = std::env::args().nth(1).unwrap_or_default();
-    match method.as_str() {
-        "nonlinear" => serve(nonlinear),
-        _ => serve(linear),
-    }
+    let cast = match std::env::args().nth(1).as_deref() {
+        Some("nonlinear") => nonlinear,
+        _ => linear,
+    };
+    serve(
+        |asked, clock| cast(&placed(asked), clock),
+        |[first, second], clock| match (convex(first), convex(second)) {
+            (Some(first), Some(second)) => cast(&[first, second], clock),
+            _ => Said::Unsupported,
+        },
+    )
 }

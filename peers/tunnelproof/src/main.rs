@@ -7,10 +7,11 @@ use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
 use tunnelproof::query::{Point, Query, QueryKind};
 use tunnelproof::thesis::{Options, Thesis, Thresholds};
 
+mod boxes;
 #[path = "../../common/frames.rs"]
 mod frames;
 
-use frames::{Asked, Clock, Said, serve, skin};
+use frames::{Asked, Clock, Convex, Said, serve, skin};
 
 fn query(asked: &Asked) -> Option<Query> {
     let kind = match asked.is_face {
@@ -57,12 +58,22 @@ fn tuned() -> Thesis {
     Thesis { options }
 }
 
+fn no_box(_: &[Convex; 2], _: &mut Clock) -> Said {
+    Said::Unsupported
+}
+
 fn main() -> std::io::Result<()> {
     let method = std::env::args().nth(1).unwrap_or_default();
     match method.as_str() {
-        "additive" => serve(|asked, clock| narrow(Additive::default(), asked, clock)),
-        "thesis" => serve(|asked, clock| narrow(Thesis::default(), asked, clock)),
-        "tuned" => serve(|asked, clock| narrow(tuned(), asked, clock)),
-        _ => serve(certified),
+        "additive" => serve(
+            |asked, clock| narrow(Additive::default(), asked, clock),
+            no_box,
+        ),
+        "thesis" => serve(
+            |asked, clock| narrow(Thesis::default(), asked, clock),
+            no_box,
+        ),
+        "tuned" => serve(|asked, clock| narrow(tuned(), asked, clock), no_box),
+        _ => serve(certified, boxes::certified),
     }
 }

@@ -14,6 +14,7 @@
 
 pub mod batch;
 pub mod block;
+pub mod boxes;
 pub mod caller;
 pub mod defaults;
 pub mod details;

@@ -16,7 +16,9 @@ use rand_chacha::rand_core::SeedableRng;
 use tunnelproof::query::{EdgeEdge, Point, Query};
 
 pub use cast::CAST_FAMILIES;
+pub(crate) use cast::rotation as integer_rotation;
 use motion::Motion;
+pub(crate) use motion::vector as random_vector;
 pub use rigid::{RIGID_FAMILIES, RigidFamily, RigidId, rigid_by_name};
 
 mod cancellation;

@@ -11,7 +11,7 @@ use rand::{Rng, RngExt};
 pub(super) type Motion<T, const N: usize = 4> = [[Vector3<T>; N]; 2];
 
 /// A vector with coordinates from `-reach` to `reach`.
-pub(super) fn vector(rng: &mut dyn Rng, reach: i32) -> Vector3<i32> {
+pub(crate) fn vector(rng: &mut dyn Rng, reach: i32) -> Vector3<i32> {
     Vector3::from_fn(|_, _| rng.random_range(-reach..=reach))
 }
 

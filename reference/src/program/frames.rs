@@ -9,18 +9,29 @@
 //! | 12 | `u32` 0 | 12 | `u32` 0 |
 //! | 16 | `f64` two radii, whose exact sum is meant | 16 | `f64` toi of a hit |
 //! | 32 | `f64` A B C D at `t = 0`, then at `t = 1`, each x y z | | |
+//!
+//! | cast of a box, 272 bytes | |
+//! | --- | --- |
+//! | 0 | `u64` number of the query |
+//! | 8 | `u32` kind: 2 |
+//! | 12 | `u16` shape of the first body, `u16` of the second: 0 sphere, 1 edge, 2 triangle, 3 box |
+//! | 16 | `f64` the radii of both bodies |
+//! | 32 | `f64` of the first body four points at `t = 0` and its translation, each x y z; then of the second |
 
 use std::io::{self, BufRead, Read};
 
 use tunnelproof::query::{Query, QueryKind};
 
 use crate::answer::Enclosure;
+use crate::boxes::{BoxCast, Shape};
 use crate::subject::Said;
 
 use super::wire::{Message, Reply};
 
 /// The bytes of a query, without those of the length.
 pub const QUERY: usize = 224;
+/// The bytes of a cast of a box, without those of the length.
+pub const CAST: usize = 272;
 /// The bytes of an answer, without those of the length.
 pub const ANSWER: usize = 24;
 
@@ -37,6 +48,24 @@ pub(super) fn write(id: u64, query: &Query, bytes: &mut Vec<u8>) {
     let coordinates = points.flat_map(|point| <[f64; 3]>::from(*point));
     let numbers = query.radius().parts().into_iter().chain(coordinates);
     bytes.extend(numbers.flat_map(f64::to_le_bytes));
+}
+
+/// The frame of a cast of a box with this number.
+pub fn of_cast(id: u64, cast: &BoxCast) -> Vec<u8> {
+    let mut bytes = (CAST as u32).to_le_bytes().to_vec();
+    bytes.extend(id.to_le_bytes());
+    bytes.extend(2u32.to_le_bytes());
+    for body in cast.bodies() {
+        let shape = Shape::ALL.iter().position(|shape| *shape == body.shape());
+        bytes.extend((shape.unwrap_or_default() as u16).to_le_bytes());
+    }
+    let radii = cast.bodies().iter().map(|body| body.radius());
+    let numbers = radii.chain(cast.bodies().iter().flat_map(|body| {
+        let points = body.points().into_iter().map(<[f64; 3]>::from);
+        points.chain([body.step().into()]).flatten()
+    }));
+    bytes.extend(numbers.flat_map(f64::to_le_bytes));
+    bytes
 }
 
 /// What follows the next length. The start of it, if it is cut off or has another length than an

@@ -20,6 +20,7 @@ use tunnelproof::narrow::Tolerance;
 use tunnelproof::query::Query;
 use tunnelproof::rigid::RigidQuery;
 
+use crate::boxes::BoxCast;
 use crate::subject::{Answer, Lapse, LapseKind, NoAnswer, Subject};
 
 pub mod frames;
@@ -152,6 +153,12 @@ impl Program {
         }
     }
 
+    /// The answers to casts of boxes, as many and in their order, of what is asked in
+    /// [bytes](Wire::Binary); the other form has no such queries.
+    pub fn cast_answers(&self, casts: &[BoxCast]) -> Vec<Result<Answer, NoAnswer>> {
+        self.all_answers(casts)
+    }
+
     /// Waits until all that was written there is kept; whoever reads it holds the other references.
     /// What a program started itself may keep it open: that is not waited for.
     fn wait_for_stderr(&self) {
@@ -198,7 +205,7 @@ impl Program {
     /// Answers to all of these queries; refusals, if they cannot be written in the form that it reads.
     fn all_answers<Q: AskedQuery>(&self, queries: &[Q]) -> Vec<Result<Answer, NoAnswer>> {
         if !Q::has_form(self.command.wire) {
-            let refusals = queries.iter().map(|query| Err(query.refusal().into()));
+            let refusals = queries.iter().map(|query| Err(query.refusal()));
             return refusals.collect();
         }
         let mut answers = Vec::with_capacity(queries.len());

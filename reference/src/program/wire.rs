@@ -6,6 +6,7 @@ use tunnelproof::narrow::Unsupported;
 use tunnelproof::query::{Query, QueryKind, Radius};
 use tunnelproof::rigid::RigidQuery;
 
+use crate::boxes::BoxCast;
 use crate::subject::{Answer, Lapse, LapseKind, NoAnswer, Said};
 
 use super::{frames, lines};
@@ -82,7 +83,7 @@ pub(super) trait AskedQuery {
     fn has_form(wire: Wire) -> bool;
 
     /// That a subject does not take it.
-    fn refusal(&self) -> Unsupported;
+    fn refusal(&self) -> NoAnswer;
 }
 
 impl AskedQuery for Query {
@@ -97,8 +98,8 @@ impl AskedQuery for Query {
         true
     }
 
-    fn refusal(&self) -> Unsupported {
-        refusal(self.kind(), self.radius())
+    fn refusal(&self) -> NoAnswer {
+        refusal(self.kind(), self.radius()).into()
     }
 }
 
@@ -111,8 +112,22 @@ impl AskedQuery for RigidQuery {
         wire == Wire::Lines
     }
 
-    fn refusal(&self) -> Unsupported {
-        refusal(self.kind().linear(), self.radius())
+    fn refusal(&self) -> NoAnswer {
+        refusal(self.kind().linear(), self.radius()).into()
+    }
+}
+
+impl AskedQuery for BoxCast {
+    fn write(&self, _wire: Wire, id: u64, bytes: &mut Vec<u8>) {
+        bytes.extend(frames::of_cast(id, self));
+    }
+
+    fn has_form(wire: Wire) -> bool {
+        wire == Wire::Binary
+    }
+
+    fn refusal(&self) -> NoAnswer {
+        Lapse::new(LapseKind::Refused, "does not take such casts of boxes").into()
     }
 }
 
@@ -128,7 +143,7 @@ impl Reply {
     pub(super) fn to(self, query: &impl AskedQuery) -> Result<Answer, NoAnswer> {
         match self {
             Reply::Said(said) => Ok(Answer::Said(said)),
-            Reply::Unsupported => Err(query.refusal().into()),
+            Reply::Unsupported => Err(query.refusal()),
         }
     }
 }

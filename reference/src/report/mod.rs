@@ -2,6 +2,7 @@
 //! JSON.
 
 pub mod answer;
+pub mod boxes;
 pub mod explanation;
 pub mod merge;
 pub mod number;

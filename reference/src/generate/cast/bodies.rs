@@ -79,7 +79,7 @@ impl Cast {
 }
 
 /// An integer matrix that rotates and makes all distances larger by an integer.
-pub(super) fn rotation(rng: &mut dyn Rng) -> (Matrix3<i32>, i32) {
+pub(crate) fn rotation(rng: &mut dyn Rng) -> (Matrix3<i32>, i32) {
     let [w, x, y, z] = [(); 4].map(|()| rng.random_range(-2..=2));
     let scale = w * w + x * x + y * y + z * z;
     if scale == 0 {

@@ -24,6 +24,7 @@ mod pair;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use bodies::rotation;
 use draws::{coplanar, far, grazing, lattice, long_thin, parallel, start, tiny, uniform};
 use pair::Pair;
 

@@ -1,0 +1,182 @@
+//! A program judged on boxes that are cast.
+
+use std::collections::BTreeMap;
+
+use hmac_sha256::Hash;
+use num_rational::BigRational;
+use num_traits::{One, ToPrimitive};
+use rayon::prelude::*;
+use tunnelproof::contact::Case;
+
+use super::tally::Fault;
+use super::verdict::{Judgement, Outline, OutlineHit, judge_outline};
+use crate::boxes::{BoxAnswer, BoxCast, BoxFamily, BoxId, comes_within, decide, least_square};
+use crate::program::{Program, frames};
+use crate::subject::{Answer, Lapse, LapseKind, NoAnswer, Said, Subject};
+
+/// How many casts a program is asked in one go.
+const CHUNK: u64 = 64;
+
+/// What was found of one program on one family.
+#[derive(Clone, Debug)]
+pub struct Judged {
+    /// The name of the family.
+    pub name: &'static str,
+    /// A hash of the casts.
+    pub fingerprint: String,
+    /// How many casts there were.
+    pub queries: u64,
+    /// How many of them are hits.
+    pub hits: u64,
+    /// In how many of them the bodies pass into each other.
+    pub crossings: u64,
+    /// How many the program does not take.
+    pub refused: u64,
+    /// In which other ways it gives no answer, and how often.
+    pub lapses: BTreeMap<LapseKind, u64>,
+    /// What was wrong with its answers.
+    pub faults: BTreeMap<Fault, BoxFinding>,
+}
+
+/// How often something was found, and its worst witness.
+#[derive(Clone, Debug)]
+pub struct BoxFinding {
+    /// How often.
+    pub count: u64,
+    /// The worst witness, of equals the first.
+    pub worst: BoxWitness,
+}
+
+/// A cast that shows a fault.
+#[derive(Clone, Debug)]
+pub struct BoxWitness {
+    /// How bad it is, by the measure of its [`Fault`].
+    pub severity: f64,
+    /// The name of the cast.
+    pub id: BoxId,
+    /// The exact answer.
+    pub truth: BoxAnswer,
+    /// What the program says; `None` for no answer.
+    pub said: Option<Said>,
+    /// How it fails, if it does.
+    pub lapse: Option<Lapse>,
+}
+
+/// Judges a program on the first casts of a family.
+pub fn judge_family(
+    program: &Program,
+    family: &'static BoxFamily,
+    seed: u64,
+    count: u64,
+) -> Judged {
+    let mut judged = Judged {
+        name: family.name(),
+        fingerprint: String::new(),
+        queries: 0,
+        hits: 0,
+        crossings: 0,
+        refused: 0,
+        lapses: BTreeMap::new(),
+        faults: BTreeMap::new(),
+    };
+    let mut hash = Hash::new();
+    for first in (0..count).step_by(CHUNK as usize) {
+        let ids = (first..count.min(first + CHUNK)).map(|index| BoxId {
+            family,
+            seed,
+            index,
+        });
+        let casts: Vec<(BoxId, BoxCast)> = ids.map(|id| (id, id.cast())).collect();
+        let asked: Vec<BoxCast> = casts.iter().map(|(_, cast)| *cast).collect();
+        for (cast, place) in asked.iter().zip(first..) {
+            hash.update(frames::of_cast(place, cast));
+        }
+        let answers = program.cast_answers(&asked);
+        let truths: Vec<BoxAnswer> = asked.par_iter().map(decide).collect();
+        for (((id, cast), answer), truth) in casts.into_iter().zip(answers).zip(truths) {
+            judged.add(id, &cast, answer, truth, program.tolerance().near);
+        }
+    }
+    let digest = hash.finalize();
+    judged.fingerprint = digest[..16].iter().map(|b| format!("{b:02x}")).collect();
+    judged
+}
+
+impl Judged {
+    fn add(
+        &mut self,
+        id: BoxId,
+        cast: &BoxCast,
+        answer: Result<Answer, NoAnswer>,
+        truth: BoxAnswer,
+        near: f64,
+    ) {
+        self.queries += 1;
+        self.hits += u64::from(truth.toi.is_some());
+        self.crossings += u64::from(truth.overlaps);
+        let (said, lapse) = match answer {
+            Ok(Answer::Said(said)) => (Some(said), None),
+            // Programs say nothing else.
+            Ok(_) => (None, None),
+            Err(NoAnswer::Unsupported(_)) => return self.refused += 1,
+            Err(NoAnswer::Lapse(lapse)) if lapse.kind == LapseKind::Refused => {
+                return self.refused += 1;
+            }
+            Err(NoAnswer::Lapse(lapse)) => (None, Some(lapse)),
+        };
+        let judgement = said.map(|said| compare(cast, &truth, &said, near));
+        let faults = match &judgement {
+            None => vec![(Fault::NoAnswer, 0.0)],
+            Some(judgement) => judgement.faults(&outline(&truth), || gap(cast)),
+        };
+        let is_no_time = faults.iter().any(|(fault, _)| *fault == Fault::NoAnswer);
+        let no_time = || Lapse::new(LapseKind::NoTime, "toi is not a number from 0 to 1");
+        let lapse = lapse.or_else(|| is_no_time.then(no_time));
+        if let Some(lapse) = &lapse {
+            *self.lapses.entry(lapse.kind).or_default() += 1;
+        }
+        for (fault, severity) in faults {
+            let witness = BoxWitness {
+                severity,
+                id,
+                truth,
+                said,
+                lapse: lapse.clone(),
+            };
+            let found = self.faults.entry(fault);
+            let found = found.or_insert_with(|| BoxFinding {
+                count: 0,
+                worst: witness.clone(),
+            });
+            found.count += 1;
+            if severity > found.worst.severity {
+                found.worst = witness;
+            }
+        }
+    }
+}
+
+fn compare(cast: &BoxCast, truth: &BoxAnswer, said: &Said, near: f64) -> Judgement {
+    judge_outline(&outline(truth), said, || {
+        near > 0.0 && comes_within(cast, near, &BigRational::one())
+    })
+}
+
+/// What verdicts depend on. Central is a contact in the middle of the step.
+fn outline(truth: &BoxAnswer) -> Outline {
+    Outline {
+        case: Case::General,
+        hit: truth.toi.map(|toi| OutlineHit {
+            toi,
+            crosses: truth.overlaps,
+            centrality: 2.0 * toi.below.min(1.0 - toi.above),
+        }),
+    }
+}
+
+/// About the least distance during the step beyond the radii.
+fn gap(cast: &BoxCast) -> f64 {
+    let [first, second] = cast.bodies();
+    let square = least_square(cast, &BigRational::one());
+    square.to_f64().unwrap_or(f64::INFINITY).sqrt() - first.radius() - second.radius()
+}
