@@ -46,9 +46,9 @@ pub(super) struct Solution {
     pub(super) contact_residual: f64,
     /// Factorisations, those for other predictions included.
     pub(super) factorisations: usize,
-    /// Whether it is as close as was asked for, or as it gets; else this would have taken too much. The
-    /// solution is exact for its prediction all the same: momentum is kept, and contacts give way to what
-    /// was not predicted, by the residual.
+    /// Whether it is as close as was asked for, or as it gets; else this would have taken too much. It
+    /// is a solution for its prediction all the same: things move as impulses say, within the residual,
+    /// and contacts give way to what was not predicted, by the residual.
     pub(super) is_settled: bool,
 }
 
