@@ -68,11 +68,12 @@ impl RemeshGuard for Permit {
 }
 
 /// Changes the resolution of every adaptive wire where its tension asks for it and `guard` permits
-/// it.
+/// it. A wire that does not adapt keeps its resolution as it slides: nodes that come to a contact
+/// node are taken out, and nodes are put in on the other side.
 pub(super) fn adapt(world: &mut World, guard: &mut dyn RemeshGuard) -> Vec<Remesh> {
     let mut changes = Vec::new();
     for wire in 0..world.wires.len() {
-        if world.wires[wire].resolution.adaptive {
+        if world.wires[wire].resolution.adaptive || slides(&world.wires[wire]) {
             merge(world, wire, guard, &mut changes);
             split(world, wire, guard, &mut changes);
         }
@@ -84,6 +85,9 @@ pub(super) fn adapt(world: &mut World, guard: &mut dyn RemeshGuard) -> Vec<Remes
 /// first and the last remember, unless the wire has to bend there.
 fn wanted(world: &World, at: usize, [first, last]: [usize; 2], guard: &dyn RemeshGuard) -> f64 {
     let wire = &world.wires[at];
+    if !wire.resolution.adaptive {
+        return wire.resolution.length;
+    }
     let tension = [first, last].map(|segment| wire.segments[segment].largest_tension());
     let stable = world
         .settings
@@ -107,7 +111,8 @@ fn merge(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
         let length = wire.rest_length(node - 1).min(wire.rest_length(node));
         let wanted = wanted(world, at, [node - 1, node], guard);
         let short = length < wanted * (1.0 - ROUNDING);
-        let may_change = this.remesh_from <= world.steps || is_slid_over(wire, node);
+        let slid_over = is_slid_over(wire, node);
+        let may_change = slid_over || wire.resolution.adaptive && this.remesh_from <= world.steps;
         if this.kind == NodeKind::Free && may_change && short {
             let nodes = [node - 1, node, node + 1].map(|i| wire.nodes[i]);
             let change = remesh(at, RemeshKind::Merge, &nodes);
@@ -121,6 +126,11 @@ fn merge(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
     }
 }
 
+/// Whether a wire slides over a contact node.
+fn slides(wire: &Wire) -> bool {
+    wire.nodes.iter().any(|node| node.slide != 0.0)
+}
+
 /// Whether the wire slides over a neighbour, towards it, so that it cannot wait.
 fn is_slid_over(wire: &Wire, node: usize) -> bool {
     wire.nodes[node - 1].slide > 0.0 || wire.nodes[node + 1].slide < 0.0
@@ -132,7 +142,8 @@ fn split(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
         let wire = &world.wires[at];
         let long = wanted(world, at, [segment; 2], guard) * world.settings.split_ratio;
         let ends = [wire.nodes[segment], wire.nodes[segment + 1]];
-        let may_change = ends.iter().all(|node| node.remesh_from <= world.steps);
+        let may_change = ends.iter().all(|node| node.remesh_from <= world.steps)
+            && (wire.resolution.adaptive || ends.iter().any(|node| node.slide != 0.0));
         if may_change && wire.rest_length(segment) > long {
             let until = world.steps + TENSION_HISTORY as u64;
             let middle = between(&ends, until);

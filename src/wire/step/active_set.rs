@@ -10,10 +10,10 @@
 //!
 //! The friction at a contact node is bounded by the tensions beside it ([`capstan`]). It is found
 //! for bounds that stand, then these for the tensions that follow, and so on until the bounds stay:
-//! each change moves the others by `f tan(D/2)` times itself, which is below 1 where wire
-//! slides at all.
+//! each change moves the others by `tanh(f D/2)` times itself, which is below 1.
 
 use super::capstan;
+use super::friction_bounds;
 use super::rows::Row;
 use super::system::{RESIDUAL, System};
 use crate::wire::bisect::bisect;
@@ -23,9 +23,15 @@ use crate::wire::error::Reason;
 /// chains.
 const TRIES: usize = 1000;
 
-/// How often bounds of friction follow tensions. Each time the difference gets smaller by a factor;
-/// a dozen is usual for a dozen nodes.
-const BOUNDS: usize = 100;
+/// How often bounds of friction are updated at most; a few times are usual. Then they are accepted, and
+/// the record has their residual.
+const BOUNDS: usize = 40;
+
+/// After so many factorisations bounds are not updated any more.
+const SEARCHED: usize = 200;
+
+/// After so many updates the next ones go only half of the way.
+const UNDAMPED: usize = 8;
 
 /// A solution for given impulses in which every row has the branch of its law that holds there.
 pub(super) struct ActiveSet {
@@ -75,14 +81,17 @@ pub(super) fn find_active_set(
         }
         x = newton;
         updates += 1;
-        if updates > BOUNDS || !capstan::bounds_differ(&system.rows, &x) {
+        if updates > BOUNDS
+            || factorisations > SEARCHED
+            || !capstan::bounds_differ(&system.rows, &x)
+        {
             return Ok(ActiveSet {
                 x,
                 backward_error,
                 factorisations,
             });
         }
-        capstan::update_bounds(&mut system.rows, &x);
+        friction_bounds::update(system, &x, updates > UNDAMPED);
     }
     Err(Reason::ActiveSet { tries: TRIES })
 }

@@ -15,11 +15,13 @@ pub(super) enum ConstitutiveLaw {
     TensionOnly,
     /// Friction against the speed of sliding.
     Friction {
-        /// The bound is this factor, `f tan(D/2)`, times the sum of two other multipliers; one that
-        /// pushes counts as 0.
+        /// The bound is this factor, `tanh(f D/2)`, times the sum of two pulls; one that pushes
+        /// counts as 0.
         factor: f64,
-        /// These two, by their unknowns.
+        /// The multipliers of these two, by their unknowns.
         tensions: [usize; 2],
+        /// What the pulls have beside them, in N s.
+        weights: [f64; 2],
         /// The largest magnitude of the friction, in N s: from the two as they were last.
         bound: f64,
         /// The fastest that the wire may slide towards lower and higher arc lengths, in m/s.
@@ -80,15 +82,22 @@ pub(super) fn friction_bound(factor: f64, pulls: [f64; 2]) -> f64 {
 }
 
 impl ConstitutiveLaw {
+    /// The two pulls beside friction, in N s.
+    pub(super) fn pulls(&self, x: &[f64]) -> [f64; 2] {
+        match *self {
+            ConstitutiveLaw::Friction {
+                tensions, weights, ..
+            } => [0, 1].map(|side| x[tensions[side]] + weights[side]),
+            _ => [0.0; 2],
+        }
+    }
+
     /// The bound of friction, and the one that follows from a solution.
     pub(super) fn bounds(&self, x: &[f64]) -> Option<[f64; 2]> {
         match *self {
-            ConstitutiveLaw::Friction {
-                factor,
-                tensions,
-                bound,
-                ..
-            } => Some([bound, friction_bound(factor, tensions.map(|at| x[at]))]),
+            ConstitutiveLaw::Friction { factor, bound, .. } => {
+                Some([bound, friction_bound(factor, self.pulls(x))])
+            }
             _ => None,
         }
     }
@@ -158,6 +167,7 @@ mod tests {
         ConstitutiveLaw::Friction {
             factor: 0.1,
             tensions: [0, 1],
+            weights: [0.0; 2],
             bound,
             reach: [1.0, 2.0],
         }

@@ -13,6 +13,7 @@ pub(super) mod contact_nodes;
 mod coulomb;
 mod delassus;
 mod friction;
+mod friction_bounds;
 mod implicit;
 pub(super) mod motion;
 mod multipliers;

@@ -9,6 +9,7 @@
 
 use super::active_set::{advance, leaves_branch, line_search, update_branches};
 use super::capstan;
+use super::friction_bounds;
 use super::system::System;
 use crate::wire::error::Reason;
 
@@ -69,7 +70,7 @@ pub(super) fn solve(system: &mut System, x: Vec<f64>, tolerance: f64) -> Result<
         if converged || stays {
             break;
         }
-        capstan::update_bounds(&mut system.rows, &solution.x);
+        friction_bounds::update(system, &solution.x, false);
         for contact in &mut system.implicit {
             contact.update_prediction(&solution.x);
         }

@@ -72,7 +72,7 @@ impl System {
                 let velocity = node.velocity + fall;
                 if let Some(column) = self.layout.slides[first + i] {
                     self.triplets.add(column, column, mass);
-                    self.right[column] += mass * node.slide;
+                    self.right[column] += mass * node.slide + capstan::fall(wire, i).dot(&fall);
                 }
                 let carrier = self.layout.nodes[first + i];
                 if let Carrier::Free(first) = carrier {
@@ -251,6 +251,14 @@ impl System {
             structure.ldl.solve(&mut x);
         }
         x
+    }
+
+    /// What impulses change in a solution with the rows as they were factored, not refined.
+    pub(super) fn response(&self, mut impulses: Vec<f64>) -> Vec<f64> {
+        if let Some(structure) = &self.structure {
+            structure.ldl.solve(&mut impulses);
+        }
+        impulses
     }
 
     fn right_side(&self, impulses: &[(usize, f64)]) -> Vec<f64> {
