@@ -123,6 +123,12 @@ impl Turn {
         self.radius * libm::cos(self.turn / self.nodes as f64 / 2.0)
     }
 
+    /// The radius at which an arc is as long as the chord between two nodes.
+    fn mean_radius(&self) -> f64 {
+        let half = self.turn / self.nodes as f64 / 2.0;
+        self.radius * libm::sin(half) / half
+    }
+
     fn add(&self, world: &mut World, radius: f64) -> Result<BodyId, Box<dyn Error>> {
         let shape = Shape::Cylinder {
             radius,
@@ -188,15 +194,27 @@ impl Drum {
         (self.mesh.corners * self.angle as usize / 180).max(1)
     }
 
-    /// Whether the lighter tension holds the wire on the drum: twice the weight of the wire there.
-    fn lies_on_drum(&self) -> bool {
+    /// The wire's weight on the drum as a part of the light load's.
+    fn weight(&self) -> f64 {
         let light = self.heavy / (self.part * self.limit());
-        light > 2.0 * self.radius * self.turn() * self.material.mass_per_length()
+        self.radius * self.turn() * self.material.mass_per_length() / light
+    }
+
+    /// Whether the lighter tension holds the wire on the drum, and there are nodes enough for its
+    /// weight: they spread it with an error that grows as the square of their distance.
+    fn is_resolved(&self) -> bool {
+        let each = self.turn() / self.nodes() as f64;
+        self.weight() < 0.5 && self.weight() * each * each < 0.1
     }
 
     /// `e^(f theta)`.
     pub(crate) fn limit(&self) -> f64 {
         libm::exp(self.friction * self.turn())
+    }
+
+    /// How far the loads hang below the axis of the drum, in m.
+    fn depth(&self) -> f64 {
+        2.0 + 2.0 * self.radius
     }
 
     /// Where nodes turn the wire: on the drum, or, where it is laid there, around it, so that its
@@ -232,7 +250,7 @@ impl Drum {
             let at = |angle| Stop::Free(Point::from(direction(angle) * drum.radius));
             drum.angles().map(at).collect()
         };
-        let long = 2.0 + 2.0 * self.radius;
+        let long = self.depth();
         let left = Point::new(-drum.aside(), 0.0, -long);
         let leaves = PI - self.turn();
         let rest = leaves.rem_euclid(TAU);
@@ -262,36 +280,35 @@ impl Drum {
         Ok(world)
     }
 
-    /// What pulls at the heavy load when its wire is at the limit, in N, for a light load of `light`
-    /// kg that rises with 1 m/s^2 times `acceleration`: the capstan's ratio on the drum, and the wire's own
-    /// weight and mass.
-    fn pull(&self, world: &World, light: f64, acceleration: f64) -> f64 {
-        let wire = &world.wires()[0];
-        let on = self.on_drum(world);
-        let each = libm::pow(self.limit(), 1.0 / on.len() as f64);
-        let last = wire.nodes().len() - 1;
-        let mut pull = (light + wire.node_mass(0)) * (G + acceleration);
-        for node in 1..last {
-            let [up, on_down] = [node - 1, node].map(|segment| {
-                let span = wire.span(segment);
-                span.z / span.norm() * wire.rest_length(segment) / 2.0
-                    * wire.material().mass_per_length()
-            });
-            let rises = wire.node_mass(node) * acceleration + (up + on_down) * G;
-            let ratio = if on.contains(&node) { each } else { 1.0 };
-            pull = pull * ratio + rises * (1.0 + ratio) / 2.0;
-        }
-        pull
+    /// What pulls at the heavy load when its wire is at the limit, in N: the solution of
+    /// `dT/dx = f (T + w sin x) + w cos x + m a` along the drum, where `w` and `m` are the wire's
+    /// weight and mass for an angle of 1, and the wire's own weight and mass beside the drum. The
+    /// light load rises with an acceleration in m/s^2; `slid` of the wire in m has come over to the
+    /// heavy one.
+    fn pull(&self, world: &World, light: f64, slid: f64, acceleration: f64) -> f64 {
+        let line = self.material.mass_per_length();
+        let (f, turn, wire) = (self.friction, self.turn(), self.turn_of_wire());
+        let radius = wire.mean_radius();
+        let hangs = self.depth() - slid;
+        let start = (light + line * hangs) * (G + acceleration);
+        let on_drum = line * radius;
+        let along = on_drum * G * (1.0 - f * f) / (1.0 + f * f);
+        let pressed = -2.0 * on_drum * G * f / (1.0 + f * f);
+        let moved = -on_drum * acceleration / f;
+        let (sin, cos) = (libm::sin(turn), libm::cos(turn));
+        let end = self.limit() * (start - pressed - moved) + along * sin + pressed * cos + moved;
+        // From the drum to the load.
+        let all = world.wires()[0].nodes().last().map_or(0.0, |node| node.arc);
+        let beyond = all - hangs - radius * turn;
+        let down = self.depth() + slid + wire.aside() * sin;
+        end + line * (beyond * acceleration - down * G)
     }
 
     /// The acceleration with which the heavy load falls, 0 below the limit, once `slid` of the wire
     /// in m has come over to it.
     fn fall(&self, world: &World, [light, heavy]: [f64; 2], slid: f64) -> f64 {
-        let wire = &world.wires()[0];
-        let over = wire.material().mass_per_length() * slid;
-        let heavy = heavy + wire.node_mass(wire.nodes().len() - 1) + over;
         let [still, moving] =
-            [0.0, 1.0].map(|acceleration| self.pull(world, light - over, acceleration));
+            [0.0, 1.0].map(|acceleration| self.pull(world, light, slid, acceleration));
         ((heavy * G - still) / (heavy + moving - still)).max(0.0)
     }
 
@@ -307,27 +324,12 @@ impl Drum {
         speeds.acceleration(self.mesh.step())
     }
 
-    /// The nodes that turn the wire on the drum, and those between them.
-    fn on_drum(&self, world: &World) -> std::ops::Range<usize> {
-        let radius = self.turn_of_wire().radius;
-        let is_on = |node: &tunnelproof::wire::Node| {
-            let away = Vector::new(node.position.x, 0.0, node.position.z).norm();
-            (away - radius).abs() < 1e-9
-        };
-        let nodes = world.wires()[0].nodes();
-        let first = nodes.iter().position(is_on).unwrap_or(0);
-        let last = nodes.iter().rposition(is_on).unwrap_or(0);
-        first..last + 1
-    }
-
     /// The masses of the loads in kg that make the ratio wanted.
     fn masses(&self) -> Result<[f64; 2], Box<dyn Error>> {
         let world = self.world([1.0, 1.0])?;
-        let wire = &world.wires()[0];
-        let heavy = self.heavy + wire.node_mass(wire.nodes().len() - 1);
         // The pull is linear in the light load.
-        let [one, two] = [1.0, 2.0].map(|light| self.pull(&world, light, 0.0));
-        let light = 1.0 + (heavy * G / self.part - one) / (two - one);
+        let [one, two] = [1.0, 2.0].map(|light| self.pull(&world, light, 0.0, 0.0));
+        let light = 1.0 + (self.heavy * G / self.part - one) / (two - one);
         Ok([light, self.heavy])
     }
 
@@ -423,7 +425,7 @@ pub(crate) fn grid(way: Way, part: f64) -> Vec<Drum> {
                         mesh,
                         part,
                     });
-                    drums.extend(drums_of.filter(Drum::lies_on_drum));
+                    drums.extend(drums_of.filter(Drum::is_resolved));
                 }
             }
         }

@@ -37,7 +37,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (name, way) in ways.into_iter().filter(|(name, _)| !some || names(name)) {
         let mut rows = BTreeMap::new();
         for (column, part) in PARTS.into_iter().enumerate() {
-            for drum in grid(way, part).into_iter().skip(column % every).step_by(every) {
+            for drum in grid(way, part)
+                .into_iter()
+                .skip(column % every)
+                .step_by(every)
+            {
                 let mut meshes = MESHES.iter().chain(&LAID);
                 let mesh = meshes.position(|mesh| *mesh == drum.mesh);
                 let key = (drum.stiffness, mesh);

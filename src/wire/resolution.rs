@@ -111,15 +111,20 @@ fn merge(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
         let length = wire.rest_length(node - 1).min(wire.rest_length(node));
         let wanted = wanted(world, at, [node - 1, node], guard);
         let short = length < wanted * (1.0 - ROUNDING);
-        let slid_over = is_slid_over(wire, node);
-        let may_change = slid_over || wire.resolution.adaptive && this.remesh_from <= world.steps;
-        if this.kind == NodeKind::Free && may_change && short {
+        let may_change = wire.resolution.adaptive && this.remesh_from <= world.steps;
+        let is_used_up = is_used_up(world, at, node, wanted);
+        if this.kind == NodeKind::Free && (is_used_up || may_change && short) {
             let nodes = [node - 1, node, node + 1].map(|i| wire.nodes[i]);
             let change = remesh(at, RemeshKind::Merge, &nodes);
             if guard.permits(world, &change) {
                 let remesh_from = world.steps + TENSION_HISTORY as u64;
                 take_out(&mut world.wires[at], node, remesh_from);
                 changes.push(change);
+                if is_used_up {
+                    // The next node may have to follow, on either side.
+                    node = (node - 1).max(1);
+                    continue;
+                }
             }
         }
         node += 1;
@@ -131,9 +136,24 @@ fn slides(wire: &Wire) -> bool {
     wire.nodes.iter().any(|node| node.slide != 0.0)
 }
 
-/// Whether the wire slides over a neighbour, towards it, so that it cannot wait.
-fn is_slid_over(wire: &Wire, node: usize) -> bool {
-    wire.nodes[node - 1].slide > 0.0 || wire.nodes[node + 1].slide < 0.0
+/// Whether wire slides over a neighbour of a node, towards it, and the segment between the two is
+/// used up so far that the node cannot wait: shorter than wanted, or than half of the resolution
+/// where it stays, or than four times of what slides in a step.
+fn is_used_up(world: &World, at: usize, node: usize, wanted: f64) -> bool {
+    let wire = &world.wires[at];
+    let least = if wire.resolution.adaptive {
+        wanted
+    } else {
+        wanted / 2.0
+    };
+    let sides = [
+        (node - 1, wire.nodes[node - 1].slide),
+        (node, -wire.nodes[node + 1].slide),
+    ];
+    sides.into_iter().any(|(segment, speed)| {
+        let slid = speed * world.settings.step;
+        slid > 0.0 && wire.rest_length(segment) < least.max(4.0 * slid)
+    })
 }
 
 fn split(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mut Vec<Remesh>) {

@@ -153,7 +153,7 @@ fn beside_drum(wire: &Wire) -> Option<[usize; 2]> {
 
 pub(super) const HOIST: Case = Case {
     name: "load drawn over a drum",
-    formula: "T1 = (m + mu L1) g, T2 = e^(f pi) T1 + mu g R f (1 + e^(f pi)) / (1 + f^2)",
+    formula: "T1 = (m + mu L1) g, T2 = e^(f pi) T1 + 2 mu g R f (1 + e^(f pi)) / (1 + f^2)",
     run: hoisting,
 };
 
@@ -177,7 +177,8 @@ fn hoisting() -> Outcome {
             wire.segments()[segment].tension + weight * wire.rest_length(segment) / 2.0
         });
         // The weight of the wire on the drum, of which friction carries a part on each side.
-        let on_drum = weight * RADIUS * FRICTION * (1.0 + bound) / (1.0 + FRICTION * FRICTION);
+        let on_drum =
+            2.0 * weight * RADIUS * FRICTION * (1.0 + bound) / (1.0 + FRICTION * FRICTION);
         ratio += (tensions[1] - on_drum) / tensions[0];
         pull += tensions[1];
         let hanging = weight * wire.nodes()[first + 1].arc;

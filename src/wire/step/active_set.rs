@@ -13,7 +13,7 @@
 //! each change moves the others by `tanh(f D/2)` times itself, which is below 1.
 
 use super::capstan;
-use super::friction_bounds;
+use super::friction_bounds::BoundSearch;
 use super::rows::Row;
 use super::system::{RESIDUAL, System};
 use crate::wire::bisect::bisect;
@@ -25,13 +25,10 @@ const TRIES: usize = 1000;
 
 /// How often bounds of friction are updated at most; a few times are usual. Then they are accepted, and
 /// the record has their residual.
-const BOUNDS: usize = 40;
+const BOUNDS: usize = 100;
 
 /// After so many factorisations bounds are not updated any more.
-const SEARCHED: usize = 200;
-
-/// After so many updates the next ones go only half of the way.
-const UNDAMPED: usize = 8;
+const SEARCHED: usize = 300;
 
 /// A solution for given impulses in which every row has the branch of its law that holds there.
 pub(super) struct ActiveSet {
@@ -68,6 +65,7 @@ pub(super) fn find_active_set(
     mut x: Vec<f64>,
 ) -> Result<ActiveSet, Reason> {
     let (mut factorisations, mut updates) = (0, 0);
+    let mut search = BoundSearch::new();
     for _ in 0..TRIES {
         if update_branches(&mut system.rows, &x) {
             system.factor()?;
@@ -91,7 +89,7 @@ pub(super) fn find_active_set(
                 factorisations,
             });
         }
-        friction_bounds::update(system, &x, updates > UNDAMPED);
+        search.update(system, &x);
     }
     Err(Reason::ActiveSet { tries: TRIES })
 }

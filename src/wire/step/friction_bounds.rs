@@ -3,104 +3,124 @@
 //! For given bounds `b` the solution of a step has tensions `T(b)`, and the bounds are to be `k (T1 +
 //! T2)` with `k = tanh(f D/2)` at each node ([`capstan`](super::capstan)). Where each row stays on its
 //! branch, `T` is linear in the bounds of the nodes that slide. So Newton's method asks for the bounds
-//! that agree with the tensions which follow from them, by one solution with the present factor for
-//! each node that slides. Bounds that only follow the last tensions converge as long as nothing but
+//! that agree with the tensions which follow from them. These are linear equations, solved by
+//! [`gmres`] with one solution with the present factor for each product: about a dozen, however many
+//! nodes slide. Bounds that only follow the last tensions converge as long as nothing but
 //! one end of the wire gives way. Between two loads each update leaves `f theta / |f theta + i pi|`
 //! of the error, and from some turns on they go round in circles.
 
+use smallvec::SmallVec;
+
 use super::capstan;
 use super::constitutive::ConstitutiveLaw;
+use super::gmres::gmres;
 use super::rows::Row;
 use super::system::System;
 
-/// Sets the bounds of friction to those that a solution `x` would have with its branches, half of the
-/// way if it is to be damped; where that has no solution, to those of its tensions.
-pub(super) fn update(system: &mut System, x: &[f64], damped: bool) {
-    let mut followed = agreeing(system, x).unwrap_or_else(|| x.to_vec());
-    if damped {
-        for (value, x) in followed.iter_mut().zip(x) {
-            *value = (*value + x) / 2.0;
-        }
-    }
-    capstan::update_bounds(&mut system.rows, &followed);
+/// A search for the bounds of friction, from those of the first tensions on.
+pub(super) struct BoundSearch {
+    /// The residual below which Newton's method is tried.
+    newton_below: f64,
+    /// Before a step of Newton's method: the residual, and the bounds that followed there.
+    before: Option<(f64, Vec<f64>)>,
 }
 
-/// The solution with the present branches whose tensions and bounds of friction agree.
-fn agreeing(system: &System, x: &[f64]) -> Option<Vec<f64>> {
-    let sliding: Vec<&Row> = system.rows.iter().filter(|row| row.slides_over()).collect();
-    // What one N s more of each bound changes.
-    let responses: Vec<Vec<f64>> = (sliding.iter())
-        .map(|row| {
-            let side = if row.branch.range[0] < 0.0 { -1.0 } else { 1.0 };
-            let mut impulses = vec![0.0; x.len()];
-            row.each_column(|column, value| impulses[column] -= side * value);
-            system.response(impulses)
-        })
-        .collect();
-    let mut matrix = Vec::with_capacity(sliding.len());
-    let mut right = Vec::with_capacity(sliding.len());
-    for (at, row) in sliding.iter().enumerate() {
+impl BoundSearch {
+    pub(super) fn new() -> Self {
+        BoundSearch {
+            newton_below: f64::INFINITY,
+            before: None,
+        }
+    }
+
+    /// Sets the next bounds, after a solution `x` for the present ones. They are those that agree
+    /// with tensions if each row keeps its branch. If that does not halve the residual, because
+    /// other nodes slide then, it goes on from where it was, with bounds that go half of the way to
+    /// what follows from tensions, until the residual is a quarter of what it was.
+    pub(super) fn update(&mut self, system: &mut System, x: &[f64]) {
+        let residual = capstan::bound_residual(&system.rows, x);
+        if let Some((before, bounds)) = self.before.take()
+            && residual > before / 2.0
+        {
+            self.newton_below = before / 4.0;
+            capstan::set_bounds(&mut system.rows, &bounds);
+            return;
+        }
+        let halfway = capstan::halfway_bounds(&system.rows, x);
+        let agreeing = (residual < self.newton_below).then(|| agreeing(system, x));
+        let bounds = match agreeing.flatten() {
+            Some(agreeing) => {
+                self.before = Some((residual, halfway));
+                capstan::due_bounds(&system.rows, &agreeing)
+            }
+            None => halfway,
+        };
+        capstan::set_bounds(&mut system.rows, &bounds);
+    }
+}
+
+/// A node over which wire slides.
+struct Sliding<'r> {
+    row: &'r Row,
+    /// The sign of its friction.
+    side: f64,
+    factor: f64,
+    /// The tensions that its bound grows with.
+    pulling: SmallVec<[usize; 2]>,
+}
+
+impl<'r> Sliding<'r> {
+    fn new(row: &'r Row, x: &[f64]) -> Option<Self> {
         let ConstitutiveLaw::Friction {
             factor, tensions, ..
         } = row.law
         else {
             return None;
         };
-        let [bound, due] = row.law.bounds(x)?;
-        let pulling = tensions.into_iter().filter(|&tension| x[tension] > 0.0);
-        let equation = responses.iter().enumerate().map(|(other, response)| {
-            let follows = pulling
-                .clone()
-                .map(|tension| response[tension])
-                .sum::<f64>();
-            let own = if other == at { 1.0 } else { 0.0 };
-            own - factor * follows
-        });
-        matrix.push(equation.collect::<Vec<f64>>());
-        right.push(due - bound);
+        let pulls = tensions.into_iter().zip(row.law.pulls(x));
+        let due = row.law.bounds(x).map_or(0.0, |[_, due]| due);
+        let pulling = pulls.filter(|(_, pull)| *pull > 0.0 && due > 0.0);
+        row.slides_over().then(|| Sliding {
+            row,
+            side: if row.branch.range[0] < 0.0 { -1.0 } else { 1.0 },
+            factor,
+            pulling: pulling.map(|(tension, _)| tension).collect(),
+        })
     }
-    let changes = solve(matrix, right)?;
-    let mut followed = x.to_vec();
-    for (change, response) in changes.iter().zip(&responses) {
-        for (value, response) in followed.iter_mut().zip(response) {
-            *value += change * response;
-        }
-    }
-    Some(followed)
 }
 
-/// Solves a small system by elimination with row pivots. None if it is singular.
-fn solve(mut matrix: Vec<Vec<f64>>, mut x: Vec<f64>) -> Option<Vec<f64>> {
-    let n = x.len();
-    for k in 0..n {
-        let larger = |a: usize, b: usize| {
-            if matrix[b][k].abs() > matrix[a][k].abs() {
-                b
-            } else {
-                a
-            }
-        };
-        let pivot = (k..n).fold(k, larger);
-        matrix.swap(k, pivot);
-        x.swap(k, pivot);
-        let (above, below) = matrix.split_at_mut(k + 1);
-        let eliminated = &above[k];
-        if eliminated[k] == 0.0 {
-            return None;
+/// The solution with the present branches whose tensions and bounds of friction agree.
+fn agreeing(system: &System, x: &[f64]) -> Option<Vec<f64>> {
+    let rows = system.rows.iter();
+    let sliding: Vec<_> = rows.filter_map(|row| Sliding::new(row, x)).collect();
+    // What changes of the bounds, in N s, change.
+    let response = |changes: &[f64]| {
+        let mut impulses = vec![0.0; x.len()];
+        for (node, change) in sliding.iter().zip(changes) {
+            let friction = node.side * change;
+            (node.row).each_column(|column, value| impulses[column] -= friction * value);
         }
-        for (i, row) in below.iter_mut().enumerate() {
-            let part = row[k] / eliminated[k];
-            for (value, eliminated) in row[k..].iter_mut().zip(&eliminated[k..]) {
-                *value -= part * eliminated;
-            }
-            x[k + 1 + i] -= part * x[k];
-        }
+        system.response(impulses)
+    };
+    let residuals: Vec<f64> = (sliding.iter())
+        .filter_map(|node| node.row.law.bounds(x))
+        .map(|[bound, due]| due - bound)
+        .collect();
+    let product = |changes: &[f64]| {
+        let follows = response(changes);
+        let nodes = sliding.iter().zip(changes);
+        nodes
+            .map(|(node, change)| {
+                let pulls = node.pulling.iter().map(|&tension| follows[tension]);
+                change - node.factor * pulls.sum::<f64>()
+            })
+            .collect()
+    };
+    let mut followed = response(&gmres(product, &residuals)?);
+    for (value, x) in followed.iter_mut().zip(x) {
+        *value += x;
     }
-    for k in (0..n).rev() {
-        let known: f64 = (k + 1..n).map(|j| matrix[k][j] * x[j]).sum();
-        x[k] = (x[k] - known) / matrix[k][k];
-    }
-    x.iter().all(|value| value.is_finite()).then_some(x)
+    Some(followed)
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ mod coulomb;
 mod delassus;
 mod friction;
 mod friction_bounds;
+mod gmres;
 mod implicit;
 pub(super) mod motion;
 mod multipliers;

@@ -9,7 +9,7 @@
 
 use super::active_set::{advance, leaves_branch, line_search, update_branches};
 use super::capstan;
-use super::friction_bounds;
+use super::friction_bounds::BoundSearch;
 use super::system::System;
 use crate::wire::error::Reason;
 
@@ -55,6 +55,7 @@ pub(super) fn solve(system: &mut System, x: Vec<f64>, tolerance: f64) -> Result<
         contact_residual: f64::INFINITY,
         factorisations: 0,
     };
+    let mut search = BoundSearch::new();
     let (mut least, mut stayed) = (f64::INFINITY, 0);
     for _ in 0..ROUNDS {
         solution = minimise_for_predicted(system, solution, tolerance)?;
@@ -70,7 +71,7 @@ pub(super) fn solve(system: &mut System, x: Vec<f64>, tolerance: f64) -> Result<
         if converged || stays {
             break;
         }
-        friction_bounds::update(system, &solution.x, false);
+        search.update(system, &solution.x);
         for contact in &mut system.implicit {
             contact.update_prediction(&solution.x);
         }

@@ -70,6 +70,32 @@ fn bound_of_a_node_is_the_capstans_ratio_of_its_turn() {
 }
 
 #[test]
+fn weight_that_presses_has_the_friction_of_an_even_load_along_the_turn() {
+    const TENSION: f64 = 7.0;
+    const PRESSES: f64 = 3.0;
+    const STEPS: u32 = 20_000;
+    for degrees in [0.0_f64, 1e-7, 1.0, 40.0, 150.0] {
+        let angle = degrees.to_radians();
+        let down = 2.0 * libm::tan(angle / 2.0);
+        let world = over_a_node(FRICTION, down, 0.0);
+        let wire = &world.wires[0];
+        let [factor, share] = [capstan_factor(wire, 1), pressing_share(wire, 1)];
+        // Where the tension is `(1 + factor) / (1 - factor)` of it, and the pressing force beside.
+        let bound = (TENSION * (1.0 + factor) + share * PRESSES) / (1.0 - factor);
+        // dT/dx = f (T + P/D), by the midpoint rule.
+        let part = 1.0 / f64::from(STEPS);
+        let slope = |tension: f64| FRICTION * (tension * angle + PRESSES);
+        let tension = (0..STEPS).fold(TENSION, |tension, _| {
+            tension + part * slope(tension + part / 2.0 * slope(tension))
+        });
+        assert!(
+            (bound / tension - 1.0).abs() < 1e-8,
+            "{degrees}: {bound} {tension}"
+        );
+    }
+}
+
+#[test]
 fn mass_of_a_contact_node_falls_as_its_potential_energy_does() {
     let mut world = over_a_node(FRICTION, 1.0, 0.0);
     // Free ends at different heights.
