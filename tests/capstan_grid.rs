@@ -33,16 +33,10 @@ fn wires_over_drums_hold_and_slip_by_the_capstans_ratio() {
 }
 
 #[test]
-fn wires_that_are_laid_on_drums_slip_with_contact_nodes_and_hook_without() {
-    let mut slipped = [0; 2];
-    for drum in sample(Way::ContactNodes, &[1.1]) {
+fn wires_that_are_laid_on_drums_hold_and_slip_by_the_capstans_ratio() {
+    for drum in sample(Way::ContactNodes, &[0.9, 1.1]) {
         check(&drum, &drum.run().unwrap());
-        let way = Way::Contacts;
-        let without = Drum { way, ..drum }.run();
-        let is_right = without.is_ok_and(|outcome| outcome.is_right(&drum));
-        slipped[usize::from(is_right)] += 1;
     }
-    assert!(slipped[0] > 2 * slipped[1], "{slipped:?}");
 }
 
 #[test]

@@ -204,7 +204,7 @@ impl Drum {
     /// weight: they spread it with an error that grows as the square of their distance.
     fn is_resolved(&self) -> bool {
         let each = self.turn() / self.nodes() as f64;
-        self.weight() < 0.5 && self.weight() * each * each < 0.1
+        self.weight() < 0.5 && self.weight() * each * each < 0.05
     }
 
     /// `e^(f theta)`.

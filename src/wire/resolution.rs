@@ -162,8 +162,11 @@ fn split(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
         let wire = &world.wires[at];
         let long = wanted(world, at, [segment; 2], guard) * world.settings.split_ratio;
         let ends = [wire.nodes[segment], wire.nodes[segment + 1]];
-        let may_change = ends.iter().all(|node| node.remesh_from <= world.steps)
-            && (wire.resolution.adaptive || ends.iter().any(|node| node.slide != 0.0));
+        let may_change = if wire.resolution.adaptive {
+            ends.iter().all(|node| node.remesh_from <= world.steps)
+        } else {
+            ends.iter().any(|node| node.slide != 0.0)
+        };
         if may_change && wire.rest_length(segment) > long {
             let until = world.steps + TENSION_HISTORY as u64;
             let middle = between(&ends, until);
