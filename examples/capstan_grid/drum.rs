@@ -91,6 +91,9 @@ const G: f64 = 9.80665;
 /// s.
 const SETTLING: f64 = 4.0;
 const PAUSE: f64 = 0.25;
+/// It is halted before when its kinetic energy falls to this part of the most: not by the trembling
+/// of short segments, which would halt its loads again and again before they have moved.
+const FALLEN: f64 = 0.5;
 /// Radius of a load in m.
 const BALL: f64 = 0.02;
 
@@ -364,16 +367,16 @@ impl Drum {
             (SETTLING / self.mesh.step()) as usize,
             (PAUSE / self.mesh.step()) as usize,
         );
-        let (mut last, mut since) = (0.0, 0);
+        let (mut most, mut since) = (0.0, 0);
         for _ in 0..rest {
             step(&mut world)?;
             let kinetic = world.energy().kinetic;
             since += 1;
-            if kinetic < last || since >= pause {
+            if kinetic < FALLEN * most || since >= pause {
                 world.halt();
-                (last, since) = (0.0, 0);
+                (most, since) = (0.0, 0);
             } else {
-                last = kinetic;
+                most = kinetic.max(most);
             }
         }
         world.halt();
