@@ -1,7 +1,6 @@
 //! Two loads on one wire over a drum that does not turn: what holds, what slips, and how fast.
 //!
-//! `cargo run --release --example capstan_grid` prints the whole grid; `tests/capstan_grid.rs`
-//! holds a sample of it to its bounds.
+//! `main.rs` prints the whole grid; `tests/capstan_grid.rs` holds a sample of it to its bounds.
 
 use std::error::Error;
 use std::f64::consts::{PI, TAU};
