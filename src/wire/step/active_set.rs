@@ -9,8 +9,8 @@
 //! [`ConstitutiveLaw`](super::constitutive::ConstitutiveLaw) in place of that square.
 //!
 //! The friction at a contact node is bounded by the tensions beside it ([`capstan`]). It is found
-//! for bounds that stand, then these for the tensions that follow, and so on until the bounds stay:
-//! each change moves the others by `tanh(f D/2)` times itself, which is below 1.
+//! for bounds that stand, then for those that agree with tensions
+//! ([`friction_bounds`](super::friction_bounds)), and so on until the bounds stay.
 
 use super::capstan;
 use super::friction_bounds::BoundSearch;
@@ -23,8 +23,8 @@ use crate::wire::error::Reason;
 /// chains.
 const TRIES: usize = 1000;
 
-/// How often bounds of friction are updated at most; a few times are usual. Then they are accepted, and
-/// the record has their residual.
+/// How often bounds of friction are updated at most; a few times are usual. Then they are accepted,
+/// and the record has their residual.
 const BOUNDS: usize = 100;
 
 /// After so many factorisations bounds are not updated any more.
