@@ -5,9 +5,9 @@
 //! branch, `T` is linear in the bounds of the nodes that slide. So Newton's method asks for the bounds
 //! that agree with the tensions which follow from them. These are linear equations, solved by
 //! [`gmres`] with one solution with the present factor for each product: about a dozen, however many
-//! nodes slide. Bounds that only follow the last tensions converge as long as nothing but
-//! one end of the wire gives way. Between two loads each update leaves `f theta / |f theta + i pi|`
-//! of the error, and from some turns on they go round in circles.
+//! nodes slide. Alone it may go round in circles between two sets of nodes that slide. Bounds that only
+//! follow the last tensions turn in circles, too: where all nodes of a turn `theta` between two loads
+//! slide, each update multiplies the error by `f theta / (f theta + i pi)`. Halfway they do not.
 
 use smallvec::SmallVec;
 
