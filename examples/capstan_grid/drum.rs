@@ -1,4 +1,6 @@
 //! Two loads on one wire over a drum that does not turn: what holds, what slips, and how fast.
+//!
+//! `main.rs` prints the whole grid; `tests/capstan_grid.rs` holds a sample of it to its bounds.
 
 use std::error::Error;
 use std::f64::consts::{PI, TAU};
@@ -7,8 +9,8 @@ use nalgebra::UnitQuaternion;
 
 use tunnelproof::query::Point;
 use tunnelproof::wire::{
-    BodyId, BodyPlan, Collisions, Material, NodeKind, Settings, Shape, StepError, Stop, Vector,
-    WirePlan, World,
+    BodyId, BodyPlan, Collisions, Material, Settings, Shape, StepError, Stop, Vector, WirePlan,
+    World,
 };
 
 /// How a wire gets around its drum.
@@ -34,17 +36,38 @@ pub(crate) struct Drum {
     pub(crate) material: Material,
     /// What the material is called.
     pub(crate) stiffness: &'static str,
-    /// The heavy load in kg, wire included.
+    /// The heavy load in kg.
     pub(crate) heavy: f64,
-    /// How many nodes turn the wire.
-    pub(crate) nodes: usize,
+    pub(crate) mesh: Mesh,
+    /// The ratio of the loads as a part of the limit, `e^(f theta)` for a wire without weight.
+    pub(crate) part: f64,
+}
+
+/// How a wire and time are divided.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Mesh {
+    /// How many nodes turn the wire by 180 degrees.
+    pub(crate) corners: usize,
     /// The resolution in m.
     pub(crate) resolution: f64,
     pub(crate) adaptive: bool,
-    /// The time step in s.
-    pub(crate) step: f64,
-    /// The ratio of the loads as a part of `e^(f theta)`.
-    pub(crate) part: f64,
+    /// Steps in a second.
+    pub(crate) rate: u32,
+}
+
+impl Mesh {
+    const fn new(corners: usize, resolution: f64, adaptive: bool, rate: u32) -> Self {
+        Mesh {
+            corners,
+            resolution,
+            adaptive,
+            rate,
+        }
+    }
+
+    fn step(&self) -> f64 {
+        1.0 / f64::from(self.rate)
+    }
 }
 
 /// What became of it.
@@ -65,8 +88,11 @@ pub(crate) struct Outcome {
 const G: f64 = 9.80665;
 /// How long a wire may take to come to rest, and how long it moves at most until it is halted, in
 /// s.
-const SETTLING: f64 = 2.0;
-const PAUSE: f64 = 0.1;
+const SETTLING: f64 = 4.0;
+const PAUSE: f64 = 0.25;
+/// It is halted before when its kinetic energy falls to this part of the most: not by the trembling
+/// of short segments, which would halt its loads again and again before they have moved.
+const FALLEN: f64 = 0.5;
 /// Radius of a load in m.
 const BALL: f64 = 0.02;
 
@@ -97,6 +123,12 @@ impl Turn {
     /// How far the legs run beside the axis.
     fn aside(&self) -> f64 {
         self.radius * libm::cos(self.turn / self.nodes as f64 / 2.0)
+    }
+
+    /// The radius at which an arc is as long as the chord between two nodes.
+    fn mean_radius(&self) -> f64 {
+        let half = self.turn / self.nodes as f64 / 2.0;
+        self.radius * libm::sin(half) / half
     }
 
     fn add(&self, world: &mut World, radius: f64) -> Result<BodyId, Box<dyn Error>> {
@@ -137,15 +169,44 @@ fn load(world: &mut World, mass: f64, at: Point) -> Result<Stop, Box<dyn Error>>
     Ok(Stop::Eye { body, local })
 }
 
+/// A speed in m/s at the end of each step.
+#[derive(Default)]
+struct Speeds(Vec<f64>);
+
+impl Speeds {
+    /// The slope of the straight line nearest to it, in m/s^2.
+    fn acceleration(&self, step: f64) -> f64 {
+        let middle = (self.0.len() - 1) as f64 / 2.0;
+        let times = (0..self.0.len()).map(|i| (i as f64 - middle) * step);
+        let sums = times
+            .zip(&self.0)
+            .map(|(time, speed)| [time * speed, time * time]);
+        let [along, all] = sums.fold([0.0; 2], |sum, add| [sum[0] + add[0], sum[1] + add[1]]);
+        along / all
+    }
+}
+
 impl Drum {
     fn turn(&self) -> f64 {
         self.angle.to_radians()
     }
 
-    /// Whether the lighter tension bends the wire to the drum: by four times what a bar takes.
-    fn lies_on_drum(&self) -> bool {
-        let light = self.heavy * G / (self.part * self.limit());
-        light * self.radius * self.radius >= 4.0 * self.material.bend_stiffness()
+    /// How many nodes turn the wire.
+    fn nodes(&self) -> usize {
+        (self.mesh.corners * self.angle as usize / 180).max(1)
+    }
+
+    /// The wire's weight on the drum as a part of the light load's.
+    fn weight(&self) -> f64 {
+        let light = self.heavy / (self.part * self.limit());
+        self.radius * self.turn() * self.material.mass_per_length() / light
+    }
+
+    /// Whether the lighter tension holds the wire on the drum, and there are nodes enough for its
+    /// weight: they spread it with an error that grows as the square of their distance.
+    fn is_resolved(&self) -> bool {
+        let each = self.turn() / self.nodes() as f64;
+        self.weight() < 0.5 && self.weight() * each * each < 0.05
     }
 
     /// `e^(f theta)`.
@@ -153,30 +214,45 @@ impl Drum {
         libm::exp(self.friction * self.turn())
     }
 
-    /// The world, with both loads, the light one first.
-    fn world(&self, masses: [f64; 2]) -> Result<World, Box<dyn Error>> {
-        let mut world = World::new(Settings::default().with_step(self.step))?;
-        let mut drum = Turn {
+    /// How far the loads hang below the axis of the drum, in m.
+    fn depth(&self) -> f64 {
+        2.0 + 2.0 * self.radius
+    }
+
+    /// Where nodes turn the wire: on the drum, or, where it is laid there, around it, so that its
+    /// segments touch.
+    fn turn_of_wire(&self) -> Turn {
+        let turn = Turn {
             centre: Point::origin(),
             radius: self.radius,
             from: PI,
             turn: self.turn(),
-            nodes: self.nodes,
+            nodes: self.nodes(),
             friction: self.friction,
         };
-        let mut stops;
-        if self.way == Way::Route {
-            stops = drum.contact_nodes(&mut world)?;
+        let laid = (self.radius + self.material.radius) * turn.radius / turn.aside();
+        Turn {
+            radius: if self.way == Way::Route {
+                self.radius
+            } else {
+                laid
+            },
+            ..turn
+        }
+    }
+
+    /// The world, with both loads, the light one first.
+    fn world(&self, masses: [f64; 2]) -> Result<World, Box<dyn Error>> {
+        let mut world = World::new(Settings::default().with_step(self.mesh.step()))?;
+        let drum = self.turn_of_wire();
+        let mut stops = if self.way == Way::Route {
+            drum.contact_nodes(&mut world)?
         } else {
             drum.add(&mut world, self.radius)?;
-            // Segments that touch the drum.
-            drum.radius = (self.radius + self.material.radius) / (drum.aside() / drum.radius);
-            let angles = drum.angles();
-            stops = angles
-                .map(|angle| Stop::Free(Point::from(direction(angle) * drum.radius)))
-                .collect();
-        }
-        let long = 2.0 + 2.0 * self.radius;
+            let at = |angle| Stop::Free(Point::from(direction(angle) * drum.radius));
+            drum.angles().map(at).collect()
+        };
+        let long = self.depth();
         let left = Point::new(-drum.aside(), 0.0, -long);
         let leaves = PI - self.turn();
         let rest = leaves.rem_euclid(TAU);
@@ -200,78 +276,77 @@ impl Drum {
         let mut route = vec![load(&mut world, masses[0], left)?];
         route.extend(stops);
         route.push(load(&mut world, masses[1], right)?);
-        let mut plan = WirePlan::new(self.material, self.resolution, route);
-        plan.resolution.adaptive = self.adaptive;
+        let mut plan = WirePlan::new(self.material, self.mesh.resolution, route);
+        plan.resolution.adaptive = self.mesh.adaptive;
         world.add_wire(&plan)?;
         Ok(world)
     }
 
-    /// The acceleration of the heavy load by the capstan's ratio and the wire's mass.
-    fn expected(&self, world: &World) -> f64 {
-        let wire = &world.wires()[0];
-        let [light, heavy] = self.sides(world);
-        // The tension along the wire is `a + b w` for an acceleration `w`.
-        let (mut a, mut b) = (light * G, light);
-        let on = self.on_drum(world);
-        let each = libm::pow(self.limit(), 1.0 / on.len() as f64);
-        for node in on.clone() {
-            let mass = wire.node_mass(node);
-            a *= each;
-            b = b * each + mass * (1.0 + each) / 2.0;
+    /// What pulls at the heavy load when its wire is at the limit, in N: the solution of
+    /// `dT/dx = f (T + w sin x) + w cos x + m a` along the drum, where `w` and `m` are the wire's
+    /// weight and mass for an angle of 1, and the wire's own weight and mass beside the drum. The
+    /// light load rises with an acceleration in m/s^2; `slid` of the wire in m has come over to the
+    /// heavy one.
+    fn pull(&self, world: &World, light: f64, slid: f64, acceleration: f64) -> f64 {
+        let line = self.material.mass_per_length();
+        let (f, turn, wire) = (self.friction, self.turn(), self.turn_of_wire());
+        let radius = wire.mean_radius();
+        let hangs = self.depth() - slid;
+        let start = (light + line * hangs) * (G + acceleration);
+        let on_drum = line * radius;
+        let along = on_drum * G * (1.0 - f * f) / (1.0 + f * f);
+        let pressed = -2.0 * on_drum * G * f / (1.0 + f * f);
+        let moved = -on_drum * acceleration / f;
+        let (sin, cos) = (libm::sin(turn), libm::cos(turn));
+        let end = self.limit() * (start - pressed - moved) + along * sin + pressed * cos + moved;
+        // From the drum to the load.
+        let all = world.wires()[0].nodes().last().map_or(0.0, |node| node.arc);
+        let beyond = all - hangs - radius * turn;
+        let down = self.depth() + slid + wire.aside() * sin;
+        end + line * (beyond * acceleration - down * G)
+    }
+
+    /// The acceleration with which the heavy load falls, 0 below the limit, once `slid` of the wire
+    /// in m has come over to it.
+    fn fall(&self, world: &World, [light, heavy]: [f64; 2], slid: f64) -> f64 {
+        let [still, moving] =
+            [0.0, 1.0].map(|acceleration| self.pull(world, light, slid, acceleration));
+        ((heavy * G - still) / (heavy + moving - still)).max(0.0)
+    }
+
+    /// The mean acceleration by the formula from rest on, as [`Speeds`] has it.
+    fn expected(&self, world: &World, masses: [f64; 2], mut slid: f64) -> f64 {
+        let mut speeds = Speeds::default();
+        let mut speed = 0.0;
+        for _ in 0..(1.0 / self.mesh.step()).round() as usize {
+            speed += self.fall(world, masses, slid) * self.mesh.step();
+            slid += speed * self.mesh.step();
+            speeds.0.push(speed);
         }
-        let pulley = on.end..wire.nodes().len();
-        let on_pulley =
-            pulley.filter(|&node| matches!(wire.nodes()[node].kind, NodeKind::Contact { .. }));
-        b += on_pulley.map(|node| wire.node_mass(node)).sum::<f64>();
-        ((heavy * G - a) / (heavy + b)).max(0.0)
+        speeds.acceleration(self.mesh.step())
     }
 
-    fn on_drum(&self, world: &World) -> std::ops::Range<usize> {
-        let near = |node: &tunnelproof::wire::Node| {
-            let away = Vector::new(node.position.x, 0.0, node.position.z).norm();
-            away < (self.radius + 2.0 * self.material.radius)
-                / libm::cos(self.turn() / self.nodes as f64 / 2.0)
-                * 1.001
-        };
-        let nodes = world.wires()[0].nodes();
-        let first = nodes.iter().position(near).unwrap_or(0);
-        let last = nodes.iter().rposition(near).unwrap_or(0);
-        first..last + 1
-    }
-
-    /// The masses that hang on both sides, wire included.
-    fn sides(&self, world: &World) -> [f64; 2] {
-        let wire = &world.wires()[0];
-        let on = self.on_drum(world);
-        let is_off = |&node: &usize| !matches!(wire.nodes()[node].kind, NodeKind::Contact { .. });
-        let mass = |nodes: std::ops::Range<usize>| {
-            nodes
-                .filter(is_off)
-                .map(|node| wire.node_mass(node))
-                .sum::<f64>()
-        };
-        let count = world.bodies().len();
-        [
-            world.bodies()[count - 2].mass() + mass(0..on.start),
-            world.bodies()[count - 1].mass() + mass(on.end..wire.nodes().len()),
-        ]
-    }
-
-    /// Lays the wire with loads whose weights, wire included, have the ratio wanted.
-    fn loaded(&self) -> Result<World, Box<dyn Error>> {
-        let light = self.heavy / (self.part * self.limit());
-        let bare = self.sides(&self.world([1.0, 1.0])?).map(|side| side - 1.0);
-        self.world([light - bare[0], self.heavy - bare[1]])
+    /// The masses of the loads in kg that make the ratio wanted.
+    fn masses(&self) -> Result<[f64; 2], Box<dyn Error>> {
+        let world = self.world([1.0, 1.0])?;
+        // The pull is linear in the light load.
+        let [one, two] = [1.0, 2.0].map(|light| self.pull(&world, light, 0.0, 0.0));
+        let light = 1.0 + (self.heavy * G / self.part - one) / (two - one);
+        Ok([light, self.heavy])
     }
 
     /// Lets the wire take up its loads, and looks what it does in a second.
     pub(crate) fn run(&self) -> Result<Outcome, Box<dyn Error>> {
-        let mut world = self.loaded()?;
-        let mut outcome = Outcome {
-            expected: self.expected(&world),
-            ..Outcome::default()
-        };
-        let collisions = Collisions::default().with_friction(self.friction)?;
+        self.run_with(self.friction)
+    }
+
+    /// The same, with a coefficient of friction that may be another than that of the formula.
+    pub(crate) fn run_with(&self, friction: f64) -> Result<Outcome, Box<dyn Error>> {
+        let masses = self.masses()?;
+        let start = self.world(masses)?;
+        let mut world = Drum { friction, ..*self }.world(masses)?;
+        let mut outcome = Outcome::default();
+        let collisions = Collisions::default().with_friction(friction)?;
         let mut collisions = match self.way {
             Way::ContactNodes => collisions.with_contact_nodes(),
             _ => collisions,
@@ -288,36 +363,35 @@ impl Drum {
         let loads = [count - 2, count - 1];
         // To rest, or as near to it as what slips comes.
         let (rest, pause) = (
-            (SETTLING / self.step) as usize,
-            (PAUSE / self.step) as usize,
+            (SETTLING / self.mesh.step()) as usize,
+            (PAUSE / self.mesh.step()) as usize,
         );
-        let (mut last, mut since) = (0.0, 0);
+        let (mut most, mut since) = (0.0, 0);
         for _ in 0..rest {
             step(&mut world)?;
             let kinetic = world.energy().kinetic;
             since += 1;
-            if kinetic < last || since >= pause {
+            if kinetic < FALLEN * most || since >= pause {
                 world.halt();
-                (last, since) = (0.0, 0);
+                (most, since) = (0.0, 0);
             } else {
-                last = kinetic;
+                most = kinetic.max(most);
             }
         }
         world.halt();
         let heights = |world: &World| loads.map(|body| world.bodies()[body].position().z);
         let before = heights(&world);
-        let steps = (1.0 / self.step).round() as usize;
-        let (mut sums, mut weights) = (0.0, 0.0);
-        for i in 0..steps {
+        let unloaded = heights(&start);
+        let slid = (before[0] - unloaded[0] + unloaded[1] - before[1]) / 2.0;
+        outcome.expected = self.expected(&start, masses, slid);
+        let mut mean = Speeds::default();
+        for _ in 0..(1.0 / self.mesh.step()).round() as usize {
             outcome.residual = outcome.residual.max(step(&mut world)?);
             let speeds = loads.map(|body| world.bodies()[body].velocity());
             outcome.fastest = speeds.iter().fold(outcome.fastest, |a, v| a.max(v.norm()));
-            // The slope of the mean speed of both loads.
-            let time = ((i as f64 + 0.5) - steps as f64 / 2.0) * self.step;
-            sums += time * (speeds[0].z - speeds[1].z) / 2.0;
-            weights += time * time;
+            mean.0.push((speeds[0].z - speeds[1].z) / 2.0);
         }
-        outcome.acceleration = sums / weights;
+        outcome.acceleration = mean.acceleration(self.mesh.step());
         let after = heights(&world);
         outcome.ways = [before[0] - after[0], before[1] - after[1]];
         Ok(outcome)
@@ -326,39 +400,34 @@ impl Drum {
 
 /// Every wire of the grid that gets around its drum in one way, at one part of its limit.
 pub(crate) fn grid(way: Way, part: f64) -> Vec<Drum> {
-    let mut drums = Vec::new();
     let turns: &[f64] = match way {
         Way::Route => &[90.0, 180.0, 360.0, 540.0],
         // What is laid there must not lie on itself.
         _ => &[90.0, 180.0],
     };
-    for (stiffness, material) in MATERIALS {
+    let mut drums = Vec::new();
+    for (stiffness, material, least) in MATERIALS {
         for radius in [0.05, 0.2, 1.0] {
             for friction in [0.1, 0.2, 0.5] {
                 for &angle in turns {
-                    for corners in [2, 4, 12, 48] {
-                        for (resolution, adaptive) in RESOLUTIONS {
-                            for step in [1.0 / 60.0, 1.0 / 240.0] {
-                                let drum = Drum {
-                                    way,
-                                    radius,
-                                    friction,
-                                    angle,
-                                    material: material(),
-                                    stiffness,
-                                    heavy: 100.0,
-                                    nodes: (corners * angle as usize / 180).max(1),
-                                    resolution,
-                                    adaptive,
-                                    step,
-                                    part,
-                                };
-                                if drum.lies_on_drum() {
-                                    drums.push(drum);
-                                }
-                            }
-                        }
-                    }
+                    let meshes = if way == Way::Route {
+                        &MESHES[..]
+                    } else {
+                        &LAID[..]
+                    };
+                    let drums_of = meshes.iter().map(|&mesh| Drum {
+                        way,
+                        radius,
+                        friction,
+                        angle,
+                        material: material(),
+                        stiffness,
+                        // Wire weighs little beside the light load.
+                        heavy: (least * libm::exp(friction * angle.to_radians())).max(100.0),
+                        mesh,
+                        part,
+                    });
+                    drums.extend(drums_of.filter(Drum::is_resolved));
                 }
             }
         }
@@ -366,32 +435,54 @@ pub(crate) fn grid(way: Way, part: f64) -> Vec<Drum> {
     drums
 }
 
-type Named = (&'static str, fn() -> Material);
+type Named = (&'static str, fn() -> Material, f64);
 
-/// 4 mm of steel as a cable and as a bar, and 8 mm of soft rope.
-pub(crate) const MATERIALS: [Named; 3] = [
-    ("steel cable", || Material::steel(0.002).chain()),
-    ("steel bar", || Material::steel(0.002)),
-    ("soft rope", || Material {
-        density: 1000.0,
-        stretch_modulus: 1e9,
-        ..Material::steel(0.004).chain()
-    }),
+/// 4 mm of steel, and 8 mm of soft rope, and their least light load in kg. Neither resists bending: a bar lifts off where it leaves
+/// the drum, and turns there without friction.
+pub(crate) const MATERIALS: [Named; 2] = [
+    ("steel", || Material::steel(0.002).chain(), 20.0),
+    (
+        "soft rope",
+        || Material {
+            density: 1000.0,
+            stretch_modulus: 1e9,
+            ..Material::steel(0.004).chain()
+        },
+        4.0,
+    ),
 ];
 
-/// Resolutions in m, and whether tension changes them.
-pub(crate) const RESOLUTIONS: [(f64, bool); 4] =
-    [(10.0, false), (0.25, false), (0.25, true), (0.02, true)];
+/// How wires and time are divided.
+pub(crate) const MESHES: [Mesh; 8] = [
+    Mesh::new(2, 10.0, false, 60),
+    Mesh::new(4, 0.25, false, 60),
+    Mesh::new(12, 0.25, false, 240),
+    Mesh::new(2, 10.0, true, 240),
+    Mesh::new(4, 0.25, true, 60),
+    Mesh::new(12, 0.02, true, 60),
+    Mesh::new(24, 0.02, true, 240),
+    Mesh::new(48, 0.25, true, 60),
+];
+
+/// The same for wires that are laid on the drum and adapt, nearly round at first, so that they do
+/// not fall far before they are taut.
+pub(crate) const LAID: [Mesh; 5] = [
+    Mesh::new(48, 0.25, true, 60),
+    Mesh::new(48, 0.25, true, 240),
+    Mesh::new(48, 0.05, true, 60),
+    Mesh::new(48, 0.02, true, 60),
+    Mesh::new(48, 0.02, true, 240),
+];
 
 /// The ratio of the loads as parts of the limit.
 pub(crate) const PARTS: [f64; 6] = [0.8, 0.9, 0.99, 1.01, 1.1, 1.2];
 
 impl Outcome {
-    /// Whether it held where it should, or slipped as it should: within 5% of the acceleration,
-    /// except just above the limit, where slipping is enough.
+    /// Whether it held where it should, the light load to 2 mm in the second, or slipped as it should:
+    /// within 5% of the acceleration; just above the limit, within a factor of 2.
     pub(crate) fn is_right(&self, drum: &Drum) -> bool {
         if drum.part < 1.0 {
-            self.ways.iter().all(|way| way.abs() < 1e-3)
+            self.ways[0].abs() < 2e-3
         } else if drum.part < 1.05 {
             self.acceleration > self.expected / 2.0 && self.acceleration < 2.0 * self.expected
         } else {

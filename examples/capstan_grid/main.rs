@@ -1,7 +1,8 @@
 //! Prints how many wires over a drum hold and slip as they should, out of a grid.
 //!
 //! `cargo run --release --example capstan_grid`. With `all`, every one that does not, too; with
-//! `route`, `laid` or `contacts` only those that get around their drum in this way.
+//! `route`, `laid` or `contacts` only those that get around their drum in this way; with a number,
+//! one in so many.
 
 use std::collections::BTreeMap;
 use std::env::args;
@@ -9,7 +10,7 @@ use std::error::Error;
 
 mod drum;
 
-use drum::{PARTS, Way, grid};
+use drum::{LAID, MESHES, PARTS, Way, grid};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = args().skip(1).collect();
@@ -19,26 +20,31 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("laid", Way::ContactNodes),
         ("contacts", Way::Contacts),
     ];
+    let every = arguments
+        .iter()
+        .find_map(|argument| argument.parse().ok())
+        .map_or(1, |every: usize| every.max(1));
     let some = ways.iter().any(|(name, _)| names(name));
     let parts = PARTS.map(|part| format!(" {part} |"));
     println!(
-        "| way | wire | resolution, m | adapts | step, s |{} bounds |",
+        "| way | wire | nodes to 180 degrees | resolution, m | adapts | step, s |{} bounds |",
         parts.concat()
     );
     println!(
-        "| --- | --- | --- | --- | --- |{} --- |",
+        "| --- | --- | --- | --- | --- | --- |{} --- |",
         " --- |".repeat(PARTS.len())
     );
     for (name, way) in ways.into_iter().filter(|(name, _)| !some || names(name)) {
         let mut rows = BTreeMap::new();
         for (column, part) in PARTS.into_iter().enumerate() {
-            for drum in grid(way, part) {
-                let key = (
-                    drum.stiffness,
-                    format!("{}", drum.resolution),
-                    drum.adaptive,
-                    (1.0 / drum.step).round() as usize,
-                );
+            for drum in grid(way, part)
+                .into_iter()
+                .skip(column % every)
+                .step_by(every)
+            {
+                let mut meshes = MESHES.iter().chain(&LAID);
+                let mesh = meshes.position(|mesh| *mesh == drum.mesh);
+                let key = (drum.stiffness, mesh);
                 let (counts, residual): &mut ([[usize; 2]; PARTS.len()], f64) =
                     rows.entry(key).or_default();
                 counts[column][1] += 1;
@@ -61,11 +67,17 @@ fn main() -> Result<(), Box<dyn Error>> {
                 counts[column][0] += usize::from(is_right);
             }
         }
-        for ((wire, resolution, adaptive, rate), (counts, residual)) in rows {
+        for ((wire, mesh), (counts, residual)) in rows {
+            let mesh = mesh
+                .and_then(|at| MESHES.iter().chain(&LAID).nth(at))
+                .ok_or("no such mesh")?;
             let counts = counts.map(|[right, all]| format!(" {right}/{all} |"));
-            let adapts = if adaptive { "yes" } else { "no" };
             println!(
-                "| {name} | {wire} | {resolution} | {adapts} | 1/{rate} |{} {residual:.0e} |",
+                "| {name} | {wire} | {} | {} | {} | 1/{} |{} {residual:.0e} |",
+                mesh.corners,
+                mesh.resolution,
+                if mesh.adaptive { "yes" } else { "no" },
+                mesh.rate,
                 counts.concat()
             );
         }

@@ -55,8 +55,15 @@ fn row(scene: &Scene) -> Result<String, Box<dyn Error>> {
             let s = &record.solver;
             eprintln!(
                 "{:4} {:9.3} ms  contacts {:5} rounds {} f {:4} s {:4} res {:.1e} scaled {} phases {:?}",
-                record.step, seconds * 1e3, record.contacts.len(), record.collisions.rounds,
-                s.factorisations, s.sweeps, s.contact_residual, record.collisions.scaled_islands.len(), record.phases
+                record.step,
+                seconds * 1e3,
+                record.contacts.len(),
+                record.collisions.rounds,
+                s.factorisations,
+                s.sweeps,
+                s.contact_residual,
+                record.collisions.scaled_islands.len(),
+                record.phases
             );
         }
         steps.push(Step { seconds, record });

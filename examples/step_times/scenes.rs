@@ -78,7 +78,11 @@ fn heap() -> Result<World, ModelError> {
     world.add_body(BodyPlan::fixed(Shape::Plane, Point::origin()))?;
     let route = (0..=200).map(|k| {
         let (sin, cos) = (0.26 * k as f64).sin_cos();
-        Stop::Free(Point::new(0.03 * cos, 0.03 * sin, 0.02 + 0.00166 * k as f64))
+        Stop::Free(Point::new(
+            0.03 * cos,
+            0.03 * sin,
+            0.02 + 0.00166 * k as f64,
+        ))
     });
     let mut plan = WirePlan::new(Material::steel(0.005).chain(), 0.008, route.collect());
     plan.resolution.adaptive = false;

@@ -68,11 +68,12 @@ impl RemeshGuard for Permit {
 }
 
 /// Changes the resolution of every adaptive wire where its tension asks for it and `guard` permits
-/// it.
+/// it. A wire that does not adapt keeps its resolution as it slides: nodes that come to a contact
+/// node are taken out, and nodes are put in on the other side.
 pub(super) fn adapt(world: &mut World, guard: &mut dyn RemeshGuard) -> Vec<Remesh> {
     let mut changes = Vec::new();
     for wire in 0..world.wires.len() {
-        if world.wires[wire].resolution.adaptive {
+        if world.wires[wire].resolution.adaptive || slides(&world.wires[wire]) {
             merge(world, wire, guard, &mut changes);
             split(world, wire, guard, &mut changes);
         }
@@ -84,6 +85,9 @@ pub(super) fn adapt(world: &mut World, guard: &mut dyn RemeshGuard) -> Vec<Remes
 /// first and the last remember, unless the wire has to bend there.
 fn wanted(world: &World, at: usize, [first, last]: [usize; 2], guard: &dyn RemeshGuard) -> f64 {
     let wire = &world.wires[at];
+    if !wire.resolution.adaptive {
+        return wire.resolution.length;
+    }
     let tension = [first, last].map(|segment| wire.segments[segment].largest_tension());
     let stable = world
         .settings
@@ -107,23 +111,49 @@ fn merge(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
         let length = wire.rest_length(node - 1).min(wire.rest_length(node));
         let wanted = wanted(world, at, [node - 1, node], guard);
         let short = length < wanted * (1.0 - ROUNDING);
-        let may_change = this.remesh_from <= world.steps || is_slid_over(wire, node);
-        if this.kind == NodeKind::Free && may_change && short {
+        let may_change = wire.resolution.adaptive && this.remesh_from <= world.steps;
+        let is_used_up = is_used_up(world, at, node, wanted);
+        if this.kind == NodeKind::Free && (is_used_up || may_change && short) {
             let nodes = [node - 1, node, node + 1].map(|i| wire.nodes[i]);
             let change = remesh(at, RemeshKind::Merge, &nodes);
             if guard.permits(world, &change) {
                 let remesh_from = world.steps + TENSION_HISTORY as u64;
                 take_out(&mut world.wires[at], node, remesh_from);
                 changes.push(change);
+                if is_used_up {
+                    // The next node may have to follow, on either side.
+                    node = (node - 1).max(1);
+                    continue;
+                }
             }
         }
         node += 1;
     }
 }
 
-/// Whether the wire slides over a neighbour, towards it, so that it cannot wait.
-fn is_slid_over(wire: &Wire, node: usize) -> bool {
-    wire.nodes[node - 1].slide > 0.0 || wire.nodes[node + 1].slide < 0.0
+/// Whether a wire slides over a contact node.
+fn slides(wire: &Wire) -> bool {
+    wire.nodes.iter().any(|node| node.slide != 0.0)
+}
+
+/// Whether wire slides over a neighbour of a node, towards it, and the segment between the two is
+/// used up so far that the node cannot wait: shorter than wanted, or than half of the resolution
+/// where it stays, or than four times of what slides in a step.
+fn is_used_up(world: &World, at: usize, node: usize, wanted: f64) -> bool {
+    let wire = &world.wires[at];
+    let least = if wire.resolution.adaptive {
+        wanted
+    } else {
+        wanted / 2.0
+    };
+    let sides = [
+        (node - 1, wire.nodes[node - 1].slide),
+        (node, -wire.nodes[node + 1].slide),
+    ];
+    sides.into_iter().any(|(segment, speed)| {
+        let slid = speed * world.settings.step;
+        slid > 0.0 && wire.rest_length(segment) < least.max(4.0 * slid)
+    })
 }
 
 fn split(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mut Vec<Remesh>) {
@@ -132,7 +162,11 @@ fn split(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
         let wire = &world.wires[at];
         let long = wanted(world, at, [segment; 2], guard) * world.settings.split_ratio;
         let ends = [wire.nodes[segment], wire.nodes[segment + 1]];
-        let may_change = ends.iter().all(|node| node.remesh_from <= world.steps);
+        let may_change = if wire.resolution.adaptive {
+            ends.iter().all(|node| node.remesh_from <= world.steps)
+        } else {
+            ends.iter().any(|node| node.slide != 0.0)
+        };
         if may_change && wire.rest_length(segment) > long {
             let until = world.steps + TENSION_HISTORY as u64;
             let middle = between(&ends, until);

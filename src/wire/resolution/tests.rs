@@ -1,5 +1,5 @@
 use super::*;
-use crate::wire::{Material, Settings, Stop, Vector, WirePlan};
+use crate::wire::{BodyPlan, Material, Settings, Shape, Stop, Vector, WirePlan};
 
 /// A free chain of 8 segments of 1 m whose nodes all move differently.
 fn chain() -> World {
@@ -144,4 +144,48 @@ fn tension_leaves_short_segments_where_a_wire_has_to_bend() {
         adapt(&mut world, &mut BendsBefore(9.0));
         assert_eq!(rest_lengths(&world).len(), divided);
     }
+}
+
+#[test]
+fn a_wire_that_does_not_adapt_keeps_its_resolution_as_it_slides() {
+    // A chain over the top of a ball, to a load that draws it down.
+    const LENGTH: f64 = 0.25;
+    let mut world = World::new(Settings::default()).unwrap();
+    let ball = BodyPlan::fixed(Shape::Sphere { radius: 1.0 }, Point::new(0.0, 0.0, -1.0));
+    let top = Stop::Contact {
+        body: world.add_body(ball).unwrap(),
+        local: Vector::z(),
+        normal: Vector::z(),
+        friction: 0.1,
+    };
+    let load = BodyPlan::dynamic(
+        Shape::Sphere { radius: 0.05 },
+        2e5,
+        Point::new(0.5, 0.0, -2.0),
+    );
+    let load = Stop::Eye {
+        body: world.add_body(load).unwrap(),
+        local: Vector::zeros(),
+    };
+    let route = vec![Stop::Free(Point::new(-3.1, 0.0, -0.5)), top, load];
+    let plan = WirePlan::new(Material::steel(0.01).chain(), LENGTH, route);
+    world.add_wire(&plan).unwrap();
+    let mut slid = 0.0;
+    while slid < 2.0 {
+        let record = world.step(&[]).unwrap();
+        slid += record
+            .slides
+            .iter()
+            .map(|slide| slide.distance.abs())
+            .sum::<f64>();
+        let wire = &world.wires[0];
+        let is_contact = |node: usize| matches!(wire.nodes[node].kind, NodeKind::Contact { .. });
+        for segment in 0..wire.segments.len() {
+            let length = wire.rest_length(segment) / LENGTH;
+            let is_beside = is_contact(segment) || is_contact(segment + 1);
+            let range = if is_beside { 0.25..3.0 } else { 0.9..1.6 };
+            assert!(range.contains(&length), "{segment}: {length}");
+        }
+    }
+    assert!(world.time() < 1.0, "{}", world.time());
 }

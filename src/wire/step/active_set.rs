@@ -9,12 +9,12 @@
 //! [`ConstitutiveLaw`](super::constitutive::ConstitutiveLaw) in place of that square.
 //!
 //! The friction at a contact node is bounded by the tensions beside it ([`capstan`]). It is found
-//! for bounds that stand, then these for the tensions that follow, and so on until the bounds stay:
-//! each change moves the others by `f tan(D/2)` times itself, which is below 1 where wire
-//! slides at all.
+//! for bounds that stand, then for those that agree with tensions
+//! ([`friction_bounds`](super::friction_bounds)), and so on until the bounds stay.
 
 use super::budget::Budget;
 use super::capstan;
+use super::friction_bounds::BoundSearch;
 use super::rows::Row;
 use super::system::{RESIDUAL, System};
 use crate::wire::bisect::bisect;
@@ -24,9 +24,12 @@ use crate::wire::error::Reason;
 /// chains.
 const TRIES: usize = 1000;
 
-/// How often bounds of friction follow tensions. Each time the difference gets smaller by a factor;
-/// a dozen is usual for a dozen nodes.
+/// How often bounds of friction are updated at most; a few times are usual. Then they are accepted,
+/// and the record has their residual.
 const BOUNDS: usize = 100;
+
+/// After so many factorisations bounds are not updated any more.
+const SEARCHED: usize = 300;
 
 /// A solution for given impulses in which every row has the branch of its law that holds there.
 pub(super) struct ActiveSet {
@@ -58,7 +61,9 @@ pub(super) fn leaves_hard_branch(rows: &[Row], x: &[f64]) -> bool {
 }
 
 fn leaves<'a>(changing: impl Iterator<Item = &'a Row> + Clone, x: &[f64]) -> bool {
-    let fastest = changing.clone().fold(0.0, |a: f64, row| a.max(row.speed(x)));
+    let fastest = changing
+        .clone()
+        .fold(0.0, |a: f64, row| a.max(row.speed(x)));
     let accepted = RESIDUAL * fastest;
     let mut changing = changing;
     changing.any(|row| row.branch.is_left(row.excess(x), accepted))
@@ -78,6 +83,7 @@ pub(super) fn find_active_set(
     budget: &mut Budget,
 ) -> Result<ActiveSet, Reason> {
     let (mut tries, mut factorisations, mut updates) = (0, 0, 0);
+    let mut search = BoundSearch::new();
     loop {
         tries += 1;
         if update_branches(&mut system.rows, &x) {
@@ -95,7 +101,8 @@ pub(super) fn find_active_set(
         }
         x = newton;
         updates += 1;
-        if is_last || updates > BOUNDS || !capstan::bounds_differ(&system.rows, &x) {
+        let is_last = is_last || updates > BOUNDS || factorisations > SEARCHED;
+        if is_last || !capstan::bounds_differ(&system.rows, &x) {
             let is_found = !leaves_branch(&system.rows, &x);
             return Ok(ActiveSet {
                 x,
@@ -104,7 +111,7 @@ pub(super) fn find_active_set(
                 is_found,
             });
         }
-        capstan::update_bounds(&mut system.rows, &x);
+        search.update(system, &x, budget);
     }
 }
 

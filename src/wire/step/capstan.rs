@@ -4,9 +4,19 @@
 //! ([`contact_nodes`](super::contact_nodes)). Wire slides over it at a speed that is an unknown of
 //! the step like any velocity: arc length moves from the segment on one side to that on the other,
 //! and what moves is the node's mass. Friction takes up any sliding, as far as the capstan bound of
-//! a node that turns the wire by an angle `D` goes: `T2/T1 <= (1 + f tan(D/2)) / (1 - f tan(D/2))`,
-//! which tends to `e^(f D)` for small `D`. That is Coulomb's law, `|T2 - T1| <= f tan(D/2) (T1 +
-//! T2)`.
+//! a node that turns the wire by an angle `D` goes: `T2/T1 <= e^(f D)`, which is `|T2 - T1| <=
+//! tanh(f D/2) (T1 + T2)`.
+//!
+//! That is Coulomb's law of a wire which turns by `D` along any convex curve, however short
+//! (Euler 1769, Eytelwein 1808). The node stands for this curve, and the bounds of nodes that
+//! turn a wire one after the other multiply to that of the whole turn, whatever their number. `T1`
+//! and `T2` are the tensions at the node itself: those of the segments, which are those of their
+//! middles, and the weight of half a segment along it. What of the node's weight presses on the body,
+//! `P`, counts as friction of `P` does along the same curve: `tanh(f D/2) 2 P/D` more.
+//!
+//! With one force on a sharp corner instead, halfway between both directions, the bound would be `f
+//! tan(D/2) (T1 + T2)`: larger, by 5% in the exponent at 45 degrees, and without an end where
+//! `f tan(D/2) >= 1`.
 
 use smallvec::{SmallVec, smallvec};
 
@@ -39,14 +49,19 @@ pub(super) fn friction_rows(world: &World, layout: &Layout) -> Vec<Row> {
             };
             let segment = first - at + node;
             let factor = capstan_factor(wire, node);
+            let fall = world.settings.gravity * world.settings.step;
+            let [before, after] = halves(wire, node).map(|half| half.dot(&fall));
+            let weights = [-before, after];
+            let pressing = pressing_share(wire, node) * -wire.node_mass(node);
+            let pressed = pressing * outward(world, wire, node).dot(&fall);
             let tensions = [node - 1, node].map(|beside| wire.segments[beside].tension);
+            let pulls = [0, 1].map(|side| tensions[side] * world.settings.step + weights[side]);
             let law = ConstitutiveLaw::Friction {
                 factor,
                 tensions: [segment - 1, segment].map(|beside| layout.stretch[beside]),
-                bound: friction_bound(
-                    factor,
-                    tensions.map(|tension| tension * world.settings.step),
-                ),
+                weights,
+                pressed,
+                bound: friction_bound(factor, pulls, pressed),
                 reach: reach(wire, node, world),
             };
             let sigma = SLIP / wire.node_mass(node);
@@ -66,20 +81,59 @@ pub(super) fn friction_rows(world: &World, layout: &Layout) -> Vec<Row> {
     rows
 }
 
-/// `f tan(D/2)`.
+/// `tanh(f D/2)`.
 fn capstan_factor(wire: &Wire, node: usize) -> f64 {
-    let NodeKind::Contact { friction, .. } = wire.nodes[node].kind else {
-        return 0.0;
-    };
+    libm::tanh(friction(wire, node) * half_turn(wire, node))
+}
+
+/// The friction that a force has which presses the wire against the body, evenly along the turn, as
+/// a part of this force: `tanh(f D/2) / (D/2)`, which is `f` where the wire does not turn.
+fn pressing_share(wire: &Wire, node: usize) -> f64 {
+    let (friction, half) = (friction(wire, node), half_turn(wire, node));
+    // Below this the quotient is `f` to rounding.
+    if friction * half < 1e-8 {
+        friction
+    } else {
+        libm::tanh(friction * half) / half
+    }
+}
+
+fn friction(wire: &Wire, node: usize) -> f64 {
+    match wire.nodes[node].kind {
+        NodeKind::Contact { friction, .. } => friction,
+        _ => 0.0,
+    }
+}
+
+/// `D/2`.
+fn half_turn(wire: &Wire, node: usize) -> f64 {
     let [before, after] = directions(wire, node);
     // tan(D/2) = sin D / (1 + cos D)
-    let half = before.cross(&after).norm() / (1.0 + before.dot(&after));
-    // A wire that turns back upon itself.
-    if half.is_finite() {
-        friction * half
-    } else {
-        f64::INFINITY
+    libm::atan2(before.cross(&after).norm(), 1.0 + before.dot(&after))
+}
+
+/// The unit normal of the body at a contact node.
+fn outward(world: &World, wire: &Wire, node: usize) -> Vector {
+    match wire.nodes[node].kind {
+        NodeKind::Contact { body, normal, .. } => world.bodies[body.0].arm(&normal),
+        _ => Vector::zeros(),
     }
+}
+
+/// How the mass of a contact node, half of each segment beside it, moves as its arc length grows, in
+/// kg: against the directions of both segments. The node's potential energy as wire slides over
+/// it changes by this.
+pub(super) fn fall(wire: &Wire, node: usize) -> Vector {
+    let [before, after] = halves(wire, node);
+    -(before + after)
+}
+
+/// The mass of half of each segment beside a node, in kg, along the segment.
+fn halves(wire: &Wire, node: usize) -> [Vector; 2] {
+    let masses = [node - 1, node]
+        .map(|segment| wire.rest_length(segment) / 2.0 * wire.material.mass_per_length());
+    let [before, after] = directions(wire, node);
+    [before * masses[0], after * masses[1]]
 }
 
 /// How fast a node's arc length may fall and grow: as far as is set for one step, and to half of
@@ -105,10 +159,25 @@ fn reach(wire: &Wire, node: usize, world: &World) -> [f64; 2] {
     })
 }
 
-/// Sets the bounds of friction to what follows from a solution.
-pub(super) fn update_bounds(rows: &mut [Row], x: &[f64]) {
-    for row in rows {
-        row.law.update_bound(x);
+/// The bounds of friction that follow from a solution.
+pub(super) fn due_bounds(rows: &[Row], x: &[f64]) -> Vec<f64> {
+    let bounds = rows.iter().filter_map(|row| row.law.bounds(x));
+    bounds.map(|[_, due]| due).collect()
+}
+
+/// The bounds of friction halfway to those that follow from a solution.
+pub(super) fn halfway_bounds(rows: &[Row], x: &[f64]) -> Vec<f64> {
+    let bounds = rows.iter().filter_map(|row| row.law.bounds(x));
+    bounds
+        .map(|[bound, due]| f64::midpoint(bound, due))
+        .collect()
+}
+
+/// Sets the bounds of friction, in the order of their rows.
+pub(super) fn set_bounds(rows: &mut [Row], bounds: &[f64]) {
+    let laws = rows.iter_mut().filter_map(|row| row.law.bound_mut());
+    for (bound, due) in laws.zip(bounds) {
+        *bound = *due;
     }
 }
 

@@ -15,11 +15,15 @@ pub(super) enum ConstitutiveLaw {
     TensionOnly,
     /// Friction against the speed of sliding.
     Friction {
-        /// The bound is this factor, `f tan(D/2)`, times the sum of two other multipliers; one that
-        /// pushes counts as 0.
+        /// The bound is this factor, `tanh(f D/2)`, times the sum of two pulls; one that pushes
+        /// counts as 0.
         factor: f64,
-        /// These two, by their unknowns.
+        /// The multipliers of these two, by their unknowns.
         tensions: [usize; 2],
+        /// What the pulls have beside them, in N s.
+        weights: [f64; 2],
+        /// The friction of what presses beside the pulls, in N s.
+        pressed: f64,
         /// The largest magnitude of the friction, in N s: from the two as they were last.
         bound: f64,
         /// The fastest that the wire may slide towards lower and higher arc lengths, in m/s.
@@ -69,35 +73,46 @@ impl Branch {
     }
 }
 
-/// The bound of friction in N s: the factor times the sum of two tensions. With a factor of at
-/// least 1 the wire sticks at any tension.
-pub(super) fn friction_bound(factor: f64, pulls: [f64; 2]) -> f64 {
+/// The bound of friction in N s: the factor times the sum of two pulls, and the friction of what
+/// presses beside them; nothing less than 0. With a factor of at least 1 the wire sticks at any
+/// tension.
+pub(super) fn friction_bound(factor: f64, pulls: [f64; 2], pressed: f64) -> f64 {
     if factor < 1.0 {
-        factor * (pulls[0].max(0.0) + pulls[1].max(0.0))
+        (factor * (pulls[0].max(0.0) + pulls[1].max(0.0)) + pressed).max(0.0)
     } else {
         f64::INFINITY
     }
 }
 
 impl ConstitutiveLaw {
+    /// The two pulls beside friction, in N s.
+    pub(super) fn pulls(&self, x: &[f64]) -> [f64; 2] {
+        match *self {
+            ConstitutiveLaw::Friction {
+                tensions, weights, ..
+            } => [0, 1].map(|side| x[tensions[side]] + weights[side]),
+            _ => [0.0; 2],
+        }
+    }
+
     /// The bound of friction, and the one that follows from a solution.
     pub(super) fn bounds(&self, x: &[f64]) -> Option<[f64; 2]> {
         match *self {
             ConstitutiveLaw::Friction {
                 factor,
-                tensions,
+                pressed,
                 bound,
                 ..
-            } => Some([bound, friction_bound(factor, tensions.map(|at| x[at]))]),
+            } => Some([bound, friction_bound(factor, self.pulls(x), pressed)]),
             _ => None,
         }
     }
 
-    /// Sets the bound of friction to the one that follows from a solution.
-    pub(super) fn update_bound(&mut self, x: &[f64]) {
-        let bounds = self.bounds(x);
-        if let (ConstitutiveLaw::Friction { bound, .. }, Some([_, due])) = (self, bounds) {
-            *bound = due;
+    /// The bound of friction, to be set.
+    pub(super) fn bound_mut(&mut self) -> Option<&mut f64> {
+        match self {
+            ConstitutiveLaw::Friction { bound, .. } => Some(bound),
+            _ => None,
         }
     }
 
@@ -158,6 +173,8 @@ mod tests {
         ConstitutiveLaw::Friction {
             factor: 0.1,
             tensions: [0, 1],
+            weights: [0.0; 2],
+            pressed: 0.0,
             bound,
             reach: [1.0, 2.0],
         }
@@ -191,14 +208,16 @@ mod tests {
 
     #[test]
     fn friction_is_a_share_of_what_pulls_and_has_no_end_from_the_whole_on() {
-        assert_eq!(friction_bound(0.25, [4.0, 2.0]), 1.5);
-        assert_eq!(friction_bound(0.25, [4.0, -2.0]), 1.0);
+        assert_eq!(friction_bound(0.25, [4.0, 2.0], 0.0), 1.5);
+        assert_eq!(friction_bound(0.25, [4.0, -2.0], 0.5), 1.5);
+        assert_eq!(friction_bound(0.25, [4.0, 2.0], -2.0), 0.0);
         for factor in [1.0, f64::INFINITY] {
-            assert_eq!(friction_bound(factor, [0.0, 0.0]), f64::INFINITY);
+            assert_eq!(friction_bound(factor, [0.0, 0.0], 0.0), f64::INFINITY);
         }
         let mut law = friction_law(0.0);
-        law.update_bound(&[30.0, 20.0]);
+        *law.bound_mut().unwrap() = 5.0;
         assert_eq!(law.bounds(&[10.0, 0.0]), Some([5.0, 1.0]));
+        assert_eq!(ConstitutiveLaw::TensionOnly.bounds(&[10.0, 0.0]), None);
     }
 
     #[test]

@@ -139,10 +139,13 @@ fn runs_out(wire: &Wire, node: usize) -> bool {
     })
 }
 
-/// Hardly any wire is left before the contact node in front of it.
+/// Hardly any wire is left before the contact node in front of it, for how far apart the two are:
+/// contact nodes of a route may be much nearer than the resolution, and stay.
 fn is_crowded(wire: &Wire, node: usize) -> bool {
     let before = matches!(wire.nodes[node - 1].kind, NodeKind::Contact { .. });
-    before && wire.rest_length(node - 1) < LEAST * LEAST * wire.resolution.length
+    let apart = wire.span(node - 1).norm().max(wire.material.radius);
+    let usual = apart.min(LEAST * wire.resolution.length);
+    before && wire.rest_length(node - 1) < LEAST * usual
 }
 
 /// Frees a node. It goes on with its wire, which slides against the direction in which arc length

@@ -14,6 +14,8 @@ pub(super) mod contact_nodes;
 mod coulomb;
 mod delassus;
 mod friction;
+mod friction_bounds;
+mod gmres;
 mod implicit;
 pub(super) mod motion;
 mod multipliers;

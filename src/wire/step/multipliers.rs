@@ -10,6 +10,7 @@
 use super::active_set::{advance, leaves_hard_branch, line_search};
 use super::budget::Budget;
 use super::capstan;
+use super::friction_bounds::BoundSearch;
 use super::system::System;
 use crate::wire::Vector;
 use crate::wire::error::Reason;
@@ -65,6 +66,7 @@ pub(super) fn solve(
     tolerance: f64,
     budget: &mut Budget,
 ) -> Result<Option<Solution>, Reason> {
+    let mut search = BoundSearch::new();
     let mut best: Option<Solution> = None;
     let (mut stayed, mut factorisations, mut is_settled) = (0, 0, false);
     for round in 1..=ROUNDS {
@@ -72,7 +74,9 @@ pub(super) fn solve(
         let Some(contact_residual) = phase else {
             break;
         };
-        let least = best.as_ref().map_or(f64::INFINITY, |best| best.contact_residual);
+        let least = best
+            .as_ref()
+            .map_or(f64::INFINITY, |best| best.contact_residual);
         stayed = if contact_residual < 0.9 * least {
             0
         } else {
@@ -82,14 +86,13 @@ pub(super) fn solve(
             best = Some(Solution::of(system, contact_residual)?);
             budget.spend(system.multiplications_of_solve());
         }
-        let converged =
-            contact_residual <= tolerance && !capstan::bounds_differ(&system.rows, &x);
+        let converged = contact_residual <= tolerance && !capstan::bounds_differ(&system.rows, &x);
         let near = least <= NEARLY * tolerance;
         is_settled = converged || round == ROUNDS || stayed >= if near { STAYS } else { FAR_STAYS };
         if is_settled {
             break;
         }
-        capstan::update_bounds(&mut system.rows, &x);
+        search.update(system, &x, budget);
         for row in &mut system.rows {
             row.update_prediction(&x);
         }

@@ -192,6 +192,14 @@ impl Row {
         friction && self.branch.active && self.branch.start == 0.0
     }
 
+    /// Whether it is friction of a wire that slides, which has a bound.
+    pub(super) fn slides_over(&self) -> bool {
+        let ConstitutiveLaw::Friction { factor, .. } = self.law else {
+            return false;
+        };
+        factor < 1.0 && !self.sticks()
+    }
+
     /// The constant part of the multiplier, which is in no unknown.
     pub(super) fn each_offset(&self, mut take: impl FnMut(usize, f64)) {
         let offset = self.branch.offset;

@@ -73,7 +73,7 @@ impl System {
                 let velocity = node.velocity + fall;
                 if let Some(column) = self.layout.slides[first + i] {
                     self.triplets.add(column, column, mass);
-                    self.right[column] += mass * node.slide;
+                    self.right[column] += mass * node.slide + capstan::fall(wire, i).dot(&fall);
                 }
                 let carrier = self.layout.nodes[first + i];
                 if let Carrier::Free(first) = carrier {
@@ -227,7 +227,9 @@ impl System {
         const CONTACT: usize = 500;
         let own = ENTRY * self.triplets.index.len() + CONTACT * self.implicit.len();
         let ldl = self.structure.as_ref().map(|structure| &structure.ldl);
-        own + ldl.map_or(0, |ldl| ldl.multiplications() + ldl.multiplications_of_solve())
+        own + ldl.map_or(0, |ldl| {
+            ldl.multiplications() + ldl.multiplications_of_solve()
+        })
     }
 
     /// Multiplications of a solve that is refined and checked.
@@ -268,6 +270,14 @@ impl System {
             structure.ldl.solve(&mut x);
         }
         x
+    }
+
+    /// What impulses change in a solution with the rows as they were factored, not refined.
+    pub(super) fn response(&self, mut impulses: Vec<f64>) -> Vec<f64> {
+        if let Some(structure) = &self.structure {
+            structure.ldl.solve(&mut impulses);
+        }
+        impulses
     }
 
     fn right_side(&self, impulses: &[(usize, f64)]) -> Vec<f64> {

@@ -1,5 +1,7 @@
 //! Wires over the edges of a box.
 
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -74,8 +76,7 @@ fn wire_bends_over_edges_and_sticks_within_the_capstan_bound() {
         let apart = (wire.nodes()[node].position - edge).norm();
         assert!(apart < 3.0 * RADIUS, "{apart}");
         let [before, after] = [node - 1, node].map(|beside| wire.segments()[beside].tension);
-        // Half of a right angle has the tangent 1.
-        let bound = FRICTION * (before + after);
+        let bound = libm::tanh(FRICTION * FRAC_PI_4) * (before + after);
         assert!((after - before).abs() < 1.02 * bound, "{before} {after}");
     }
     for body in &world.bodies()[1..] {
@@ -92,21 +93,22 @@ fn wire_slides_over_edges_by_the_capstan_bound() {
     const FRICTION: f64 = 0.1;
     let mut world = balls([20.0, 60.0]);
     let mut speeds = Vec::new();
-    run(&mut world, FRICTION, 0.5, |world, _| {
+    // Until the lighter ball comes to the cube.
+    run(&mut world, FRICTION, 0.45, |world, _| {
         speeds.push(-world.bodies()[2].velocity().z);
     });
     assert_eq!(contact_nodes(&world).len(), 2);
     // Atwood's machine, with the ratio of tensions of a right angle at each edge, and the chain's
     // mass.
-    let ratio = (1.0 + FRICTION) / (1.0 - FRICTION);
+    let ratio = libm::exp(FRICTION * FRAC_PI_2);
     let line = Material::steel(RADIUS).mass_per_length();
     let [left, right] =
         [(1, 1.4), (2, 1.8)].map(|(k, hangs)| world.bodies()[k].mass() + hangs * line);
     let carried = right + ratio * (line + ratio * left);
     let expected = 9.80665 * (right - ratio * ratio * left) / carried;
-    let acceleration = (speeds[29] - speeds[17]) / (12.0 * world.settings().step);
+    let acceleration = (speeds[26] - speeds[17]) / (9.0 * world.settings().step);
     assert!(
-        (acceleration / expected - 1.0).abs() < 0.03,
+        (acceleration / expected - 1.0).abs() < 0.01,
         "{acceleration} {expected}"
     );
 }

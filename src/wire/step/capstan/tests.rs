@@ -56,17 +56,72 @@ fn eye(body: BodyId) -> Stop {
 }
 
 #[test]
-fn friction_share_is_the_node_formula_and_tends_to_the_exponential() {
-    for (degrees, tolerance) in [(15.0_f64, 1e-3), (1.0, 1e-5)] {
+fn bound_of_a_node_is_the_capstans_ratio_of_its_turn() {
+    for degrees in [1.0_f64, 15.0, 90.0, 170.0] {
         let angle = degrees.to_radians();
         let (sin, cos) = (libm::sin(angle / 2.0), libm::cos(angle / 2.0));
         let world = over_a_node(FRICTION, 2.0 * sin / cos, 0.0);
         let wire = &world.wires[0];
-        let share = capstan_factor(wire, 1);
-        assert!((share - FRICTION * (angle / 2.0).tan()).abs() < 1e-14);
+        let share = capstan_factor(wire, contact_nodes(wire)[0]);
         let bound = (1.0 + share) / (1.0 - share);
-        assert!((bound / (FRICTION * angle).exp() - 1.0).abs() < tolerance);
+        let deviation = (bound / libm::exp(FRICTION * angle) - 1.0).abs();
+        assert!(deviation < 1e-13, "{degrees}: {deviation:e}");
     }
+}
+
+#[test]
+fn weight_that_presses_has_the_friction_of_an_even_load_along_the_turn() {
+    const TENSION: f64 = 7.0;
+    const PRESSES: f64 = 3.0;
+    const STEPS: u32 = 20_000;
+    for degrees in [0.0_f64, 1e-7, 1.0, 40.0, 150.0] {
+        let angle = degrees.to_radians();
+        let down = 2.0 * libm::tan(angle / 2.0);
+        let world = over_a_node(FRICTION, down, 0.0);
+        let wire = &world.wires[0];
+        let [factor, share] = [capstan_factor(wire, 1), pressing_share(wire, 1)];
+        // Where the tension is `(1 + factor) / (1 - factor)` of it, and the pressing force beside.
+        let bound = (TENSION * (1.0 + factor) + share * PRESSES) / (1.0 - factor);
+        // dT/dx = f (T + P/D), by the midpoint rule.
+        let part = 1.0 / f64::from(STEPS);
+        let slope = |tension: f64| FRICTION * (tension * angle + PRESSES);
+        let tension = (0..STEPS).fold(TENSION, |tension, _| {
+            tension + part * slope(tension + part / 2.0 * slope(tension))
+        });
+        assert!(
+            (bound / tension - 1.0).abs() < 1e-8,
+            "{degrees}: {bound} {tension}"
+        );
+    }
+}
+
+#[test]
+fn mass_of_a_contact_node_falls_as_its_potential_energy_does() {
+    let mut world = over_a_node(FRICTION, 1.0, 0.0);
+    // Free ends at different heights.
+    for end in [0, 2] {
+        world.wires[0].nodes[end].kind = NodeKind::Free;
+    }
+    world.wires[0].nodes[0].position.z -= 0.5;
+    world.settings.gravity = Vector::new(0.3, 0.2, -9.0);
+    // Not stretched, so that the middle of each segment is where its mass is.
+    let spans = [0, 1].map(|segment| world.wires[0].span(segment).norm());
+    let slid = |by: f64| {
+        let mut world = world.clone();
+        let arcs = [0.0, spans[0] + by, spans[0] + spans[1]];
+        for (node, arc) in world.wires[0].nodes.iter_mut().zip(arcs) {
+            node.arc = arc;
+        }
+        world
+    };
+    let expected = fall(&slid(0.0).wires[0], 1).dot(&world.settings.gravity);
+    let energies = [1e-3, -1e-3].map(|by| slid(by).potential_energy());
+    // It falls by what gravity does along the way.
+    let measured = (energies[1] - energies[0]) / 2e-3;
+    assert!(
+        (measured / expected - 1.0).abs() < 1e-9,
+        "{measured} {expected}"
+    );
 }
 
 /// What friction takes from the pull of the segment before a contact node, from the balance of its

@@ -105,7 +105,10 @@ fn impulses_are_scaled_back_to_where_they_take_energy() {
         (impulse.norm() / solution[3].norm(), gained)
     };
     let (kept, gained) = scaled(1.0);
-    assert!((kept - 1.0).abs() < 1e-12 && gained < 0.0, "{kept} {gained}");
+    assert!(
+        (kept - 1.0).abs() < 1e-12 && gained < 0.0,
+        "{kept} {gained}"
+    );
     let (kept, of_large) = scaled(100.0);
     assert!(kept < 2.0 && kept >= 1.0, "{kept}");
     assert!(of_large <= gained, "{of_large} {gained}");

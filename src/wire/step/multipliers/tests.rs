@@ -9,8 +9,8 @@ use crate::wire::contact::{ContactConstraint, ContactSite};
 use crate::wire::step::carrier::Columns;
 use crate::wire::step::friction::sweep;
 use crate::wire::step::order::{by_least_degree, by_wires};
-use crate::wire::step::start::Start;
 use crate::wire::step::rows::normal_row;
+use crate::wire::step::start::Start;
 use crate::wire::{Material, Settings, Stop, Vector, WireId, WirePlan, World};
 
 /// A wire on a floor, dragged and thrown, with a contact at every node; some are loose.
