@@ -182,6 +182,8 @@ struct Tally {
     riding: usize,
     /// Why steps were not done.
     failed: Vec<String>,
+    /// Steps that had spent their work.
+    cut_short: usize,
     /// Failed because midlines touched before a step, which guard mode must not let happen.
     stuck: usize,
     /// Motions made in which midlines meet.
@@ -201,6 +203,7 @@ impl Tally {
         let riding = kinds.filter(|kind| matches!(kind, NodeKind::Contact { .. }));
         self.riding += riding.count();
         self.met += meetings(record);
+        self.cut_short += usize::from(record.solver.cut_short);
         for (wire, moved) in before.iter_mut().zip(&record.wires) {
             assert!(wire.iter().map(|(_, point)| point).eq(&moved.before));
             for ((_, point), to) in wire.iter_mut().zip(&moved.after) {
@@ -282,6 +285,28 @@ fn guard_does_every_step_of_scenes_that_were_hard() {
         assert_eq!(tally.steps, STEPS, "seed {seed}: {tally:?}");
         assert_eq!((tally.met, tally.met_remeshing), (0, 0), "seed {seed}");
     }
+}
+
+/// With nothing to spend no step fails: it ends with what the first sweeps or the first Newton step
+/// give, says so, and is guarded all the same.
+#[test]
+fn steps_that_may_spend_nothing_are_made_guarded_and_said_to_be_cut_short() {
+    let [mut fewest, mut usual] = [Tally::default(), Tally::default()];
+    for seed in 0..40 {
+        let mut world = scene(seed);
+        usual.scene(world.clone(), &mut collisions(seed));
+        let mut settings = world.settings().clone();
+        settings.work = 0;
+        world.set_settings(settings).unwrap();
+        fewest.scene(world, &mut collisions(seed));
+    }
+    println!("{fewest:?}");
+    assert_eq!(fewest.steps, 40 * STEPS, "{:?}", fewest.failed);
+    assert_eq!((fewest.met, fewest.met_remeshing, fewest.stuck), (0, 0, 0));
+    assert!(
+        usual.cut_short > 0 && fewest.cut_short > 5 * usual.cut_short,
+        "{usual:?}"
+    );
 }
 
 /// The certified path, but every so many hits it says miss.

@@ -40,7 +40,7 @@ fn steps_give_the_same_bits_in_every_build() {
     }
     // All parts of a step took part.
     assert!(touched && remeshed > 0, "{touched} {remeshed}");
-    assert_eq!(hash(&world), 0xbfd4_1cc0_3dee_ee9d, "{:#x}", hash(&world));
+    assert_eq!(hash(&world), 0xa7f0_f40f_7e46_fe02, "{:#x}", hash(&world));
 }
 
 #[test]
@@ -55,7 +55,7 @@ fn steps_with_collisions_give_the_same_bits_in_every_build() {
         contacts += record.contacts.len();
     }
     assert!(prevented > 0 && contacts > 300, "{prevented} {contacts}");
-    assert_eq!(hash(&world), 0xcf14_b14d_0bd8_0129, "{:#x}", hash(&world));
+    assert_eq!(hash(&world), 0xcf34_66bb_fadb_8f36, "{:#x}", hash(&world));
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn steps_with_bodies_give_the_same_bits_in_every_build() {
     // Nothing fell through the plane.
     let heights = world.bodies()[1..].iter().map(|body| body.position().z);
     assert!(heights.fold(f64::INFINITY, f64::min) > 0.0);
-    assert_eq!(hash(&world), 0x425b_9aba_ff56_3ec9, "{:#x}", hash(&world));
+    assert_eq!(hash(&world), 0xa5e9_28ef_55ac_c790, "{:#x}", hash(&world));
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn steps_with_contact_nodes_that_come_and_go_give_the_same_bits_in_every_build()
         left += record.slides.iter().filter(|slide| slide.left).count();
     }
     assert!(left > 0);
-    assert_eq!(hash(&world), 0x0406_c6bf_87a7_fceb, "{:#x}", hash(&world));
+    assert_eq!(hash(&world), 0xa4b0_a1b2_1b2d_dced, "{:#x}", hash(&world));
 }
 
 /// Basic collision is above.
@@ -112,9 +112,9 @@ fn steps_with_contact_nodes_that_come_and_go_give_the_same_bits_in_every_build()
 fn other_scenes_of_the_thesis_give_the_same_bits_in_every_build() {
     // So many steps reach contacts in each.
     for (name, steps, expected) in [
-        ("pulling-anchor", 600, 0x5a82_b9aa_1c0a_c6f4),
-        ("twisting-under-load", 60, 0x3808_d005_5259_fe54),
-        ("chains-on-deck", 60, 0x777f_fe24_e9ae_196b),
+        ("pulling-anchor", 600, 0xbb89_bda8_e9ca_1e4e),
+        ("twisting-under-load", 60, 0x5e5e_693a_eff1_2430),
+        ("chains-on-deck", 60, 0x769a_6837_ee7f_4d65),
     ] {
         let scene = Scene::embedded(name).unwrap();
         let mut world = scene.world().unwrap();

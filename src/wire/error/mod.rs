@@ -43,11 +43,6 @@ pub enum Reason {
     },
     /// The solution leads to a position, orientation or velocity that is NaN or infinite.
     NotFinite,
-    /// It was not found which segments of chains pull, or which wires slide over contact nodes.
-    ActiveSet {
-        /// How many guesses were tried.
-        tries: usize,
-    },
     /// Wires cannot be kept apart.
     Collision(CollisionError),
 }
@@ -75,11 +70,6 @@ impl fmt::Display for StepError {
             ),
             Reason::NotFinite => f.write_str(
                 "something would end at a position or velocity that is not a finite number",
-            ),
-            Reason::ActiveSet { tries } => write!(
-                f,
-                "it was not found within {tries} tries which segments of chains pull and which \
-                wires slide"
             ),
             Reason::Collision(error) => write!(f, "wires cannot be kept apart: {error}"),
         }

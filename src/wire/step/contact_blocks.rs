@@ -43,6 +43,8 @@ pub(super) struct Swept {
     pub(super) sweeps: usize,
     /// The largest change of a contact's velocity in the last sweep, in m/s.
     pub(super) residual: f64,
+    /// Whether there was too little to spend on as many sweeps as are set.
+    pub(super) is_cut: bool,
 }
 
 impl Swept {

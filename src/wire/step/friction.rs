@@ -49,33 +49,38 @@ pub(super) fn sweep(
     let mut swept = Swept::default();
     swept.repeat(settings, FIRST_SWEEPS, || blocks.relax());
     budget.spend(swept.sweeps * blocks.multiplications());
-    let limited = |most: usize, cost: usize, budget: &Budget| Settings {
-        sweeps: most.min(swept.sweeps + budget.times(cost)),
-        ..settings.clone()
-    };
     if !swept.is_done(settings) {
         let [forming, cost] = Delassus::multiplications(&blocks);
-        if FORMED.contains(&contacts.len()) && budget.times(forming + FIRST_SWEEPS * cost) > 0 {
+        let is_formed =
+            FORMED.contains(&contacts.len()) && budget.times(forming + FIRST_SWEEPS * cost) > 0;
+        let (most, cost) = if is_formed {
             budget.spend(forming);
-            let settings = limited(settings.sweeps * 3 / 5, cost, budget);
+            (settings.sweeps * 3 / 5, cost)
+        } else {
+            (settings.sweeps, blocks.multiplications())
+        };
+        let limit = most.min(FIRST_SWEEPS + budget.times(cost));
+        let limited = Settings {
+            sweeps: limit,
+            ..settings.clone()
+        };
+        if is_formed {
             let mut delassus = Delassus::new(&blocks);
-            anderson::sweep(&mut delassus, &mut blocks.list, &settings, &mut swept);
-            if !swept.is_converged(&settings) {
+            anderson::sweep(&mut delassus, &mut blocks.list, &limited, &mut swept);
+            if !swept.is_converged(settings) {
                 let scale = best_multiple(&blocks.list, &delassus.excess);
                 for block in &mut blocks.list {
                     block.impulse *= scale;
                 }
             }
-            budget.spend((swept.sweeps - FIRST_SWEEPS) * cost);
         } else {
-            let cost = blocks.multiplications();
-            let settings = limited(settings.sweeps, cost, budget);
-            swept.repeat(&settings, usize::MAX, || blocks.relax());
-            if !swept.is_converged(&settings) {
+            swept.repeat(&limited, usize::MAX, || blocks.relax());
+            if !swept.is_converged(settings) {
                 blocks.scale_to_best();
             }
-            budget.spend((swept.sweeps - FIRST_SWEEPS) * cost);
         }
+        budget.spend((swept.sweeps - FIRST_SWEEPS) * cost);
+        swept.is_cut = limit < most && !swept.is_converged(settings);
     }
     for block in &blocks.list {
         let impulse = block.frame.tr_mul(&block.impulse);

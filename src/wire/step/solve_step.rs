@@ -129,7 +129,7 @@ impl World {
                 continue;
             }
             (candidate.x, candidate.solver.residual) = (active_set.x, active_set.backward_error);
-            candidate.solver.cut_short = !active_set.is_found;
+            candidate.solver.cut_short |= !active_set.is_found || budget.is_spent();
             if !contacts.is_empty() {
                 let (free, _) = system.solve(&[])?;
                 let impulses = &candidate.swept.impulses;
@@ -139,7 +139,6 @@ impl World {
             break;
         }
         candidate.solver.factorisations = factorisations;
-        candidate.solver.cut_short |= budget.is_spent();
         Ok(candidate)
     }
 
@@ -201,7 +200,7 @@ impl World {
             residual,
             factorisations: 1,
             sweeps: swept.sweeps,
-            cut_short: false,
+            cut_short: swept.is_cut,
             contact_residual: swept.residual,
             slide_residual: 0.0,
         };
