@@ -66,7 +66,7 @@ fn net() -> Result<World, ModelError> {
             (Point::new(at, -0.7, -0.013), Point::new(at, 0.7, -0.013)),
         ] {
             let route = vec![Stop::Pinned(from), Stop::Pinned(to)];
-            world.add_wire(&WirePlan::new(material.clone(), 0.1, route))?;
+            world.add_wire(&WirePlan::new(material, 0.1, route))?;
         }
     }
     Ok(world)

@@ -171,12 +171,12 @@ pub(super) fn best_multiple(blocks: &[Block], excess: &[f64]) -> f64 {
         let now = block.impulse.dot(&Vector::from_column_slice(excess));
         (curved + now - due, linear + due)
     });
-    // NaN and infinities are no multiple to go by.
-    let best = -linear / curved;
-    if best >= 1.0 || !(curved > 0.0) && linear <= 0.0 {
+    if !(curved.is_finite() && linear.is_finite()) {
+        0.0
+    } else if curved > 0.0 {
+        (-linear / curved).clamp(0.0, 1.0)
+    } else if linear <= 0.0 {
         1.0
-    } else if best > 0.0 {
-        best
     } else {
         0.0
     }

@@ -110,7 +110,7 @@ fn impulses_are_scaled_back_to_where_they_take_energy() {
         "{kept} {gained}"
     );
     let (kept, of_large) = scaled(100.0);
-    assert!(kept < 2.0 && kept >= 1.0, "{kept}");
+    assert!((1.0..2.0).contains(&kept), "{kept}");
     assert!(of_large <= gained, "{of_large} {gained}");
     let (kept, gained) = scaled(-1.0);
     assert_eq!([kept, gained], [0.0, 0.0]);
