@@ -38,14 +38,14 @@ TUNNELPROOF_EXPORT int tunnelproof_vertex_face(const double points[24], const do
 
 /* The shapes of a cast. */
 #define TUNNELPROOF_SPHERE 0
-#define TUNNELPROOF_EDGE 1
+#define TUNNELPROOF_SEGMENT 1
 #define TUNNELPROOF_TRIANGLE 2
 #define TUNNELPROOF_BOX 3
 
 /*
  * Whether two convex bodies that are translated touch, one of them a box: for certify-boxes. bodies: of each body x y z of four
- * points at the start of the step, and of its translation. A sphere has the first point, an edge the first two, a triangle three;
- * a box has a corner and the three corners beside it. radius: by how much a sphere or an edge is larger.
+ * points at the start of the step, and of its translation. A sphere has the first point, a segment the first two, a triangle three;
+ * a box has a corner and the three corners beside it. radius: by how much a sphere or a segment is larger.
  */
 TUNNELPROOF_EXPORT int tunnelproof_box_cast(const int shapes[2], const double bodies[30], const double radius[2], double *toi);
 

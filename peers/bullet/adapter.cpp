@@ -174,7 +174,7 @@ int tunnelproof_box_cast(const int shapes[2], const double bodies[30], const dou
         double centre[3], half[3];
         bool is_turned = body.shape == TUNNELPROOF_BOX && !peers_aligned(&body, centre, half);
         if (is_turned && needs_margin()) return TUNNELPROOF_UNSUPPORTED;
-        if (body.shape <= TUNNELPROOF_EDGE && body.radius <= 0) return TUNNELPROOF_UNSUPPORTED;
+        if (body.shape <= TUNNELPROOF_SEGMENT && body.radius <= 0) return TUNNELPROOF_UNSUPPORTED;
     }
     return cast(convex(both[0]), convex(both[1]), toi);
 }

@@ -146,6 +146,6 @@ int tunnelproof_box_cast(const int shapes[2], const double bodies[30], const dou
     peers_body both[2];
     peers_bodies(shapes, bodies, radius, both);
     for (const peers_body &body : both)
-        if (body.shape <= TUNNELPROOF_EDGE && body.radius <= 0) return TUNNELPROOF_UNSUPPORTED;
+        if (body.shape <= TUNNELPROOF_SEGMENT && body.radius <= 0) return TUNNELPROOF_UNSUPPORTED;
     return cast(convex(both[0]), convex(both[1]), toi);
 }

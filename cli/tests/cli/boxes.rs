@@ -14,7 +14,7 @@ int tunnelproof_box_cast(const int shapes[2], const double bodies[30], const dou
     (void)bodies;
     (void)toi;
     for (int i = 0; i < 2; ++i)
-        if (shapes[i] == TUNNELPROOF_EDGE && radius[i] == 0) return TUNNELPROOF_UNSUPPORTED;
+        if (shapes[i] == TUNNELPROOF_SEGMENT && radius[i] == 0) return TUNNELPROOF_UNSUPPORTED;
     return TUNNELPROOF_MISS;
 }
 "#;
