@@ -13,12 +13,10 @@
 use std::fmt;
 
 use rand::Rng;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 
 use super::body::BoxCast;
 use super::draws::{Other, far, grazing, lattice, long_thin, start, tiny, uniform};
-use crate::generate::IdError;
+use crate::generate::{IdError, seed_and_index, stream};
 
 /// Every family of boxes that are cast, in the order of tables.
 pub const BOX_FAMILIES: &[BoxFamily] = &[
@@ -161,14 +159,7 @@ impl BoxFamily {
 
     /// The cast of this seed and index.
     pub fn cast(&self, seed: u64, index: u64) -> BoxCast {
-        let mut key = [0; 32];
-        key[..8].copy_from_slice(&seed.to_le_bytes());
-        for (byte, letter) in key[8..].iter_mut().zip(self.name.bytes()) {
-            *byte = letter;
-        }
-        let mut rng = ChaCha8Rng::from_seed(key);
-        rng.set_stream(index);
-        (self.draw)(&mut rng)
+        (self.draw)(&mut stream(self.name, seed, index))
     }
 }
 
@@ -198,15 +189,12 @@ impl BoxId {
     pub fn parse(text: &str) -> Option<Result<Self, IdError>> {
         let (name, rest) = text.split_once(':')?;
         let family = box_family(name)?;
-        let of_rest = || {
-            let (seed, index) = rest.split_once(':').ok_or(IdError::Form)?;
-            Ok(BoxId {
-                family,
-                seed: seed.parse().map_err(|_| IdError::Seed)?,
-                index: index.parse().map_err(|_| IdError::Index)?,
-            })
+        let id = |[seed, index]: [u64; 2]| BoxId {
+            family,
+            seed,
+            index,
         };
-        Some(of_rest())
+        Some(seed_and_index(rest).map(id))
     }
 }
 

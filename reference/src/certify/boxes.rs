@@ -8,6 +8,7 @@ use num_traits::{One, ToPrimitive};
 use rayon::prelude::*;
 use tunnelproof::contact::Case;
 
+use super::judged::no_time;
 use super::tally::Fault;
 use super::verdict::{Judgement, Outline, OutlineHit, judge_outline};
 use crate::boxes::{BoxAnswer, BoxCast, BoxFamily, BoxId, comes_within, decide, least_square};
@@ -129,9 +130,8 @@ impl Judged {
             None => vec![(Fault::NoAnswer, 0.0)],
             Some(judgement) => judgement.faults(&outline(&truth), || gap(cast)),
         };
-        let is_no_time = faults.iter().any(|(fault, _)| *fault == Fault::NoAnswer);
-        let no_time = || Lapse::new(LapseKind::NoTime, "toi is not a number from 0 to 1");
-        let lapse = lapse.or_else(|| is_no_time.then(no_time));
+        let of_time = |judgement: &Judgement| no_time(judgement.verdict);
+        let lapse = lapse.or_else(|| judgement.as_ref().and_then(of_time));
         if let Some(lapse) = &lapse {
             *self.lapses.entry(lapse.kind).or_default() += 1;
         }

@@ -91,7 +91,7 @@ impl Judged<'_> {
 }
 
 /// That a time of impact is no time of the step, if that is why an answer is none.
-fn no_time(verdict: Verdict) -> Option<Lapse> {
+pub(super) fn no_time(verdict: Verdict) -> Option<Lapse> {
     let lapse = || Lapse::new(LapseKind::NoTime, "toi is not a number from 0 to 1");
     (verdict == Verdict::NoAnswer).then(lapse)
 }

@@ -122,14 +122,8 @@ impl Family {
 
     /// The query of this seed and index.
     pub fn query(&self, seed: u64, index: u64) -> Query {
-        let mut key = [0; 32];
-        key[..8].copy_from_slice(&seed.to_le_bytes());
-        for (byte, letter) in key[8..].iter_mut().zip(self.name.bytes()) {
-            *byte = letter;
-        }
         let size = self.group_size() as u64;
-        let mut rng = ChaCha8Rng::from_seed(key);
-        rng.set_stream(index / size);
+        let mut rng = stream(self.name, seed, index / size);
         self.draw.member(&mut rng, (index % size) as usize)
     }
 
@@ -198,6 +192,27 @@ pub enum IdError {
     /// The index is not a number.
     #[error("the index is not an integer from 0 to {}", u64::MAX)]
     Index,
+}
+
+/// The random numbers of a seed and an index of the family with this name.
+pub(crate) fn stream(name: &str, seed: u64, index: u64) -> ChaCha8Rng {
+    let mut key = [0; 32];
+    key[..8].copy_from_slice(&seed.to_le_bytes());
+    for (byte, letter) in key[8..].iter_mut().zip(name.bytes()) {
+        *byte = letter;
+    }
+    let mut rng = ChaCha8Rng::from_seed(key);
+    rng.set_stream(index);
+    rng
+}
+
+/// The seed and the index of `SEED:INDEX`, what is left of an identifier without its family.
+pub(crate) fn seed_and_index(text: &str) -> Result<[u64; 2], IdError> {
+    let (seed, index) = text.split_once(':').ok_or(IdError::Form)?;
+    Ok([
+        seed.parse().map_err(|_| IdError::Seed)?,
+        index.parse().map_err(|_| IdError::Index)?,
+    ])
 }
 
 fn names() -> String {

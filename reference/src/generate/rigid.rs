@@ -3,11 +3,9 @@
 use std::fmt;
 
 use rand::Rng;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::SeedableRng;
 use tunnelproof::rigid::RigidQuery;
 
-use super::IdError;
+use super::{IdError, seed_and_index, stream};
 
 mod beside;
 mod bodies;
@@ -99,14 +97,7 @@ impl RigidFamily {
 
     /// The query of this seed and index.
     pub fn query(&self, seed: u64, index: u64) -> RigidQuery {
-        let mut key = [0; 32];
-        key[..8].copy_from_slice(&seed.to_le_bytes());
-        for (byte, letter) in key[8..].iter_mut().zip(self.name.bytes()) {
-            *byte = letter;
-        }
-        let mut rng = ChaCha8Rng::from_seed(key);
-        rng.set_stream(index);
-        (self.draw)(&mut rng)
+        (self.draw)(&mut stream(self.name, seed, index))
     }
 
     /// A query made of any random numbers, such as the bytes that a fuzzer chooses.
@@ -147,15 +138,12 @@ impl RigidId {
     pub fn parse(text: &str) -> Option<Result<Self, IdError>> {
         let (name, rest) = text.split_once(':')?;
         let family = rigid_by_name(name)?;
-        let of_rest = || {
-            let (seed, index) = rest.split_once(':').ok_or(IdError::Form)?;
-            Ok(RigidId {
-                family,
-                seed: seed.parse().map_err(|_| IdError::Seed)?,
-                index: index.parse().map_err(|_| IdError::Index)?,
-            })
+        let id = |[seed, index]: [u64; 2]| RigidId {
+            family,
+            seed,
+            index,
         };
-        Some(of_rest())
+        Some(seed_and_index(rest).map(id))
     }
 }
 
