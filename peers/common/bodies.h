@@ -61,6 +61,15 @@ struct peers_body {
     double radius;
 };
 
+/* Its points at both ends of the step where a query has them: A B of a segment, A of a sphere, B C D of a triangle. */
+static void peers_query_points(const struct peers_body *body, double points[24]) {
+    int first = body->shape == TUNNELPROOF_TRIANGLE ? 1 : 0;
+    for (int i = 0; i < 9; i++) {
+        points[3 * first + i] = body->points[i];
+        points[12 + 3 * first + i] = body->points[i] + body->step[i % 3];
+    }
+}
+
 /* Both bodies. The skin is that of the first body with a radius or, without one, of the first box. */
 static void peers_bodies(const int shapes[2], const double bodies[30], const double radius[2], struct peers_body both[2]) {
     for (int i = 0; i < 2; i++) {

@@ -95,14 +95,10 @@ Body box(const peers_body &from) {
     return body;
 }
 
-// A body of a cast of a box, by the points of a query: A B of a capsule, A of a sphere, B C D of a triangle.
+// A body of a cast of a box.
 Body convex(const peers_body &from) {
     double points[24];
-    int first = from.shape == TUNNELPROOF_TRIANGLE ? 1 : 0;
-    for (int i = 0; i < 9; i++) {
-        points[3 * first + i] = from.points[i];
-        points[12 + 3 * first + i] = from.points[i] + from.step[i % 3];
-    }
+    peers_query_points(&from, points);
     switch (from.shape) {
         case TUNNELPROOF_BOX: return box(from);
         case TUNNELPROOF_TRIANGLE: return triangle(points);
