@@ -86,7 +86,7 @@ pub(super) fn find_active_set(
     let mut search = BoundSearch::new();
     loop {
         tries += 1;
-        if update_branches(&mut system.rows, &x) {
+        if update_branches(&mut system.rows, &x, false) {
             system.factor()?;
             budget.spend(system.multiplications());
             factorisations += 1;
@@ -115,11 +115,12 @@ pub(super) fn find_active_set(
     }
 }
 
-/// Takes the branches that hold at a solution. Returns whether this changes the system.
-pub(super) fn update_branches(rows: &mut [Row], x: &[f64]) -> bool {
+/// Takes the branches that hold at a solution, or of softened laws those that give what was
+/// predicted. Returns whether this changes the system.
+pub(super) fn update_branches(rows: &mut [Row], x: &[f64], predicted: bool) -> bool {
     let mut changed = false;
     for row in rows.iter_mut().filter(|row| row.may_change()) {
-        changed |= row.take_branch(x, false);
+        changed |= row.take_branch(x, predicted);
     }
     changed
 }

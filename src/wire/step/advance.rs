@@ -5,7 +5,7 @@ use super::callbacks::{Given, MotionReview, StepCallbacks};
 use super::capstan;
 use super::contact_nodes;
 use super::motion::{MotionScales, ProposedMotion, SlideRate};
-use super::solve_step::Candidate;
+use super::solve_step::{Candidate, SOLVE};
 use super::start::Start;
 use super::system::System;
 use crate::wire::clock::Clock;
@@ -18,10 +18,6 @@ use crate::wire::resolution::{self, Permit, RemeshGuard};
 use crate::wire::solver_cache::WarmStart;
 use crate::wire::sparse::Structure;
 use crate::wire::world::World;
-
-/// A solve may spend one part in so many of what is left: so there is something left for solving
-/// again.
-const SOLVE: usize = 2;
 
 /// A step is solved again as long as that may take one part in so many of what the first solve took.
 const AGAIN: usize = 4;
@@ -98,7 +94,7 @@ impl World {
         let whole = budget;
         let start = Start::of_step(self, contacts);
         let (mut system, mut candidate) =
-            self.solve_in_part(structure, contacts, &start, &mut budget, phases)?;
+            self.solve_step(structure, contacts, &start, &mut budget, phases)?;
         let of_first = budget.spent_since(whole);
         let mut scales = MotionScales::all(self);
         loop {
@@ -121,9 +117,7 @@ impl World {
                     let impulses = candidate.swept.impulses.clone();
                     let start = Start::again(self, contacts, (&system, &candidate.x), impulses);
                     *structure = system.take_structure();
-                    let again =
-                        self.solve_in_part(structure, contacts, &start, &mut budget, phases);
-                    match again {
+                    match self.solve_step(structure, contacts, &start, &mut budget, phases) {
                         Ok(solved) => (system, candidate) = solved,
                         Err(_) => watch.keep_solution(),
                     }
@@ -131,21 +125,6 @@ impl World {
                 MotionReview::Scale(scales_now) => scales = scales_now,
             }
         }
-    }
-
-    /// Solves with a part of what may be spent.
-    fn solve_in_part(
-        &self,
-        structure: &mut Option<Structure>,
-        contacts: &[ContactConstraint],
-        start: &Start,
-        budget: &mut Budget,
-        phases: &mut Phases,
-    ) -> Result<(System, Candidate), Reason> {
-        let mut part = budget.part(SOLVE);
-        let solved = self.solve_step(structure, contacts, start, &mut part, phases);
-        budget.take_back(part);
-        solved
     }
 
     /// The energies of the motion that was made; see [`StepRecord::energy`].

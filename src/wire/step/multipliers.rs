@@ -7,7 +7,7 @@
 //! the fixed point of Haslinger (1983) for the friction that their normal impulses allow. Whatever
 //! its bound, friction takes energy.
 
-use super::active_set::{advance, leaves_hard_branch, line_search};
+use super::active_set::{advance, leaves_hard_branch, line_search, update_branches};
 use super::budget::Budget;
 use super::capstan;
 use super::friction_bounds::BoundSearch;
@@ -137,9 +137,7 @@ fn minimise_for_predicted(
     // function.
     let mut predicted = true;
     while *factorisations < TRIES && !budget.is_spent() {
-        for row in system.rows.iter_mut().filter(|row| row.may_change()) {
-            row.take_branch(x, predicted);
-        }
+        update_branches(&mut system.rows, x, predicted);
         for contact in &mut system.implicit {
             contact.linearise(x, predicted);
         }

@@ -226,8 +226,7 @@ impl System {
         const ENTRY: usize = 8;
         const CONTACT: usize = 500;
         let own = ENTRY * self.triplets.index.len() + CONTACT * self.implicit.len();
-        let ldl = self.structure.as_ref().map(|structure| &structure.ldl);
-        own + ldl.map_or(0, |ldl| {
+        own + self.ldl().map_or(0, |ldl| {
             ldl.multiplications() + ldl.multiplications_of_solve()
         })
     }
@@ -235,8 +234,8 @@ impl System {
     /// Multiplications of a solve that is refined and checked.
     pub(super) fn multiplications_of_solve(&self) -> usize {
         let entries = 4 * self.triplets.index.len();
-        let ldl = self.structure.as_ref().map(|structure| &structure.ldl);
-        ldl.map_or(0, |ldl| 2 * ldl.multiplications_of_solve() + entries)
+        self.ldl()
+            .map_or(0, |ldl| 2 * ldl.multiplications_of_solve() + entries)
     }
 
     /// The solution with impulses on velocities, given as columns and values, and its backward
@@ -265,17 +264,13 @@ impl System {
 
     /// The solution without impulses on velocities, neither refined nor checked.
     pub(super) fn estimate(&self) -> Vec<f64> {
-        let mut x = self.right_side(&[]);
-        if let Some(structure) = &self.structure {
-            structure.ldl.solve(&mut x);
-        }
-        x
+        self.response(self.right_side(&[]))
     }
 
     /// What impulses change in a solution with the rows as they were factored, not refined.
     pub(super) fn response(&self, mut impulses: Vec<f64>) -> Vec<f64> {
-        if let Some(structure) = &self.structure {
-            structure.ldl.solve(&mut impulses);
+        if let Some(ldl) = self.ldl() {
+            ldl.solve(&mut impulses);
         }
         impulses
     }
@@ -307,17 +302,13 @@ impl System {
 
     /// `L Y = C` for the rows of one contact.
     pub(super) fn forward(&self, columns: &[(usize, [f64; 3])]) -> SparseColumns {
-        match &self.structure {
-            Some(structure) => structure.ldl.forward(columns),
-            None => SparseColumns::default(),
-        }
+        self.ldl()
+            .map_or_else(SparseColumns::default, |ldl| ldl.forward(columns))
     }
 
     /// `D`, row by row.
     pub(super) fn pivots(&self) -> &[f64] {
-        self.structure
-            .as_ref()
-            .map_or(&[], |structure| structure.ldl.pivots())
+        self.ldl().map_or(&[], Ldl::pivots)
     }
 
     /// The largest residual relative to the largest magnitude that was summed up: equations of
@@ -335,6 +326,11 @@ impl System {
         };
         let [motion, rows] = [worst(true), worst(false)];
         if motion >= rows { motion } else { rows }
+    }
+
+    /// The factor, once there is one.
+    fn ldl(&self) -> Option<&Ldl> {
+        self.structure.as_ref().map(|structure| &structure.ldl)
     }
 
     /// The structure, for the next system.
