@@ -20,6 +20,7 @@ use tunnelproof_reference::answer::ExactHit;
 use tunnelproof_reference::oracle::decide_rigid_query;
 
 use super::core::{Core, ROUNDING, Surface};
+use super::separate::{are_boxes_apart, is_node_apart, is_segment_apart};
 
 type Vector = Vector3<f64>;
 
@@ -276,28 +277,32 @@ impl Part {
                     return Ok(None);
                 }
                 *asked += 1;
-                self.touch_surface(surface, &|low, high| {
-                    near.iter().all(|points| is_apart(points, stray, low, high))
-                })
+                self.touch_surface(surface, &near, stray)
             }
         }
     }
 
+    /// The first contact with a surface, `near` which the segment is, by at most `stray` elsewhere.
     fn touch_surface(
         &self,
         surface: &Surface,
-        apart: &dyn Fn(&Vector, &Vector) -> bool,
+        near: &[[Vector; 4]],
+        stray: f64,
     ) -> Result<Option<ExactHit>, RigidError> {
         let mut hits = Vec::new();
         for face in &surface.faces {
-            let [a, b, c] = face.map(|corner| corner.coords);
-            if !apart(&a.inf(&b).inf(&c), &a.sup(&b).sup(&c)) {
-                hits.extend([self.against_face(0, face)?, self.against_face(1, face)?]);
+            let corners = face.map(|corner| corner.coords);
+            for node in [0, 1] {
+                let apart =
+                    |p: &[Vector; 4]| is_node_apart(&[p[node], p[node + 2]], &corners, stray);
+                if !near.iter().all(apart) {
+                    hits.push(self.against_face(node, face)?);
+                }
             }
         }
         for edge in &surface.edges {
-            let [a, b] = edge.map(|corner| corner.coords);
-            if !apart(&a.inf(&b), &a.sup(&b)) {
+            let corners = edge.map(|corner| corner.coords);
+            if !near.iter().all(|p| is_segment_apart(p, &corners, stray)) {
                 let query = EdgeTurningEdge::new(self.start, self.end, *edge, self.motion)?;
                 hits.push(decide_rigid_query(&RigidQuery::EdgeTurningEdge(query)).hit);
             }
@@ -319,7 +324,7 @@ fn near(looks: &[[Vector; 2]], stray: f64, surface: &Surface) -> (Vec<[Vector; 4
     let between = looks.windows(2);
     let between = between.map(|two| [two[0][0], two[0][1], two[1][0], two[1][1]]);
     let is_near = |points: &[Vector; 4]| {
-        let apart = is_apart(points, stray, &surface.low, &surface.high);
+        let apart = are_boxes_apart(points, stray, &surface.low, &surface.high);
         !apart && !surface.is_beyond(points, stray)
     };
     (between.filter(is_near).collect(), stray)
@@ -331,14 +336,6 @@ pub(super) fn first(hits: impl IntoIterator<Item = Option<ExactHit>>) -> Option<
         below.then(a.toi.above.total_cmp(&b.toi.above))
     };
     hits.into_iter().flatten().min_by(earlier)
-}
-
-/// Whether the box of some points, grown by `stray`, does not meet another box.
-fn is_apart(points: &[Vector], stray: f64, low: &Vector, high: &Vector) -> bool {
-    (0..3).any(|axis| {
-        let below = points.iter().all(|point| point[axis] + stray < low[axis]);
-        below || points.iter().all(|point| point[axis] - stray > high[axis])
-    })
 }
 
 /// A triangle of the plane `z = 0` that covers wherever points come that go between these.
@@ -399,7 +396,7 @@ pub(super) fn is_swept(
         Core::Surface(surface) => surface,
     };
     let size = size + surface.low.amax().max(surface.high.amax());
-    let apart = |low: &Vector, high: &Vector| is_apart(&local, ROUNDING * size, low, high);
+    let apart = |low: &Vector, high: &Vector| are_boxes_apart(&local, ROUNDING * size, low, high);
     if apart(&surface.low, &surface.high) || surface.is_beyond(&local, ROUNDING * size) {
         return Ok(false);
     }
@@ -417,7 +414,12 @@ pub(super) fn is_swept(
             .hit
             .is_some())
     };
-    Ok(pierces || any(&surface.edges, crossed)?)
+    let near = surface.edges.iter().filter(|edge| {
+        let way = [local[0], local[1], local[2], local[1]];
+        let corners = edge.map(|corner| corner.coords);
+        !is_segment_apart(&way, &corners, ROUNDING * size)
+    });
+    Ok(pierces || any(near, crossed)?)
 }
 
 /// Whether one of some things is so.
@@ -438,3 +440,6 @@ pub(super) fn fixed_to(kind: &NodeKind, body: usize) -> Option<Point> {
     let (carrier, local) = kind.carrier()?;
     (carrier.0 == body).then(|| Point::from(local))
 }
+
+#[cfg(test)]
+mod tests;

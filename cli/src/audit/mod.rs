@@ -30,6 +30,7 @@ mod passing;
 mod penetration;
 mod remesh;
 mod segments;
+mod separate;
 #[cfg(test)]
 mod tests;
 mod thickness;
