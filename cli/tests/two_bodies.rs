@@ -358,6 +358,53 @@ fn touches_are_found_in_every_stage_of_a_turn() {
     assert!(stages[..4].iter().all(|count| *count > 0), "{stages:?}");
 }
 
+/// The fan, a body 5 m away, and a fast one 20 m away.
+fn fan_and_others(degrees: f64) -> World {
+    let mut world = fan(degrees);
+    for (x, spin) in [(5.0, 1.0), (20.0, 1000.0)] {
+        let drive = Drive::Dynamic {
+            density: 1000.0,
+            velocity: Vector::zeros(),
+            angular_velocity: Vector::new(0.0, 0.0, spin),
+        };
+        let half = Vector::new(0.1, 0.01, 0.01);
+        world
+            .add_body(BodyPlan {
+                drive,
+                ..BodyPlan::fixed(Shape::Box { half }, Point::new(x, 0.0, 0.0))
+            })
+            .unwrap();
+    }
+    world
+}
+
+/// What is near a fast one has its stages, what is apart its own; the audit needs no more.
+#[test]
+fn bodies_that_are_far_from_each_other_have_their_own_stages() {
+    let (mut prevented, mut turned) = (0, 0);
+    for k in 0..20 {
+        let world = fan_and_others(f64::from(k) * 9.0 + 4.0);
+        let run = run(world.clone(), collisions(0, Mode::Guard), 3);
+        assert_eq!((run.stopped, run.report.is_exact()), (None, true));
+        prevented += run.report.core_prevented;
+        let mut record = run.records[0].clone();
+        let counts = record.bodies.iter().map(|body| body.between.len());
+        let counts: Vec<usize> = counts.collect();
+        // The fan may be held.
+        assert!(counts[0] <= 6 && counts == [counts[0], counts[0], 0, 21]);
+        turned += usize::from(counts[0] == 6);
+        // Two with poses at other times must be out of reach by their records.
+        let body = &mut record.bodies[2];
+        for pose in [&mut body.before, &mut body.after] {
+            pose.position.x = 19.85;
+        }
+        let findings = audited(&world, &[record]).findings;
+        let uneven = |what: &What| matches!(what, What::BodyUnsound { body: 3 });
+        assert!(findings.iter().any(|finding| uneven(&finding.what)));
+    }
+    assert!(prevented > 0 && turned > 0);
+}
+
 /// Scripts are kept where nothing can give way.
 #[test]
 fn two_scripted_bodies_pass_through_each_other() {

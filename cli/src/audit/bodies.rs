@@ -84,6 +84,24 @@ impl BodyWay {
         self.pieces[0].start()
     }
 
+    /// Its centre at the start and at the end.
+    pub(super) fn centres(&self) -> [Point; 2] {
+        let last = &self.pieces[self.pieces.len() - 1];
+        [self.pose().centre, last.end().centre]
+    }
+
+    /// How far its centre is at most from where it would be at the same time on a straight way.
+    pub(super) fn stray_of_centre(&self) -> f64 {
+        let [from, to] = self.centres().map(|centre| centre.coords);
+        let ends = self.pieces.iter().map(|piece| piece.end().centre.coords);
+        let count = self.pieces.len() as f64;
+        let strays = ends.enumerate().map(|(piece, at)| {
+            let t = (piece + 1) as f64 / count;
+            (at - (from * (1.0 - t) + to * t)).norm()
+        });
+        strays.fold(0.0, f64::max)
+    }
+
     /// Its motions from pose to pose.
     pub(super) fn pieces(&self) -> &[RigidMotion] {
         &self.pieces

@@ -1,7 +1,8 @@
 //! Cores of bodies against each other, from the records alone.
 //!
 //! Both bodies go from pose to pose at the same times, as `RigidMotion` says; one that stays where it
-//! is has no poses between. Each such stage is asked of the oracle: vertices of each against faces of
+//! is has no poses between, and two that stay farther apart than both reach may have poses at other
+//! times. Each such stage is asked of the oracle: vertices of each against faces of
 //! the other, edges against edges. Left out before that is what is apart in space. There a point at
 //! the distance `r` from a centre strays from the straight line between its places by at most
 //! `1.5 a^2 r / 8`, with the angle `a` of the turn, at most 90 degrees, because its acceleration is at
@@ -38,7 +39,8 @@ pub(super) struct Found {
     pub(super) touch: Option<Touch>,
 }
 
-/// The first touch of two cores; `None` if the poses of both are not at the same times.
+/// The first touch of two cores; `None` if the poses of both are not at the same times, and the two
+/// may come near each other.
 pub(super) fn first_touch(
     cores: [&Core; 2],
     ways: [&BodyWay; 2],
@@ -48,7 +50,7 @@ pub(super) fn first_touch(
     let stages = counts[0].max(counts[1]);
     let is_common = |way: &&BodyWay| way.is_still() || way.pieces().len() == stages;
     if !ways.iter().all(is_common) {
-        return Ok(None);
+        return Ok(stay_out_of_reach(cores, ways).then_some(found));
     }
     if ways.iter().all(|way| way.is_still()) {
         return Ok(Some(found));
@@ -84,6 +86,38 @@ pub(super) fn first_touch(
     Ok(Some(found))
 }
 
+/// The largest distance of a corner from the body's centre.
+fn radius(core: &Core) -> f64 {
+    match core {
+        Core::Plane => f64::INFINITY,
+        Core::Surface(surface) => {
+            let vertices = surface.faces.as_flattened().iter();
+            vertices.fold(0.0, |r: f64, vertex| r.max(vertex.coords.norm()))
+        }
+    }
+}
+
+/// Whether the centres of two bodies stay farther apart than corners are from them, whatever turns.
+/// Each centre is taken to go straight from the start of the step to its end, as far from there as
+/// any of its poses is.
+fn stay_out_of_reach(cores: [&Core; 2], ways: [&BodyWay; 2]) -> bool {
+    let ends = ways.map(BodyWay::centres);
+    let [from, to] = [0, 1].map(|end| ends[0][end] - ends[1][end]);
+    let (mut least, mut size) = (f64::INFINITY, 0.0_f64);
+    // The distance from a point to a line, by the nearest of its ends and what is across it.
+    let along = to - from;
+    let length = along.norm();
+    if length > 0.0 && from.dot(&along) < 0.0 && to.dot(&along) > 0.0 {
+        least = from.cross(&along).norm() / length;
+    }
+    least = least.min(from.norm()).min(to.norm());
+    for end in ends.as_flattened() {
+        size = size.max(end.coords.amax());
+    }
+    let strays: f64 = ways.iter().map(|way| way.stray_of_centre()).sum();
+    least > radius(cores[0]) + radius(cores[1]) + strays + ROUNDING * size
+}
+
 /// A stage of two bodies.
 struct Stage {
     motions: [RigidMotion; 2],
@@ -96,14 +130,10 @@ struct Stage {
 
 impl Stage {
     fn new(cores: [&Core; 2], motions: [RigidMotion; 2]) -> Self {
-        let radius = |core: &Core| match core {
+        let radii = cores.map(|core| match core {
             Core::Plane => 0.0,
-            Core::Surface(surface) => {
-                let vertices = surface.faces.as_flattened().iter();
-                vertices.fold(0.0, |r: f64, vertex| r.max(vertex.coords.norm()))
-            }
-        };
-        let radii = cores.map(radius);
+            Core::Surface(_) => radius(core),
+        });
         let ends = motions.map(|motion| [motion.start().centre, motion.end().centre]);
         let far = [0, 1].map(|end| (ends[0][end] - ends[1][end]).norm());
         let reach = far[0].max(far[1]) + radii[0] + radii[1];

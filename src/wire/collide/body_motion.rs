@@ -4,7 +4,7 @@
 //! wires go on straight lines, but for those that are fixed to the body: they would leave its arcs
 //! for chords, into the body. So for a segment with such a node the way is divided further, into
 //! parts in which the body turns by at most [`FINE`]; at the ends of parts the node is where the
-//! body has it, rounded. Of two bodies that move, both have the same pieces.
+//! body has it, rounded. Two bodies that may come near each other have pieces of the same times.
 
 use nalgebra::Quaternion;
 
@@ -81,6 +81,15 @@ impl BodyWay {
             pieces: vec![RigidMotion::new(pose, pose)?],
             rests: true,
         })
+    }
+
+    /// How many pieces two have in common. None if each has its own: such bodies stay apart, as two
+    /// that may come near each other have the same ([`stages`](crate::wire::step::stages)).
+    pub(super) fn common_pieces(ways: [&Self; 2]) -> Option<usize> {
+        let counts = ways.map(|way| if way.rests { 1 } else { way.pieces.len() });
+        let most = counts[0].max(counts[1]);
+        let are_common = ways.iter().all(|way| way.rests || way.pieces.len() == most);
+        are_common.then_some(most)
     }
 
     /// Its motion in a piece of the step; one that rests has one piece.

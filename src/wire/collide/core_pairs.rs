@@ -83,7 +83,9 @@ pub(super) fn first_core_touch(
     ways: [&BodyWay; 2],
     tested: &mut bool,
 ) -> Result<Option<CoreHit>, RigidError> {
-    let stages = ways[0].pieces.len().max(ways[1].pieces.len());
+    let Some(stages) = BodyWay::common_pieces(ways) else {
+        return Ok(None);
+    };
     for stage in 0..stages {
         let motions = ways.map(|way| way.piece(stage));
         let touch = match cores {

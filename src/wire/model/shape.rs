@@ -81,6 +81,27 @@ impl Shape {
         Ok(properties)
     }
 
+    /// The largest distance of a point of it from the body's centre, in m, rounded.
+    pub(in crate::wire) fn reach(&self) -> f64 {
+        match self {
+            Shape::Box { half } => half.norm(),
+            Shape::Sphere { radius } => *radius,
+            Shape::Cylinder {
+                radius,
+                half_height,
+            } => (radius * radius + half_height * half_height).sqrt(),
+            Shape::Capsule {
+                radius,
+                half_height,
+            } => radius + half_height,
+            Shape::Plane => f64::INFINITY,
+            Shape::Mesh(mesh) => {
+                let vertices = mesh.vertices().iter();
+                vertices.fold(0.0, |far: f64, vertex| far.max(vertex.coords.norm()))
+            }
+        }
+    }
+
     pub(super) fn check(&self) -> Result<(), ModelError> {
         match self {
             Shape::Box { half } => half

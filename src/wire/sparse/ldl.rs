@@ -115,8 +115,8 @@ impl Ldl {
     ///
     /// # Errors
     ///
-    /// The first pivot that is on the wrong side of 0, 0 or not finite: the matrix is not
-    /// quasi-definite.
+    /// The first pivot that is on the wrong side of 0 by more than rounding, 0 without a sum, or
+    /// not finite: the matrix is not quasi-definite.
     pub(in crate::wire) fn factor(
         &mut self,
         matrix: &Symmetric,
@@ -128,14 +128,41 @@ impl Ldl {
             for (row, value) in matrix.column(k) {
                 y[row] += value;
             }
+            let own = y[k];
             let pivot = self.row(k, &mut y, &mut filled);
             let good = if positive { pivot > 0.0 } else { pivot < 0.0 };
-            if !(good && pivot.is_finite()) {
-                return Err(k);
-            }
-            self.diagonal[k] = pivot;
+            self.diagonal[k] = if good && pivot.is_finite() {
+                pivot
+            } else {
+                self.replaced(k, own, pivot, positive, &filled).ok_or(k)?
+            };
         }
         Ok(())
+    }
+
+    /// What stands for a pivot on the wrong side of 0: on the right side, a little more than is
+    /// rounded in the sum that it is. So the factors are those of a matrix that differs by no more
+    /// than that. None if more than rounding is wrong.
+    fn replaced(
+        &self,
+        k: usize,
+        own: f64,
+        pivot: f64,
+        positive: bool,
+        filled: &[usize],
+    ) -> Option<f64> {
+        /// As parts of what is summed up: what may be wrong, and what is taken.
+        const PARTS: [f64; 2] = [1e-12, 1e-15];
+        let row = &self.pattern[self.row_starts[k]..self.row_starts[k + 1]];
+        let terms = row.iter().map(|&i| {
+            let l = self.values[filled[i as usize] - 1];
+            (l * l * self.diagonal[i as usize]).abs()
+        });
+        let magnitude = own.abs() + terms.sum::<f64>();
+        let [wrong, taken] = PARTS.map(|part| part * magnitude);
+        let is_rounded = magnitude > 0.0 && magnitude.is_finite() && pivot.abs() <= wrong;
+        let taken = if positive { taken } else { -taken };
+        is_rounded.then_some(taken)
     }
 
     /// Row `k` of `L`: solves for it with the columns that are filled so far. Returns the pivot.

@@ -25,5 +25,6 @@ mod softness;
 mod solve_step;
 mod spin;
 mod start;
+mod stages;
 mod system;
 pub(super) mod transverse;

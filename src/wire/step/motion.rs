@@ -4,18 +4,12 @@ use nalgebra::UnitQuaternion;
 
 use super::carrier::{Carrier, Layout};
 use super::spin::turn;
+use super::stages::{Mover, is_followed, slowed, stages};
 use crate::query::Point;
 use crate::wire::Vector;
 use crate::wire::model::BodyId;
 use crate::wire::record::Pose;
 use crate::wire::world::World;
-
-/// The largest turn in a stage of a motion, in radians: 45 degrees.
-const TURN: f64 = std::f64::consts::FRAC_PI_4;
-
-/// The most stages of a motion. A dynamic body is not let spin faster, as a thin one may
-/// that rolls on what is fast; its way could not be tested.
-const MOST_STAGES: u32 = 512;
 
 /// Positions and velocities at the end of a step.
 pub(in crate::wire) struct ProposedMotion {
@@ -96,14 +90,13 @@ impl World {
             slides: Vec::new(),
         };
         let velocities = self.body_velocities(layout, x, &motion_scales.bodies);
-        let stages = common_stages(&velocities, step);
         for ((body, &[velocity, angular_velocity]), &scale) in self
             .bodies
             .iter()
             .zip(&velocities)
             .zip(&motion_scales.bodies)
         {
-            let mut to = BodyMotion {
+            moved.bodies.push(BodyMotion {
                 between: Vec::new(),
                 is_followed: is_followed(&angular_velocity, step),
                 position: body.position + velocity * step,
@@ -115,19 +108,9 @@ impl World {
                 },
                 velocity,
                 angular_velocity,
-            };
-            if to.is_followed && to.pose() != Pose::of(body) {
-                let on_way = (1..stages).map(|stage| {
-                    let time = step * (f64::from(stage) / f64::from(stages));
-                    Pose {
-                        position: body.position + velocity * time,
-                        orientation: turn(&body.orientation, &angular_velocity, time),
-                    }
-                });
-                to.between = on_way.collect();
-            }
-            moved.bodies.push(to);
+            });
         }
+        self.add_poses_between(&mut moved.bodies);
         for ((wire, &first), scales) in self
             .wires
             .iter()
@@ -161,6 +144,32 @@ impl World {
         moved
     }
 
+    /// Adds the poses at the ends of stages.
+    fn add_poses_between(&self, ends: &mut [BodyMotion]) {
+        let bodies = self.bodies.iter().enumerate();
+        let moving = bodies.filter(|(body, start)| ends[*body].pose() != Pose::of(start));
+        let movers = moving.map(|(body, _)| Mover {
+            body,
+            end: ends[body].position,
+            angular_velocity: ends[body].angular_velocity,
+        });
+        let movers: Vec<Mover> = movers.collect();
+        for (mover, stages) in movers.iter().zip(stages(self, &movers)) {
+            let (from, to) = (&self.bodies[mover.body], &mut ends[mover.body]);
+            if !to.is_followed {
+                continue;
+            }
+            let on_way = (1..stages).map(|stage| {
+                let time = self.settings.step * (f64::from(stage) / f64::from(stages));
+                Pose {
+                    position: from.position + to.velocity * time,
+                    orientation: turn(&from.orientation, &to.angular_velocity, time),
+                }
+            });
+            to.between = on_way.collect();
+        }
+    }
+
     /// The velocity and the angular velocity of each body in a solution `x`, scaled.
     fn body_velocities(&self, layout: &Layout, x: &[f64], scales: &[f64]) -> Vec<[Vector; 2]> {
         let step = self.settings.step;
@@ -175,41 +184,12 @@ impl World {
             };
             let spin = spin * scale;
             let spin = match body.dynamic {
-                true => slowed(spin, f64::from(MOST_STAGES) * TURN / step),
+                true => slowed(spin, step),
                 false => spin,
             };
             [velocity * scale, spin]
         });
         velocities.collect()
-    }
-}
-
-/// Into how many stages of the same time a motion is divided: so many that no body that is followed
-/// turns by more than [`TURN`] in one. All bodies have the same stages, so that each stage of two
-/// is a motion of both.
-fn common_stages(velocities: &[[Vector; 2]], step: f64) -> u32 {
-    let followed = velocities.iter().map(|[_, spin]| spin);
-    let followed = followed.filter(|spin| is_followed(spin, step));
-    let stages = followed.map(|spin| turns(spin, step) as u32);
-    stages.fold(1, u32::max)
-}
-
-fn is_followed(angular_velocity: &Vector, step: f64) -> bool {
-    turns(angular_velocity, step) <= f64::from(MOST_STAGES)
-}
-
-/// How often a body turns by [`TURN`] in a step, rounded up.
-fn turns(angular_velocity: &Vector, step: f64) -> f64 {
-    (angular_velocity.norm() * step / TURN).ceil()
-}
-
-/// A vector made no longer than `most`. One whose length is not finite stays, and the step is refused.
-fn slowed(vector: Vector, most: f64) -> Vector {
-    let length = vector.norm();
-    if length > most && length.is_finite() {
-        vector * (most / length) * (1.0 - 1e-9)
-    } else {
-        vector
     }
 }
 
