@@ -1,49 +1,20 @@
 //! The contact normal against the shortest vector in integers, a moment before the exact time of
 //! impact.
 //!
-//! The shortest vector is found by trying all features, at a time so shortly before that nearer
-//! ones no longer turn it. With a radius above 0 that is the normal at the contact too, because the
-//! vector is continuous there.
-//!
 //! `TUNNELPROOF_CASES` sets the number of queries of a kind.
 
-use num_bigint::BigInt;
 use proptest::prelude::*;
 use tunnelproof::certified::{Kind, Normal, decide, decide_exactly};
 use tunnelproof::query::{Point, Query, QueryKind};
 use tunnelproof_reference::generate;
-use tunnelproof_reference::oracle;
-use tunnelproof_reference::scaled::Scaled;
+use tunnelproof_reference::normal::ExactNormal;
 
 use corners::{all_scales, cases, lattice, nearly_degenerate, ordinary_scales, uniform};
 
-use shortest::{Vector, deviation, direction, direction_before, shortest, to_f64};
-
 mod corners;
-mod shortest;
-
-/// The largest bound that there may be.
-const WORST: f64 = 1.0 / (1u64 << 32) as f64;
 
 /// The bound of the normals that integers give.
 const EXACT: f64 = 4.0 * f64::EPSILON;
-
-/// The exact normal in fixed point; `None` where the sides touch at the start. Outside: of a miss.
-fn exact_normal(query: &Query) -> Option<Option<Vector>> {
-    let decision = oracle::decide::<BigInt>(query);
-    let toi = decision.toi()?;
-    let points = Scaled::<BigInt>::new(query);
-    let direction_at = |numerator: &BigInt, exponent: u64| {
-        let rest = (BigInt::from(1) << exponent) - numerator;
-        let at = [0, 1, 2, 3].map(|p: usize| {
-            [0, 1, 2].map(|i: usize| &rest * &points.start[p][i] + numerator * &points.end[p][i])
-        });
-        direction(&shortest(query.kind(), &at))
-    };
-    let all = points.start.iter().chain(&points.end).flatten();
-    let span = all.map(BigInt::bits).max().expect("24");
-    Some(direction_before(toi, span, direction_at))
-}
 
 /// The normal of both stages' hits; outside: of a miss.
 fn normals(query: &Query) -> Option<[Option<Normal>; 2]> {
@@ -72,8 +43,7 @@ struct Tally {
 }
 
 fn judge(query: &Query, tally: &mut Tally) -> Result<(), String> {
-    let expected = exact_normal(query);
-    let found = normals(query);
+    let (expected, found) = (ExactNormal::of(query), normals(query));
     let (Some(expected), Some(found)) = (&expected, &found) else {
         return match expected.is_none() && found.is_none() {
             true => Ok(()),
@@ -82,23 +52,12 @@ fn judge(query: &Query, tally: &mut Tally) -> Result<(), String> {
     };
     tally.hits += 1;
     for normal in found {
-        let (Some(expected), Some(normal)) = (expected, normal) else {
-            tally.none += 1;
-            if expected.is_some() || normal.is_some() {
-                return Err(format!("{normal:?} instead of {expected:?} for {query:?}"));
-            }
-            continue;
-        };
-        let (off, from_unit) = deviation(normal, expected);
-        if !(off <= 1.0 && normal.error <= WORST && from_unit <= 2f64.powi(-50)) {
-            let [x, y, z] = expected.each_ref().map(to_f64);
-            return Err(format!(
-                "{normal:?} instead of {:?}, off by {off:e} bounds, for {query:?}",
-                [x, y, z]
-            ));
-        }
-        tally.exact += u32::from(normal.error == EXACT);
-        tally.worst_error = tally.worst_error.max(normal.error);
+        let off = expected.judge(normal.as_ref());
+        let off = off.map_err(|wrong| format!("{wrong}, for {query:?}"))?;
+        let error = normal.map_or(0.0, |normal| normal.error);
+        tally.none += u32::from(normal.is_none());
+        tally.exact += u32::from(error == EXACT);
+        tally.worst_error = tally.worst_error.max(error);
         tally.worst_ratio = tally.worst_ratio.max(off);
     }
     Ok(())

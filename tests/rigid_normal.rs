@@ -4,7 +4,6 @@
 //! `TUNNELPROOF_RIGID_COUNT` sets the number of queries of a family, `TUNNELPROOF_RIGID_SEED` the
 //! seed, and `TUNNELPROOF_RIGID_FAMILIES` a part of the families' names.
 
-use num_bigint::BigInt;
 use tunnelproof::certified::{Normal, decide_rigid, decide_rigid_exactly};
 use tunnelproof::contact::Place;
 use tunnelproof::nalgebra::{Quaternion, Vector3};
@@ -12,14 +11,7 @@ use tunnelproof::query::QueryKind;
 use tunnelproof::rigid::{EdgeTurningEdge, Pose, RigidMotion, RigidQuery, Side};
 use tunnelproof::{EdgeEdge, Point, VertexFace, decide};
 use tunnelproof_reference::generate::{RIGID_FAMILIES, RigidFamily, rigid_by_name};
-use tunnelproof_reference::oracle;
-use tunnelproof_reference::scaled::{ScaledBody, ScaledRigid, ScaledSide};
-
-use shortest::{
-    Vector, cross, deviation, direction, direction_before, dot, shortest, times, to_f64,
-};
-
-mod shortest;
+use tunnelproof_reference::normal::ExactNormal;
 
 /// How many queries of each family are judged.
 fn count() -> u64 {
@@ -40,84 +32,8 @@ fn families() -> impl Iterator<Item = &'static RigidFamily> {
         .filter(move |family| family.name().contains(&asked))
 }
 
-/// The largest bound that there may be.
-const WORST: f64 = 1.0 / (1u64 << 32) as f64;
-
 /// The bound of the normals that integers give.
 const EXACT: f64 = 4.0 * f64::EPSILON;
-
-/// `(1 - t) start + t end` for `t = at / one`, times `one`.
-fn line<const N: usize>([start, end]: [&[BigInt; N]; 2], at: &BigInt, one: &BigInt) -> [BigInt; N] {
-    let rest = one - at;
-    std::array::from_fn(|i| &rest * &start[i] + at * &end[i])
-}
-
-/// The places of a body's points at `t = at / one`, times `one` and the second number.
-fn places(body: &ScaledBody<BigInt>, at: &BigInt, one: &BigInt) -> (Vec<Vector>, BigInt) {
-    let centre = line(body.centres.each_ref(), at, one);
-    let [w, x, y, z] = line(body.quaternions.each_ref(), at, one);
-    let v = [x, y, z];
-    let (ww, vv) = (&w * &w, dot(&v, &v));
-    let (square, difference) = (&ww + &vv, &ww - &vv);
-    // |q|^2 R x = (w^2 - v . v) x + 2 (v . x) v + 2 w (v x x)
-    let turned = |x: &Vector| -> Vector {
-        let (along, across) = (dot(&v, x), cross(&v, x));
-        std::array::from_fn(|i| {
-            &difference * &x[i] + BigInt::from(2) * (&along * &v[i] + &w * &across[i])
-        })
-    };
-    let place = |x: &Vector| -> Vector {
-        let turned = turned(x);
-        std::array::from_fn(|i| &square * &centre[i] + one * &turned[i])
-    };
-    (body.local.iter().map(place).collect(), square)
-}
-
-/// All four points at `t = at / one`, times a number above 0.
-fn points(query: &ScaledRigid<BigInt>, at: &BigInt, one: &BigInt) -> [Vector; 4] {
-    let (second, of_second) = places(&query.second, at, one);
-    let (first, of_first) = match &query.first {
-        ScaledSide::Straight(points) => {
-            let points = points.iter().map(|both| line(both.each_ref(), at, one));
-            (points.collect(), BigInt::from(1))
-        }
-        ScaledSide::Turning(body) => places(body, at, one),
-    };
-    let first = first.iter().map(|x| times(&of_second, x));
-    let second = second.iter().map(|x| times(&of_first, x));
-    let all: Vec<Vector> = first.chain(second).collect();
-    all.try_into().expect("four points")
-}
-
-/// The exact normal in fixed point; `None` where the sides touch at the start. Outside: of a miss.
-fn exact_normal(query: &RigidQuery) -> Option<Option<Vector>> {
-    let decision = oracle::decide_rigid::<BigInt>(query);
-    let toi = decision.toi()?;
-    let scaled = ScaledRigid::<BigInt>::new(query);
-    let kind = query.kind().linear();
-    let direction_at = |at: &BigInt, exponent: u64| {
-        let one = BigInt::from(1) << exponent;
-        direction(&shortest(kind, &points(&scaled, at, &one)))
-    };
-    Some(direction_before(toi, span(&scaled), direction_at))
-}
-
-/// The bits of the largest number.
-fn span(query: &ScaledRigid<BigInt>) -> u64 {
-    let of_body = |body: &ScaledBody<BigInt>| {
-        let numbers = body.local.iter().chain(&body.centres).flatten();
-        let all = numbers.chain(body.quaternions.iter().flatten());
-        all.map(BigInt::bits).max().expect("centres")
-    };
-    let first = match &query.first {
-        ScaledSide::Straight(points) => {
-            let all = points.iter().flatten().flatten();
-            all.map(BigInt::bits).max().expect("points")
-        }
-        ScaledSide::Turning(body) => of_body(body),
-    };
-    first.max(of_body(&query.second))
-}
 
 /// The normal of both stages' hits; outside: of a miss.
 fn normals(query: &RigidQuery) -> Option<[Option<Normal>; 2]> {
@@ -138,28 +54,8 @@ struct Tally {
     worst_ratio: f64,
 }
 
-/// What is wrong with a normal.
-fn judge_normal(found: &Option<Normal>, expected: &Option<Vector>) -> Result<f64, String> {
-    match (expected, found) {
-        (None, None) => Ok(0.0),
-        (Some(expected), Some(normal)) => {
-            let (off, from_unit) = deviation(normal, expected);
-            match off <= 1.0 && normal.error <= WORST && from_unit <= 2f64.powi(-50) {
-                true => Ok(off),
-                false => {
-                    let exact = expected.each_ref().map(to_f64);
-                    Err(format!(
-                        "{normal:?} instead of {exact:?}, off by {off:e} bounds"
-                    ))
-                }
-            }
-        }
-        _ => Err(format!("{found:?} instead of {expected:?}")),
-    }
-}
-
 fn judge(query: &RigidQuery, tally: &mut Tally) -> Result<(), String> {
-    let (expected, found) = (exact_normal(query), normals(query));
+    let (expected, found) = (ExactNormal::of_rigid(query), normals(query));
     let (Some(expected), Some(found)) = (&expected, &found) else {
         return match expected.is_none() && found.is_none() {
             true => Ok(()),
@@ -167,10 +63,10 @@ fn judge(query: &RigidQuery, tally: &mut Tally) -> Result<(), String> {
         };
     };
     tally.hits += 1;
-    tally.none += u32::from(expected.is_none());
+    tally.none += u32::from(expected.rounded().is_none());
     for normal in found {
-        let off =
-            judge_normal(normal, expected).map_err(|wrong| format!("{wrong} of {query:?}"))?;
+        let off = expected.judge(normal.as_ref());
+        let off = off.map_err(|wrong| format!("{wrong}, for {query:?}"))?;
         tally.worst_ratio = tally.worst_ratio.max(off);
         let error = normal.map_or(0.0, |normal| normal.error);
         tally.worst_error = tally.worst_error.max(error);
@@ -208,17 +104,17 @@ fn rigid_normal_comparison_sees_planted_faults() {
         let mut seen = 0;
         for index in 0..100 {
             let query = family.query(seed(), index);
-            let Some(Some(expected)) = exact_normal(&query) else {
+            let expected = ExactNormal::of_rigid(&query);
+            let Some(expected) = expected.filter(|normal| normal.rounded().is_some()) else {
                 continue;
             };
-            let expected = Some(expected);
             let [found, _] = normals(&query).expect("a hit");
-            assert!(judge_normal(&found, &expected).is_ok());
-            assert!(judge_normal(&None, &expected).is_err());
+            assert!(expected.judge(found.as_ref()).is_ok());
+            assert!(expected.judge(None).is_err());
             let right = found.expect("a normal");
             let is_seen = |direction: Vector3<f64>| {
                 let faulty = Normal { direction, ..right };
-                judge_normal(&Some(faulty), &expected).is_err()
+                expected.judge(Some(&faulty)).is_err()
             };
             assert!(is_seen(-right.direction));
             let aside = right.direction.yzx().cross(&right.direction);

@@ -11,6 +11,7 @@ pub mod field;
 pub mod figures;
 pub mod generate;
 pub mod instant;
+pub mod normal;
 pub mod oracle;
 pub mod places;
 pub mod poly;

@@ -1,5 +1,6 @@
 //! Subjects against judges.
 
+use tunnelproof::certified::{Normal, decide};
 use tunnelproof::narrow::Unsupported;
 use tunnelproof::query::Query;
 use tunnelproof::thesis::{Erratum, Repairs, Thesis};
@@ -7,6 +8,7 @@ use tunnelproof::thesis::{Erratum, Repairs, Thesis};
 use tunnelproof_reference::certify::margin::excuses;
 use tunnelproof_reference::certify::query::AnyQuery;
 use tunnelproof_reference::difference::Difference;
+use tunnelproof_reference::normal::ExactNormal;
 use tunnelproof_reference::registry::SECOND_JUDGE;
 use tunnelproof_reference::shadow::Shadow;
 use tunnelproof_reference::shrink::Disagreement;
@@ -41,7 +43,28 @@ pub(super) fn certified_vs_oracle(query: &Query) -> Option<String> {
         return None;
     }
     let disagreement = Disagreement::with_oracle(&Certified);
-    fault(&disagreement, query)
+    fault(&disagreement, query).or_else(|| normal_fault(query))
+}
+
+/// What is wrong with the certified path's normal.
+fn normal_fault(query: &Query) -> Option<String> {
+    let found = match query {
+        Query::EdgeEdge(query) => decide(query).map(|hit| hit.normal(query)),
+        Query::VertexFace(query) => decide(query).map(|hit| hit.normal(query)),
+    };
+    normals_differ(ExactNormal::of(query), found)
+}
+
+/// What is wrong with the normal that was found of a hit.
+pub(super) fn normals_differ(
+    exact: Option<ExactNormal>,
+    found: Option<Option<Normal>>,
+) -> Option<String> {
+    match (exact, found) {
+        (None, None) => None,
+        (Some(exact), Some(found)) => exact.judge(found.as_ref()).err(),
+        (exact, found) => Some(format!("{found:?} instead of {exact:?}")),
+    }
 }
 
 /// Whether the coordinates and radii other than 0 are within a factor of `2^200` of each other.

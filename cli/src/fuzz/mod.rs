@@ -62,7 +62,7 @@ pub const TARGETS: &[Target] = &[
     },
     Target {
         name: "certified_vs_oracle",
-        description: "the certified path against the oracle, in all that it promises",
+        description: "the certified path against the oracle, in all that it promises, normals too",
         check: Check::Query(judges::certified_vs_oracle),
     },
     Target {
@@ -82,7 +82,7 @@ pub const TARGETS: &[Target] = &[
     },
     Target {
         name: "turning_vs_oracle",
-        description: "bodies that turn: the certified path and the second judge against the oracle",
+        description: "bodies that turn: the certified path, normals too, and the second judge against the oracle",
         check: Check::Bytes(turning::check),
     },
     #[cfg(feature = "gmp")]

@@ -1,4 +1,5 @@
-//! Bodies that turn: the certified path against the oracle, and the oracle against the second judge.
+//! Bodies that turn: the certified path with its normals against the oracle, and the oracle against
+//! the second judge.
 //!
 //! The first bytes choose a family, whose random numbers are the bytes that follow, or small integers
 //! or numbers of any bits within a factor of `2^30` of 1; then a few numbers are changed.
@@ -6,16 +7,19 @@
 //! and then takes ten seconds, which a fuzzer calls a hang.
 
 use arbitrary::Unstructured;
+use tunnelproof::certified::decide_rigid;
 use tunnelproof::rigid::{Lengths, RigidQuery, RigidQueryKind};
 use tunnelproof_reference::certify::verdict::judge;
 use tunnelproof_reference::corpus::jsonl::Numbers as Format;
 use tunnelproof_reference::corpus::turning::{self, Fields, TurningEntry};
 use tunnelproof_reference::generate::{RIGID_FAMILIES, RigidFamily};
+use tunnelproof_reference::normal::ExactNormal;
 use tunnelproof_reference::oracle::decide_rigid_query;
 use tunnelproof_reference::registry::turning_subjects;
 use tunnelproof_reference::subject::Answer;
 
 use super::input::{Numbers, byte, finite, word};
+use super::judges::normals_differ;
 
 /// What is wrong: who differs from the oracle, and the query.
 pub(super) fn check(bytes: &[u8]) -> Option<String> {
@@ -25,21 +29,28 @@ pub(super) fn check(bytes: &[u8]) -> Option<String> {
     }
     let truth = decide_rigid_query(&query);
     let is_wrong = |answer: &Answer| judge(&truth, Some(answer), || false).differs;
-    let wrong = turning_subjects()
+    let wrong_subject = turning_subjects()
         .into_iter()
         .skip_while(|subject| subject.name() == "oracle")
         .find(|subject| {
             subject
                 .turning_answer(&query)
                 .map_or(true, |answer| is_wrong(&answer))
-        })?;
+        });
+    let wrong = match wrong_subject {
+        Some(subject) => format!("{} differs from the oracle", subject.name()),
+        None => {
+            let found = decide_rigid(&query).map(|hit| hit.normal(&query));
+            normals_differ(ExactNormal::of_rigid(&query), found)?
+        }
+    };
     let entry = TurningEntry {
         id: "turning".to_owned(),
         query,
         label: Some(truth.hit.is_some()),
     };
     let line = turning::write(&entry, Format::Hexadecimal);
-    Some(format!("{} differs from the oracle: {line}", wrong.name()))
+    Some(format!("{wrong}: {line}"))
 }
 
 fn is_of_small_integers(query: &RigidQuery) -> bool {

@@ -24,7 +24,7 @@ mod rows;
 mod softness;
 mod solve_step;
 mod spin;
-mod start;
 mod stages;
+mod start;
 mod system;
 pub(super) mod transverse;
