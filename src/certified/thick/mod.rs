@@ -155,13 +155,32 @@ fn decide_by_planes<K: Stages>(
     radius: Radius,
     proved: f64,
 ) -> Finding<Hit<K::Place>> {
-    let refined = match moving.advance::<K>(proved) {
-        Advance::Apart => return Finding::Miss,
-        _ if !moving.is_ordinary() => return Finding::Undecided,
-        Advance::Near => Finding::of_certain(moving.near_start::<K>(radius)),
-        Advance::Until(proved) => refine_toi::<K>(&positions(), moving, radius, proved),
+    let is_ordinary = moving.is_ordinary();
+    let start = || moving.start_within::<K>(radius);
+    let refined = if proved == 0.0
+        && is_ordinary
+        && let Some(start) = start()
+    {
+        match moving.near_start::<K>(&start) {
+            Some(near) => Finding::Hit(near),
+            None => return Finding::of_certain(K::contact_of_parallel(&positions(), [0.0; 2])),
+        }
+    } else {
+        match moving.advance::<K>(proved) {
+            Advance::Apart => return Finding::Miss,
+            Advance::Until(proved) if is_ordinary => {
+                refine_toi::<K>(&positions(), moving, radius, proved)
+            }
+            _ => return Finding::Undecided,
+        }
     };
-    refined.and_then(|refined| Finding::of_certain(contact::<K>(&positions(), moving, &refined)))
+    refined.and_then(|refined| {
+        let positions = positions();
+        Finding::of_certain(match refined.is_parallel {
+            true => K::contact_of_parallel(&positions, refined.toi),
+            false => contact::<K>(&positions, moving, &refined),
+        })
+    })
 }
 
 impl Moving<f64x2> {
@@ -170,13 +189,17 @@ impl Moving<f64x2> {
         self.radius > SMALLEST && self.radius < LARGEST && self.boxes.size() < LARGEST
     }
 
-    /// The nearest place at the start, if two points are certainly within the radius of each other
-    /// there.
-    fn near_start<K: Stages>(&self, radius: Radius) -> Option<RefinedToi> {
+    /// The start, if two points are certainly within the radius of each other there.
+    #[inline(never)]
+    fn start_within<K: Stages>(&self, radius: Radius) -> Option<Instant> {
         let start = Instant::new::<K, _>(self, 0.0);
-        let is_near = self.is_within(&start, radius);
-        let nearness = self.nearness::<K>(&start, 0.0).filter(|_| is_near)?;
-        RefinedToi::new(0.0, start.spot, &nearness)
+        self.is_within(&start, radius).then_some(start)
+    }
+
+    /// The contact at the start, at which two points are within the radius of each other.
+    fn near_start<K: Stages>(&self, start: &Instant) -> Option<RefinedToi> {
+        let nearness = self.nearness::<K>(start, 0.0)?;
+        RefinedToi::new([0.0; 2], start.spot, &nearness)
     }
 
     /// Whether the points of a place at the start are certainly within the radius of each other.
