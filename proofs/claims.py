@@ -140,6 +140,7 @@ BY_HAND = [
     ("thick/turning", "Moving", "stays_apart_turning"),
     ("thick/turning", None, "stays_positive"),
     ("thick/nearness", "Moving", "nearness"),
+    ("thick/nearness", "Moving", "nearness_of_parallel"),
     ("thick/nearness", None, "alone"),
     ("thick/nearness", None, "beside"),
     ("thick/nearness", None, "inside"),

@@ -104,7 +104,7 @@ DIRECTIONS = {"of u": (1, 0, ["K"]), "of v": (0, 1, ["L"]), "of both": (1, -1, [
 
 
 def slope_scope(engine, context, direction, kinds):
-    """What `nearness` computes of both directions, which are taken as the same here."""
+    """What `slopes` computes of both directions, which are taken as the same here."""
     u, v, _ = DIRECTIONS[direction]
     interpreter = engine.interpreter(context)
     interpreter.builtins.update({"K::FIRST": 2, "if": lambda *_: False})
@@ -117,7 +117,7 @@ def slope_scope(engine, context, direction, kinds):
     size = add(add(*edges), vector("M"))
     interpreter.given = {("Instant", "along"): [vectors, vectors], ("Moving", "reaches"): [edges, size]}
     this, width = Record("Moving"), F.exactly(context, "W")
-    return interpreter.scope_at(f"{HERE}thick/nearness.rs", "nearness", "first", this, here, width, of="Moving")
+    return interpreter.scope_at(f"{HERE}thick/nearness.rs", "slopes", "first", this, here, width, of="Moving")
 
 
 def slope_of(engine, claim, direction, part):

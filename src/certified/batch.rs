@@ -1,8 +1,7 @@
 //! Many queries at once, coordinates in separate arrays.
 //!
 //! The first stages of the cascade are taken for a block of queries at once (`block`); what they
-//! leave goes through the rest one by one. So do, from the start, the queries of a batch that has
-//! radii above 0.
+//! leave goes through the rest one by one, with its coordinates from the block.
 
 use std::marker::PhantomData;
 use std::ops::Range;
@@ -12,6 +11,7 @@ use super::cascade::{decide_motion, decide_rest};
 use super::kind::Kind;
 use super::motion::Positions;
 use super::stage::Stage;
+use super::thick::rounded_up;
 use crate::contact::Hit;
 use crate::environment;
 use crate::query::{Point, QueryError, Radius, check};
@@ -190,32 +190,37 @@ impl<K: Kind> Batch<K> {
         let mut unscreened = 0;
         for start in range.clone().step_by(BLOCK) {
             let end = range.end.min(start + BLOCK);
-            let is_thick = !self.radii.is_empty();
-            if is_thick || unscreened > 0 {
-                unscreened -= u32::from(!is_thick);
-                for index in start..end {
-                    if let Some(found) = self.decide_one(index, &mut observe) {
-                        hit(index, found);
-                    }
-                }
-                continue;
-            }
+            let radii = self.radii.get(start..end).unwrap_or_default();
             block.fill(self.coordinates.each_ref().map(|array| &array[start..end]));
-            if !block.screen::<K::Stages>(&mut observe) {
+            // Blocks with and without a radius are screened, mixed ones are not.
+            let is_thick = !radii.is_empty() && radii.iter().all(|radius| !radius.is_zero());
+            let is_thin = radii.iter().all(Radius::is_zero);
+            let is_screened = unscreened == 0 && (is_thick || is_thin);
+            let pays = if !is_screened {
+                unscreened = u32::saturating_sub(unscreened, 1);
+                true
+            } else if is_thick {
+                block.fill_radii(radii.iter().map(|radius| rounded_up(*radius)));
+                block.screen_thick::<K::Stages>(&mut observe)
+            } else {
+                block.screen::<K::Stages>(&mut observe)
+            };
+            if !pays {
                 unscreened = UNSCREENED;
             }
-            for &i in block.open() {
+            for (place, &i) in block.open().iter().enumerate() {
                 let index = start + usize::from(i);
-                let positions = || self.positions(index);
-                if let Some(found) = decide_rest::<K::Stages>(positions, &mut observe) {
+                let positions = || block.positions(place);
+                let found = if is_screened && is_thin {
+                    decide_rest::<K::Stages>(positions, &mut observe)
+                } else {
+                    decide_motion::<K::Stages>(positions, self.radius(index), &mut observe)
+                };
+                if let Some(found) = found {
                     hit(index, found);
                 }
             }
         }
-    }
-
-    fn decide_one(&self, index: usize, observe: &mut impl FnMut(Stage)) -> Option<Hit<K::Place>> {
-        decide_motion::<K::Stages>(|| self.positions(index), self.radius(index), observe)
     }
 
     fn radius(&self, index: usize) -> Radius {

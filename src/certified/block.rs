@@ -12,7 +12,9 @@ use pulp::{Arch, WithSimd};
 use super::cubic::Cubic;
 use super::ends::{Ends, Plain};
 use super::kind::Stages;
+use super::motion::Positions;
 use super::stage::Stage;
+use super::thick;
 
 /// How many queries go through a stage together: enough that few lanes are idle in the later
 /// stages, few enough that their coordinates stay in the cache.
@@ -21,8 +23,11 @@ pub(super) const BLOCK: usize = 256;
 /// How many queries lie side by side: a few registers, whatever the processor.
 const LANES: usize = 8;
 
-/// The coordinates of [`LANES`] queries.
-type Tile = [[f64; LANES]; 24];
+/// The coordinates of [`LANES`] queries, and numbers not below their radii.
+type Tile = [[f64; LANES]; ROWS];
+
+const RADIUS: usize = 24;
+const ROWS: usize = 25;
 
 /// Queries that go through the first stages together; those that a stage decides are taken out.
 pub(super) struct Block {
@@ -35,7 +40,7 @@ pub(super) struct Block {
 impl Block {
     pub(super) fn new() -> Self {
         Block {
-            tiles: [[[0.0; LANES]; 24]; BLOCK / LANES],
+            tiles: [[[0.0; LANES]; ROWS]; BLOCK / LANES],
             open: [0; BLOCK],
             count: 0,
         }
@@ -53,6 +58,24 @@ impl Block {
             if let Some(tile) = self.tiles.get_mut(whole.len()) {
                 tile[row][..rest.len()].copy_from_slice(rest);
             }
+        }
+    }
+
+    /// Numbers not below the radii of the queries, all above 0.
+    pub(super) fn fill_radii(&mut self, radii: impl Iterator<Item = f64>) {
+        for (i, radius) in radii.enumerate() {
+            self.tiles[i / LANES][RADIUS][i % LANES] = radius;
+        }
+    }
+
+    /// The positions of the query that is open at this place.
+    #[inline(always)]
+    pub(super) fn positions(&self, place: usize) -> Positions {
+        let (tile, lane) = (&self.tiles[place / LANES], place % LANES);
+        let at = |row: usize| [tile[row][lane], tile[row + 1][lane], tile[row + 2][lane]];
+        Positions {
+            start: [at(0), at(3), at(6), at(9)],
+            end: [at(12), at(15), at(18), at(21)],
         }
     }
 
@@ -77,6 +100,14 @@ impl Block {
         true
     }
 
+    /// The first two stages with radii above 0. Returns whether they decide so much that it pays.
+    pub(super) fn screen_thick<K: Stages>(&mut self, observe: &mut impl FnMut(Stage)) -> bool {
+        let all = self.count;
+        let apart = self.test(ApartThick::<K>(PhantomData));
+        self.take_out([Stage::Boxes, Stage::Direction], &apart, observe);
+        4 * self.count <= 3 * all
+    }
+
     fn test<const N: usize, T: Test<N>>(&self, test: T) -> Answers<N> {
         Arch::new().dispatch(Each::<N, T> { block: self, test })
     }
@@ -87,7 +118,7 @@ type Answers<const N: usize> = [[[bool; N]; LANES]; BLOCK / LANES];
 
 /// `N` tests of a query, without a branch.
 trait Test<const N: usize> {
-    fn of(&self, points: &[[Plain; 3]; 4]) -> [bool; N];
+    fn of(&self, points: &[[Plain; 3]; 4], radius: f64) -> [bool; N];
 }
 
 /// Stages 1 and 2.
@@ -95,10 +126,20 @@ struct Apart<K>(PhantomData<K>);
 
 impl<K: Stages> Test<2> for Apart<K> {
     #[inline(always)]
-    fn of(&self, points: &[[Plain; 3]; 4]) -> [bool; 2] {
+    fn of(&self, points: &[[Plain; 3]; 4], _: f64) -> [bool; 2] {
         let boxes = K::boxes(points, 0.0);
         let is_separated = K::is_separated_by_centres(&K::motion(points), &boxes);
         [boxes.are_disjoint, is_separated]
+    }
+}
+
+/// The same with a radius.
+struct ApartThick<K>(PhantomData<K>);
+
+impl<K: Stages> Test<2> for ApartThick<K> {
+    #[inline(always)]
+    fn of(&self, points: &[[Plain; 3]; 4], radius: f64) -> [bool; 2] {
+        thick::are_apart::<K, _>(points, radius)
     }
 }
 
@@ -107,7 +148,7 @@ struct Signs<K>(PhantomData<K>);
 
 impl<K: Stages> Test<1> for Signs<K> {
     #[inline(always)]
-    fn of(&self, points: &[[Plain; 3]; 4]) -> [bool; 1] {
+    fn of(&self, points: &[[Plain; 3]; 4], _: f64) -> [bool; 1] {
         let cubic = Cubic::unchecked(&K::motion(points));
         [cubic.is_valid() & cubic.has_no_root()]
     }
@@ -118,7 +159,7 @@ struct Roots<K>(PhantomData<K>);
 
 impl<K: Stages> Test<1> for Roots<K> {
     #[inline(always)]
-    fn of(&self, points: &[[Plain; 3]; 4]) -> [bool; 1] {
+    fn of(&self, points: &[[Plain; 3]; 4], _: f64) -> [bool; 1] {
         let motion = K::motion(points);
         let cubic = Cubic::unchecked(&motion);
         let [lower, upper] = cubic.halves();
@@ -146,7 +187,7 @@ impl<const N: usize, T: Test<N>> WithSimd for Each<'_, N, T> {
             for i in 0..LANES {
                 let of = |row: usize| Plain::new(tile[row][i], tile[row + 12][i]);
                 let at = |row: usize| [of(row), of(row + 1), of(row + 2)];
-                answers[i] = self.test.of(&[at(0), at(3), at(6), at(9)]);
+                answers[i] = self.test.of(&[at(0), at(3), at(6), at(9)], tile[RADIUS][i]);
             }
         }
         answers
@@ -176,7 +217,7 @@ impl Block {
             count += usize::from(stage.is_none());
         }
         for (i, &from) in kept[..count].iter().enumerate() {
-            for row in 0..24 {
+            for row in 0..ROWS {
                 self.tiles[i / LANES][row][i % LANES] = self.tiles[from / LANES][row][from % LANES];
             }
             self.open[i] = self.open[from];

@@ -1,5 +1,7 @@
 //! Two edges: where they are at the roots of the cubic.
 
+use std::cmp::Ordering;
+
 use super::cubic::Cubic;
 use super::ends::Ends;
 use super::exact::{self, Passage};
@@ -142,6 +144,22 @@ impl Stages for EdgeEdge {
 
     fn passage(positions: &Positions) -> Passage {
         exact::passage_of_edges(positions)
+    }
+
+    fn are_always_parallel(positions: &Positions) -> bool {
+        exact::are_always_parallel(positions)
+    }
+
+    fn contact_of_parallel(positions: &Positions, toi: [f64; 2]) -> Option<Hit<EdgePlace>> {
+        if toi[1] == 0.0 {
+            exact::near_start_of_parallel_edges(positions)
+        } else {
+            exact::contact_of_parallel_edges(positions, toi)
+        }
+    }
+
+    fn compare_distance(positions: &Positions, radius: Radius, time: f64) -> Ordering {
+        exact::compare_distance_of_edges(positions, radius, time)
     }
 
     fn decide_thick_exactly(positions: &Positions, radius: Radius) -> Option<Hit<EdgePlace>> {

@@ -1,5 +1,6 @@
 //! The two kinds of queries, two edges or a vertex and a face: what the stages ask of them.
 
+use std::cmp::Ordering;
 use std::fmt::Debug;
 
 use super::cubic::Cubic;
@@ -107,6 +108,21 @@ pub(super) trait Stages: 'static {
 
     /// What integers say of the two sides without their radius.
     fn passage(positions: &Positions) -> Passage;
+
+    /// Whether the two are certainly parallel for the whole step, as far as a kind asks for that.
+    fn are_always_parallel(_positions: &Positions) -> bool {
+        false
+    }
+
+    /// The contact at a time of impact, 0 or of two that are always parallel, where they are
+    /// parallel or one is a point. The neighbours of the time in `f64` are given; at 0 they are
+    /// within the radius.
+    fn contact_of_parallel(_positions: &Positions, _toi: [f64; 2]) -> Option<Hit<Self::Place>> {
+        None
+    }
+
+    /// The distance at a time in `[0, 1]` compared with a radius above 0, in integers.
+    fn compare_distance(positions: &Positions, radius: Radius, time: f64) -> Ordering;
 
     /// The answer of integers with a radius above 0.
     fn decide_thick_exactly(positions: &Positions, radius: Radius) -> Option<Hit<Self::Place>>;

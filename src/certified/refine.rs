@@ -98,6 +98,14 @@ impl Root {
         })
     }
 
+    /// The `f64` above 0 and at most 1 that may be the root itself, if there is one: it is the only
+    /// one near the root.
+    pub(super) fn near_f64(&self) -> Option<f64> {
+        let Double { high, low } = self.time;
+        let is_near = low.abs() + self.error < 0.125 * (high - high.next_down());
+        (is_near && high > 0.0 && high <= 1.0).then_some(high)
+    }
+
     /// A number no farther from `time` than `error`.
     pub(super) fn near(time: Double<f64>, error: f64) -> Self {
         Root { time, error }

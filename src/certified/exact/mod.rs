@@ -79,8 +79,9 @@ pub(super) use rigid::{
 };
 use scaled::Scaled;
 pub(super) use thick::{
-    decide_thick_edges, decide_thick_face, normal_of_edges_exactly, normal_of_face_exactly,
-    perpendicular_of_edges,
+    are_always_parallel, compare_distance_of_edges, compare_distance_of_face,
+    contact_of_parallel_edges, decide_thick_edges, decide_thick_face, near_start_of_parallel_edges,
+    normal_of_edges_exactly, normal_of_face_exactly, perpendicular_of_edges,
 };
 use time::Time;
 use width::{Fixed, Number, Unlimited, Wide, Width};

@@ -12,6 +12,8 @@
 mod place;
 mod separate;
 
+use std::cmp::Ordering;
+
 use wide::f64x2;
 
 use self::place::{Place, of_edges, raw_weights};
@@ -149,6 +151,10 @@ impl Stages for VertexFace {
 
     fn passage(positions: &Positions) -> Passage {
         exact::passage_of_face(&as_edges(positions))
+    }
+
+    fn compare_distance(positions: &Positions, radius: Radius, time: f64) -> Ordering {
+        exact::compare_distance_of_face(positions, radius, time)
     }
 
     fn decide_thick_exactly(positions: &Positions, radius: Radius) -> Option<Hit<FacePlace>> {

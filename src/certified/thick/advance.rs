@@ -101,10 +101,22 @@ impl<E: Ends> Moving<E> {
     /// one side's motion to that of the other.
     #[inline(always)]
     pub(super) fn stays_apart_by_centres<K: Stages>(&self) -> f64 {
+        self.stays_apart_by::<K>(&self.between_centres::<K>())
+    }
+
+    /// Whether that is so for the whole step.
+    #[inline(always)]
+    pub(super) fn is_separated_by_centres<K: Stages>(&self) -> bool {
+        self.is_separated_by::<K>(&self.between_centres::<K>())
+    }
+
+    /// The direction from the middle of one side's motion to that of the other.
+    #[inline(always)]
+    fn between_centres<K: Stages>(&self) -> Vector {
         let Motion { k, l, m } = &self.motion;
         let sum = |[x, y, z]: &[E; 3]| [x.sum(), y.sum(), z.sum()];
         let (u, v) = K::MIDDLE;
-        self.stays_apart_by::<K>(&difference(&[sum(k), sum(l), sum(m)], u, v))
+        difference(&[sum(k), sum(l), sum(m)], u, v)
     }
 
     /// Advances from a time up to which they are apart.
@@ -143,7 +155,7 @@ impl<E: Ends> Moving<E> {
 }
 
 /// Not below the sum of both radii, and above it by no more than `4 u`.
-pub(super) fn rounded_up(radius: Radius) -> f64 {
+pub(in crate::certified) fn rounded_up(radius: Radius) -> f64 {
     radius.rounded().next_up()
 }
 

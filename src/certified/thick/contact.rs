@@ -15,14 +15,19 @@ use crate::contact::{Case, ContactKind, Flags, Hit};
 pub(super) fn contact<K: Stages>(
     positions: &Positions,
     moving: &Moving<f64x2>,
-    &RefinedToi { below, spot, error }: &RefinedToi,
+    &RefinedToi {
+        toi: neighbours,
+        spot,
+        error,
+        ..
+    }: &RefinedToi,
 ) -> Option<Hit<K::Place>> {
     let cubic = Cubic::new(&moving.motion);
     let Passage { case, kind } = passage::<K>(positions, cubic.as_ref());
     let ([toi, toi_above], side) = match case {
-        _ if below == 0.0 => ([0.0; 2], 0),
-        Case::General => ([below, below.next_up()], side(&cubic?, below)?),
-        _ => ([below, below.next_up()], 0),
+        _ if neighbours[1] == 0.0 => (neighbours, 0),
+        Case::General => (neighbours, side(&cubic?, neighbours[0])?),
+        _ => (neighbours, 0),
     };
     Some(Hit {
         toi,

@@ -9,8 +9,10 @@
 //!    that are nearest, in double-double arithmetic, and a bound on how far these move (`nearness`)
 //!    hold the time of impact between neighbours in `f64` (`refine_toi`). Points that are near at
 //!    the start are a contact there. The rest of the answer is bounded in `f64` too (`contact`).
-//! 4. Integers decide what is left (`exact::thick`): edges that are or may be parallel where they
-//!    touch, a time of impact that is a number in `f64`, grazes.
+//!    Where edges are parallel, or one is a point, words say where they are nearest; where a time of
+//!    impact may be an `f64` itself, the distance there is compared in integers (`exact::thick`).
+//! 4. Integers decide what is left (`exact::thick`): edges that may be parallel where they touch,
+//!    grazes.
 //!
 //! The proofs need no case distinction: a plane between two sides bounds their distance from below,
 //! two points bound it from above, wherever they come from.
@@ -26,13 +28,15 @@ mod turning;
 
 use wide::f64x2;
 
+use super::ends::Ends;
 use super::kind::Stages;
 use super::motion::{Positions, dot};
 use super::separate::U;
 use super::stage::{Finding, Stage};
 use crate::contact::Hit;
 use crate::query::Radius;
-use advance::{Advance, Moving, rounded_up};
+pub(super) use advance::rounded_up;
+use advance::{Advance, Moving};
 use contact::contact;
 use instant::Instant;
 use refine_toi::{RefinedToi, refine_toi};
@@ -42,6 +46,17 @@ pub(super) fn start_distance<K: Stages>(positions: &Positions) -> f64 {
     let moving = Moving::new::<K>(&positions.points::<f64x2>(), 0.0);
     let difference = Instant::new::<K, _>(&moving, 0.0).difference;
     dot(&difference, &difference).sqrt()
+}
+
+/// Whether the swept boxes are farther apart than a radius, which is [`rounded_up`], and whether the
+/// direction from middle to middle separates the two by more than it for the whole step.
+#[inline(always)]
+pub(super) fn are_apart<K: Stages, E: Ends>(points: &[[E; 3]; 4], radius: f64) -> [bool; 2] {
+    let moving = Moving::new::<K>(points, radius);
+    [
+        moving.boxes.are_disjoint,
+        moving.is_separated_by_centres::<K>(),
+    ]
 }
 
 /// Up to when the two sides are certainly farther apart than a radius above 0, as far as planes
@@ -158,10 +173,24 @@ fn decide_by_planes<K: Stages>(
     let refined = match moving.advance::<K>(proved) {
         Advance::Apart => return Finding::Miss,
         _ if !moving.is_ordinary() => return Finding::Undecided,
-        Advance::Near => Finding::of_certain(moving.near_start::<K>(radius)),
+        Advance::Near => {
+            let Some(start) = moving.start_within::<K>(radius) else {
+                return Finding::Undecided;
+            };
+            match moving.near_start::<K>(&start) {
+                Some(near) => Finding::Hit(near),
+                None => return Finding::of_certain(K::contact_of_parallel(&positions(), [0.0; 2])),
+            }
+        }
         Advance::Until(proved) => refine_toi::<K>(&positions(), moving, radius, proved),
     };
-    refined.and_then(|refined| Finding::of_certain(contact::<K>(&positions(), moving, &refined)))
+    refined.and_then(|refined| {
+        let positions = positions();
+        Finding::of_certain(match refined.is_parallel {
+            true => K::contact_of_parallel(&positions, refined.toi),
+            false => contact::<K>(&positions, moving, &refined),
+        })
+    })
 }
 
 impl Moving<f64x2> {
@@ -170,13 +199,17 @@ impl Moving<f64x2> {
         self.radius > SMALLEST && self.radius < LARGEST && self.boxes.size() < LARGEST
     }
 
-    /// The nearest place at the start, if two points are certainly within the radius of each other
-    /// there.
-    fn near_start<K: Stages>(&self, radius: Radius) -> Option<RefinedToi> {
+    /// The start, if two points are certainly within the radius of each other there.
+    #[inline(never)]
+    fn start_within<K: Stages>(&self, radius: Radius) -> Option<Instant> {
         let start = Instant::new::<K, _>(self, 0.0);
-        let is_near = self.is_within(&start, radius);
-        let nearness = self.nearness::<K>(&start, 0.0).filter(|_| is_near)?;
-        RefinedToi::new(0.0, start.spot, &nearness)
+        self.is_within(&start, radius).then_some(start)
+    }
+
+    /// The contact at the start, at which two points are within the radius of each other.
+    fn near_start<K: Stages>(&self, start: &Instant) -> Option<RefinedToi> {
+        let nearness = self.nearness::<K>(start, 0.0)?;
+        RefinedToi::new([0.0; 2], start.spot, &nearness)
     }
 
     /// Whether the points of a place at the start are certainly within the radius of each other.

@@ -22,6 +22,16 @@ pub(super) struct Nearness {
     /// `u` and `v` of the nearest place, which is a single one but for directions of no length,
     /// differ by no more than this.
     pub(super) error: f64,
+    /// Whether the two are parallel: then nothing is said of the place.
+    pub(super) is_parallel: bool,
+}
+
+/// The slopes along both directions.
+struct Slopes {
+    slopes: [Slope; 2],
+    is_uphill: [bool; 2],
+    along: [Vector; 2],
+    reaches: [Vector; 2],
 }
 
 /// `g`, a bound on its error, and bounds on the length, of one direction.
@@ -89,6 +99,66 @@ impl<E: Ends> Moving<E> {
     /// [`SHORTEST`]: a shorter one is not used. Slopes are not below `32 u` of the directions'
     /// squares, so that quotients by these are not below `32 u`.
     pub(super) fn nearness<K: Stages>(&self, here: &Instant, while_: f64) -> Option<Nearness> {
+        let Slopes {
+            slopes: [first, second],
+            is_uphill,
+            along,
+            reaches,
+        } = self.slopes(here, while_)?;
+        // Of a face with corners in one place, which weights are meant is for integers to say.
+        let is_point = reaches.map(|reach| reach == [0.0; 3] && K::FIRST == 2);
+        let (excess, error) = match is_point {
+            [true, true] => (0.0, 0.0),
+            [true, false] => alone(second, is_uphill[1])?,
+            [false, true] => alone(first, is_uphill[0])?,
+            [false, false] => {
+                let normal = least_normal(&along, &reaches, while_)?;
+                let held = match is_uphill {
+                    [true, true] => Some((0.0, 0.0)),
+                    [false, true] => beside(first, second),
+                    [true, false] => beside(second, first),
+                    [false, false] => None,
+                };
+                held.or_else(|| inside(first, second, normal))?
+            }
+        };
+        Some(Nearness {
+            excess: excess * (1.0 + 64.0 * U),
+            error: error * (1.0 + 64.0 * U),
+            is_parallel: false,
+        })
+    }
+
+    /// The same of two edges that are parallel and do not turn, of the squared distance alone: the
+    /// place is not a single one.
+    ///
+    /// # Proof
+    ///
+    /// The set is part of a line along `V1`, which is not 0. Along the whole line the squared
+    /// distance falls by at most `g1^2 / V1^2`. Where both `g` are above 0 and their directions not
+    /// free it does not fall.
+    pub(super) fn nearness_of_parallel<K: Stages>(
+        &self,
+        here: &Instant,
+        while_: f64,
+    ) -> Option<Nearness> {
+        let Slopes {
+            slopes: [first, _],
+            is_uphill,
+            ..
+        } = self.slopes(here, while_)?;
+        let (excess, _) = alone(first, is_uphill == [true; 2])?;
+        Some(Nearness {
+            excess: excess * (1.0 + 64.0 * U),
+            error: 0.0,
+            is_parallel: true,
+        })
+    }
+
+    /// The slopes along both directions from a time on, for a while; and their vectors with the
+    /// larger magnitudes of these at both ends of the step.
+    #[inline(always)]
+    fn slopes(&self, here: &Instant, while_: f64) -> Option<Slopes> {
         let ([k, l], size) = self.reaches();
         let directions = here.spot.directions;
         let along = here.along();
@@ -114,30 +184,14 @@ impl<E: Ends> Moving<E> {
         if !((0.0..0.125).contains(&while_) && first.size() < LARGEST && second.size() < LARGEST) {
             return None;
         }
-        // Of a face with corners in one place, which weights are meant is for integers to say.
-        let is_point = reaches.map(|reach| reach == [0.0; 3] && K::FIRST == 2);
-        let is_uphill = [
-            first.is_uphill(&directions[0]),
-            second.is_uphill(&directions[1]),
-        ];
-        let (excess, error) = match is_point {
-            [true, true] => (0.0, 0.0),
-            [true, false] => alone(second, is_uphill[1])?,
-            [false, true] => alone(first, is_uphill[0])?,
-            [false, false] => {
-                let normal = least_normal(&along, &reaches, while_)?;
-                let held = match is_uphill {
-                    [true, true] => Some((0.0, 0.0)),
-                    [false, true] => beside(first, second),
-                    [true, false] => beside(second, first),
-                    [false, false] => None,
-                };
-                held.or_else(|| inside(first, second, normal))?
-            }
-        };
-        Some(Nearness {
-            excess: excess * (1.0 + 64.0 * U),
-            error: error * (1.0 + 64.0 * U),
+        Some(Slopes {
+            slopes: [first, second],
+            is_uphill: [
+                first.is_uphill(&directions[0]),
+                second.is_uphill(&directions[1]),
+            ],
+            along,
+            reaches,
         })
     }
 }

@@ -5,6 +5,8 @@
 //! the squared distance of the two sides, and so little above it ([`nearness`](super::nearness))
 //! that its root is the time of impact up to far below the last bit.
 
+use std::cmp::Ordering;
+
 use wide::f64x2;
 
 use super::advance::Moving;
@@ -24,25 +26,39 @@ use crate::query::Radius;
 /// A contact within the step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RefinedToi {
-    /// The largest `f64` below the time of impact, which is below the next one.
-    pub(super) below: f64,
+    /// The neighbours of the time of impact in `f64`; both the same if it is one.
+    pub(super) toi: [f64; 2],
     /// The nearest place at a time shortly before.
     pub(super) spot: Spot,
     /// `u` and `v` at the time of impact are no farther than this from those of the place.
     pub(super) error: f64,
+    /// Whether they are parallel, so that they may be nearest in more than one place.
+    pub(super) is_parallel: bool,
 }
 
 impl RefinedToi {
     /// A contact, if its place is known so well that what is computed from it is within what is
     /// promised.
-    pub(super) fn new(below: f64, spot: Spot, nearness: &Nearness) -> Option<Self> {
+    pub(super) fn new(toi: [f64; 2], spot: Spot, nearness: &Nearness) -> Option<Self> {
         let error = nearness.error;
-        (error <= PLACE_ERROR / 4.0).then_some(RefinedToi { below, spot, error })
+        let is_parallel = nearness.is_parallel;
+        (error <= PLACE_ERROR / 4.0).then_some(RefinedToi {
+            toi,
+            spot,
+            error,
+            is_parallel,
+        })
     }
 }
 
 /// How often the time is corrected at most.
 const MOST_STEPS: u32 = 4;
+
+/// 2^-36.
+const SHORT: f64 = 1.0 / (1u64 << 36) as f64;
+
+/// 2^-28: a slope that the place cannot hide.
+const STEEP: f64 = 1.0 / (1u64 << 28) as f64;
 
 /// `2^-106`.
 const H: f64 = U * U;
@@ -57,6 +73,13 @@ const H: f64 = U * U;
 /// `R^2`, is between `p - e` and `p`, with `e` the excess of [`nearness`](Moving::nearness). If
 /// `p' <= -2 m < 0` up to `T`, and its root `r` is there, then the time of impact is between
 /// `t + r - e / 2 m` and `t + r`, and there is no contact before.
+///
+/// Where an `f64` may be the time of impact itself, integers compare the distance there with the
+/// radius. It is the only `f64` near, and the distance falls at it: half the slope of its square is
+/// `-w . w'` at the nearest place, which is within 2^-32 of the kept one, so that `w` is within
+/// `2^-32 s` and `w'` within `2^-31 s` of theirs, and half the slope within `2^-30 s . s` of what
+/// `m` bounds. (Places that are no single one differ by a vector that `w` is perpendicular to, but
+/// for `2^-32 s`; their velocities do not differ along `w`, as the sides stay parallel.)
 ///
 /// # Error bounds
 ///
@@ -93,7 +116,12 @@ pub(super) fn refine_toi<K: Stages>(
         if !(x > 0.0 && slope > 0.0 && least > 0.0 && bend < 0.0625) {
             return Finding::Undecided;
         }
-        let Some(nearness) = moving.nearness::<K>(&here, while_) else {
+        let nearness = moving.nearness::<K>(&here, while_);
+        let nearness = nearness.or_else(|| {
+            let nearness = moving.nearness_of_parallel::<K>(&here, while_)?;
+            K::are_always_parallel(positions).then_some(nearness)
+        });
+        let Some(nearness) = nearness else {
             return Finding::Undecided;
         };
         let error = (nearness.excess + x_error) / (2.0 * least) * (1.0 + 8.0 * U)
@@ -102,9 +130,22 @@ pub(super) fn refine_toi<K: Stages>(
             return Finding::Undecided;
         }
         let root = Root::near(two_sum(t, delta), error);
-        let refined = |below| RefinedToi::new(below, here.spot, &nearness);
-        if let Some(refined) = root.round_down().and_then(refined) {
-            return Finding::Hit(refined);
+        let refined = |toi| RefinedToi::new(toi, here.spot, &nearness);
+        if let Some(below) = root.round_down() {
+            if let Some(refined) = refined([below, below.next_up()]) {
+                return Finding::Hit(refined);
+            }
+        } else if least > STEEP * size2
+            && while_ < SHORT
+            && nearness.error <= PLACE_ERROR / 4.0
+            && let Some(at) = root.near_f64()
+        {
+            return match K::compare_distance(positions, radius, at) {
+                Ordering::Less => Finding::of_certain(refined([at.next_down(), at])),
+                Ordering::Equal => Finding::of_certain(refined([at; 2])),
+                Ordering::Greater if at == 1.0 => Finding::Miss,
+                Ordering::Greater => Finding::of_certain(refined([at, at.next_up()])),
+            };
         }
         // They are apart until then.
         let next = (t + (delta - error)) * (1.0 - 2.0 * U);

@@ -83,6 +83,10 @@ impl Sides<2> for Edges {
         &self.f
     }
 
+    fn n2(&self) -> &Poly {
+        &self.n2
+    }
+
     /// From A to C and D, and from B to D and C.
     fn polygon(&self) -> Polygon {
         let Edges { k, l, sl, m, .. } = self;

@@ -76,6 +76,10 @@ impl Sides<3> for Face {
         &self.f
     }
 
+    fn n2(&self) -> &Poly {
+        &self.n2
+    }
+
     /// From A to B, C and D.
     fn polygon(&self) -> Polygon {
         let Face { p, q, x, scale, .. } = self;

@@ -23,6 +23,7 @@ mod edges;
 mod face;
 mod normal;
 mod pair;
+mod parallel;
 mod roots;
 pub(super) mod vector;
 
@@ -45,6 +46,9 @@ pub(in crate::certified) use normal::{
 pub(super) use normal::{normal_of_near_edges, normal_of_near_face};
 use pair::Pair;
 pub(super) use pair::{Place, Share};
+pub(in crate::certified) use parallel::{
+    are_always_parallel, contact_of_parallel_edges, near_start_of_parallel_edges,
+};
 pub(super) use roots::Roots;
 use vector::Vector;
 
@@ -93,7 +97,11 @@ pub(in crate::certified) fn decide_thick_edges(
 ) -> Option<Hit<EdgePlace>> {
     let (points, reach) = integers(positions, radius.parts());
     let passage = || passage_of_edges(positions);
-    decide_near_edges(&Edges::new(&points), &reach, passage)
+    let at_start = Edges::new(&at_start(&points));
+    match start_approach(&at_start, &reach, || Edges::new(&points)) {
+        Some(approach) => Some(edge_hit(approach, passage())),
+        None => decide_near_edges(&Edges::new(&points), &reach, passage),
+    }
 }
 
 /// The same of a vertex A and a face BCD, of which it is known how they pass each other.
@@ -103,7 +111,11 @@ pub(in crate::certified) fn decide_thick_face(
     passage: impl FnOnce() -> Passage,
 ) -> Option<Hit<FacePlace>> {
     let (points, reach) = integers(positions, radius.parts());
-    decide_near_face(&Face::new(&points), &reach, passage)
+    let at_start = Face::new(&at_start(&points));
+    match start_approach(&at_start, &reach, || Face::new(&points)) {
+        Some(approach) => Some(face_hit(approach, passage())),
+        None => decide_near_face(&Face::new(&points), &reach, passage),
+    }
 }
 
 /// The first contact of two edges, of which it is known how they pass each other.
@@ -112,14 +124,17 @@ pub(super) fn decide_near_edges(
     reach: &Reach,
     passage: impl FnOnce() -> Passage,
 ) -> Option<Hit<EdgePlace>> {
-    let approach = first_approach(edges, reach)?;
+    Some(edge_hit(first_approach(edges, reach)?, passage()))
+}
+
+fn edge_hit(approach: Approach<2>, passage: Passage) -> Hit<EdgePlace> {
     let point = |[u, v]: [f64; 2]| EdgePoint { u, v };
     let place = EdgePlace {
         first: point(approach.first),
         second: approach.second.map(point),
         error: PLACE_ERROR,
     };
-    Some(approach.hit(passage(), place))
+    approach.hit(passage, place)
 }
 
 /// The same of a vertex and a face.
@@ -128,12 +143,15 @@ pub(super) fn decide_near_face(
     reach: &Reach,
     passage: impl FnOnce() -> Passage,
 ) -> Option<Hit<FacePlace>> {
-    let approach = first_approach(face, reach)?;
+    Some(face_hit(first_approach(face, reach)?, passage()))
+}
+
+fn face_hit(approach: Approach<3>, passage: Passage) -> Hit<FacePlace> {
     let place = FacePlace {
         weights: approach.first,
         error: PLACE_ERROR,
     };
-    Some(approach.hit(passage(), place))
+    approach.hit(passage, place)
 }
 
 /// Two sides that may come near each other.
@@ -143,6 +161,9 @@ trait Sides<const W: usize> {
 
     /// Six times the volume of the four points.
     fn f(&self) -> &Poly;
+
+    /// The square of the normal.
+    fn n2(&self) -> &Poly;
 
     /// All differences of a point of the second side and one of the first.
     fn polygon(&self) -> Polygon;
@@ -179,7 +200,13 @@ impl Reach {
 }
 
 /// The positions at the start and their changes, and the radius.
-fn integers(Positions { start, end }: &Positions, radii: [f64; 2]) -> ([Vector; 4], Reach) {
+fn integers(positions: &Positions, radii: [f64; 2]) -> ([Vector; 4], Reach) {
+    let (points, unit) = moving_integers(positions);
+    (points, Reach::new(radii, unit, &vector::one()))
+}
+
+/// The positions at the start and their changes, in multiples of 2 to a power.
+fn moving_integers(Positions { start, end }: &Positions) -> ([Vector; 4], i32) {
     let [[a, b, c, d], [e, f, g, h]] = [*start, *end];
     let points = [a, b, c, d, e, f, g, h];
     let own = unit(points.iter().flatten());
@@ -189,8 +216,81 @@ fn integers(Positions { start, end }: &Positions, radii: [f64; 2]) -> ([Vector; 
         let change: Point = sub(&end[i], &start[i]);
         [0, 1, 2].map(|axis: usize| Poly::new(&[start[i][axis].clone(), change[axis].clone()]))
     };
-    let reach = Reach::new(radii, own, &vector::one());
-    ([0, 1, 2, 3].map(moving), reach)
+    ([0, 1, 2, 3].map(moving), own)
+}
+
+/// The distance of two edges at a time in `[0, 1]` compared with a radius.
+pub(in crate::certified) fn compare_distance_of_edges(
+    positions: &Positions,
+    radius: Radius,
+    time: f64,
+) -> Ordering {
+    let (points, reach) = integers_at(positions, radius.parts(), time);
+    compare_distance(&Edges::new(&points), &reach)
+}
+
+/// The same of a vertex A and a face BCD.
+pub(in crate::certified) fn compare_distance_of_face(
+    positions: &Positions,
+    radius: Radius,
+    time: f64,
+) -> Ordering {
+    let (points, reach) = integers_at(positions, radius.parts(), time);
+    compare_distance(&Face::new(&points), &reach)
+}
+
+/// The positions at a time, at rest there, and the radius.
+fn integers_at(positions: &Positions, radii: [f64; 2], time: f64) -> ([Vector; 4], Reach) {
+    let (points, unit) = moving_integers(positions);
+    let time = Dyadic::from_f64(time);
+    let at_time = |poly: &Poly| Poly::new(&[poly.evaluate_as(1, &time)]);
+    let points = points.map(|point| point.each_ref().map(at_time));
+    let reach = Reach::new(radii, unit - time.exponent as i32, &vector::one());
+    (points, reach)
+}
+
+/// The distance of two sides at rest compared with a radius: that of the nearest features whose
+/// nearest points are inside them.
+fn compare_distance<const W: usize>(sides: &impl Sides<W>, reach: &Reach) -> Ordering {
+    let time = Time::At(Dyadic::zero());
+    let pairs = sides.pairs();
+    let holding = pairs.iter().filter(|pair| pair.holds(&time));
+    let signs = holding.map(|pair| pair.excess_sign(reach, &time));
+    signs.min().unwrap_or(Ordering::Greater)
+}
+
+/// The positions at the start, at rest.
+fn at_start(points: &[Vector; 4]) -> [Vector; 4] {
+    let rest = |poly: &Poly| Poly::new(std::slice::from_ref(poly.coefficient(0)));
+    points.each_ref().map(|point| point.each_ref().map(rest))
+}
+
+/// The contact at the start, if there is one, of two sides that are at rest there: polynomials of
+/// degree 0, which are much less to compute. What is asked of the motion is asked of `moving`.
+fn start_approach<const W: usize, S: Sides<W>>(
+    at_start: &S,
+    reach: &Reach,
+    moving: impl FnOnce() -> S,
+) -> Option<Approach<W>> {
+    let pairs = at_start.pairs();
+    let start = Time::At(Dyadic::zero());
+    let is_near = |pair: &Pair<W>| pair.excess_sign(reach, &start).is_le() && pair.holds(&start);
+    pairs.iter().find(|pair| is_near(pair))?;
+    let (first, second) = match at_start.overlap(&start) {
+        Some(overlap) => overlap,
+        None => (Pair::nearest_at_start(&pairs)?.place.clone(), None),
+    };
+    let flags = match at_start.n2().is_zero() {
+        true => moving().flags(&start),
+        false => Flags::default(),
+    };
+    Some(Approach {
+        toi: [0.0; 2],
+        side: 0,
+        first: first.values(&start),
+        second: second.map(|place| place.values(&start)),
+        flags,
+    })
 }
 
 fn first_approach<const W: usize>(sides: &impl Sides<W>, reach: &Reach) -> Option<Approach<W>> {
