@@ -22,6 +22,7 @@ use super::grid_time::GridTime;
 use super::integer::Integer;
 use super::isolate_f64::Interval;
 use super::poly::Poly;
+use super::two_roots::{Found, two_or_none};
 
 /// The distinct roots in `[0, 1]` of a polynomial, in ascending order.
 #[derive(Debug)]
@@ -196,6 +197,13 @@ impl Isolated {
         // Ends: the roots are simple, by the discriminant, so that they part (two circles theorem);
         // all of it in integers.
         loop {
+            if current.depth() >= MOST_HALVINGS && current.changes() == 2 && current.turns() == 1 {
+                let poly = &self.polys[0];
+                for found in two_or_none(poly, &poly.derivative(), &current) {
+                    self.add_found(found, sign);
+                }
+                break;
+            }
             let (left, right) = current.halves();
             let middle = right.starts_at_root().then(|| right.low());
             let (in_left, in_right) = (left.changes(), right.changes());
@@ -210,7 +218,7 @@ impl Isolated {
                 if in_left < 2 {
                     break;
                 }
-                current = left;
+                current = left.zoomed();
             } else {
                 if in_left == 1 {
                     self.add_found(Found::Between(left.ends()), sign);
@@ -218,7 +226,7 @@ impl Isolated {
                 if let Some(middle) = middle {
                     self.add_found(Found::At(middle), sign);
                 }
-                current = right;
+                current = right.zoomed();
             }
         }
         for found in later.into_iter().rev() {
@@ -235,11 +243,8 @@ impl Isolated {
     }
 }
 
-/// A simple root found by halving.
-enum Found {
-    At(Dyadic),
-    Between((Dyadic, Dyadic)),
-}
+/// How often the step is halved before two roots are parted by the turning point between them.
+const MOST_HALVINGS: u64 = 128;
 
 /// The interval from 0 to 1.
 fn unit() -> (Dyadic, Dyadic) {

@@ -4,6 +4,7 @@
 //! isolated in floating point ([`super::isolate_f64`]), or exactly: by values of alternating signs
 //! between them, or by halving ([`super::isolate_bisect`]). The rest is left to [`super::isolate`].
 
+use std::borrow::Borrow;
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 
@@ -28,7 +29,7 @@ pub(super) struct Roots<L: Width> {
     /// The polynomial, or its derivative in place of one with a double root.
     curve: Option<Curve<L>>,
     cells: SmallVec<[Cell; 4]>,
-    isolated: Option<Isolated>,
+    isolated: Option<L::Isolated>,
     /// The polynomial in integers of any size, once it is needed.
     poly: OnceCell<Poly>,
 }
@@ -107,11 +108,13 @@ impl<L: Width> Roots<L> {
     }
 
     /// Takes the roots from [`Isolated`], on the grid where that is possible.
+    #[inline(never)]
     fn isolate(&mut self) {
         let Some(curve) = &self.curve else {
             return;
         };
-        let isolated = self.isolated.insert(Isolated::new(curve.to_poly()));
+        let isolated = self.isolated.insert(Isolated::new(curve.to_poly()).into());
+        let isolated: &Isolated = (*isolated).borrow();
         for (index, cell) in isolated.cells().iter().enumerate() {
             let proved = |at: &Option<GridTime>, sign: Ordering| {
                 at.is_none_or(|at| curve.sample(at).0 == sign)
@@ -149,7 +152,9 @@ impl<L: Width> Roots<L> {
                     let of = Source::new(self.curve.as_ref()?, &self.poly);
                     Time::of_root(of, before, low, high)
                 }
-                Place::Isolated(index) => Time::of_isolated(self.isolated.as_ref()?, index),
+                Place::Isolated(index) => {
+                    Time::of_isolated(self.isolated.as_ref()?.borrow(), index)
+                }
             };
             Some((time, cell.before, cell.after))
         })

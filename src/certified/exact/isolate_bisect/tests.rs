@@ -4,7 +4,8 @@ use super::super::curve::Curve;
 use super::super::grid_time::GridTime;
 use super::super::integer::Integer;
 use super::super::isolate::Isolated;
-use super::super::width::{Unlimited, Wide};
+use super::super::unlimited::{Boxed, Unlimited};
+use super::super::width::Wide;
 use super::*;
 use crate::certified::exact::Medium;
 
@@ -31,7 +32,7 @@ proptest! {
 
     #[test]
     fn halved_intervals_hold_the_isolated_roots(c in cubic()) {
-        let exact = c.map(Integer::from);
+        let exact = c.map(|c| Boxed::from(Integer::from(c)));
         let isolated = Isolated::new(Curve::<Unlimited>::Cubic(exact.clone()).to_poly());
         let halved = isolate_bisect::<Unlimited>(&exact);
         prop_assert_eq!(&halved, &isolate_bisect::<Medium>(&c.map(Wide::from)));
@@ -56,7 +57,7 @@ proptest! {
 /// `(d t - k) (d t - k - 1) (t + 1)`, halved: how many roots are found.
 fn count_of_near_roots(d: i128, k: i128) -> Option<usize> {
     let (a, b, c) = (d * d, -d * (2 * k + 1), k * (k + 1));
-    let cubic = [c, b + c, a + b, a].map(Integer::from);
+    let cubic = [c, b + c, a + b, a].map(|c| Boxed::from(Integer::from(c)));
     isolate_bisect::<Unlimited>(&cubic).map(|found| found.len())
 }
 
