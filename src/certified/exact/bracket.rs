@@ -82,7 +82,7 @@ const LEAST_EXPONENT: u64 = 64;
 const MOST_VAIN_BITS: u64 = 512;
 
 /// From ends with so many bits on, a place may depend on what else was asked of the root.
-const FAR: u64 = 512;
+const FAR: u64 = 2048;
 
 /// The most bits that a chord is worth, computed in floating point.
 pub(super) const MOST_BITS: u32 = 48;

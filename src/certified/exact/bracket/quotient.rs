@@ -21,7 +21,7 @@ impl<const N: usize> Bracket<'_, N> {
     /// place, 2^-52, in numerator, denominator and quotient: by not more than 3 2^-52. Where a host
     /// rounds otherwise it may be more, and the lower end is taken for the root in the end.
     pub(in crate::certified::exact) fn quotient(&self, n: &Poly<N>, d: &Poly<N>) -> f64 {
-        let mut bracket = self.clone().far();
+        let mut bracket = self.clone();
         let most = self.most_exponent(common_degree(n, d), most_bits(n).max(most_bits(d)));
         // Ends: each turn narrows it, so that its exponent comes to be as large.
         while bracket.exponent() < most {
@@ -33,6 +33,7 @@ impl<const N: usize> Bracket<'_, N> {
             }
             // Before that the place does not depend on what else was asked.
             if bracket.exponent() >= FAR {
+                bracket.is_far = true;
                 bracket.narrow_as_kept();
             }
             if let Some(at) = bracket.refine() {
