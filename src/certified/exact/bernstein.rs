@@ -108,14 +108,14 @@ impl Piece {
         (self.low(), Dyadic::new(next, self.depth))
     }
 
-    /// The smallest part at its start or its end that comes of halving and has as many sign changes:
-    /// the rest has none, and no root where the two meet. Looked for where the last halvings all
-    /// went the same way.
-    pub(super) fn zoomed(self) -> Piece {
+    /// Becomes the smallest part at its start or its end that comes of halving and has as many sign
+    /// changes: the rest has none, and no root where the two meet. Looked for where the last
+    /// halvings all went the same way.
+    pub(super) fn zoom(&mut self) {
         let digits = self.index.window(0).0 & ZOOM_DIGITS;
         let is_at_end = digits == ZOOM_DIGITS;
         if self.depth < 8 || digits != 0 && !is_at_end {
-            return self;
+            return;
         }
         let changes = self.changes();
         let part = |halvings: u64| {
@@ -135,13 +135,17 @@ impl Piece {
                 (count, zoomed) = (count + step, Some(found));
             }
         }
-        zoomed.unwrap_or(self)
+        if let Some(part) = zoomed {
+            *self = *part;
+        }
     }
 
     /// The first or the last `2^-halvings` of it, by de Casteljau's algorithm, times a power of two.
-    fn part(&self, halvings: u64, is_at_end: bool) -> Piece {
+    /// On the heap, as this is for numbers that are long.
+    #[inline(never)]
+    fn part(&self, halvings: u64, is_at_end: bool) -> Box<Piece> {
         let degree = self.coefficients.len() - 1;
-        let mut row = self.coefficients.clone();
+        let mut row = self.coefficients.to_vec();
         let mut part = SmallVec::new();
         for i in 0..=degree {
             let kept = if is_at_end { degree - i } else { 0 };
@@ -169,11 +173,11 @@ impl Piece {
         if is_at_end {
             index.sub_shifted(&Integer::from(1), 0);
         }
-        Piece {
+        Box::new(Piece {
             coefficients: part,
             index,
             depth: self.depth + halvings,
-        }
+        })
     }
 
     /// Both halves, by de Casteljau's algorithm without its divisions: row `i` is `2^i` times too

@@ -66,25 +66,29 @@ enum Factors {
 }
 
 impl Isolated {
-    /// The roots of a polynomial that is not identically 0.
-    pub(super) fn new(poly: Poly) -> Self {
-        let bernstein = bernstein(&poly);
-        let mut roots = Isolated {
+    /// A place for roots; to find them there takes less of the stack than to move them there.
+    pub(super) fn none() -> Self {
+        Isolated {
             polys: SmallVec::new(),
             cells: SmallVec::new(),
-        };
+        }
+    }
+
+    /// Puts the roots of a polynomial that is not identically 0 into an empty place.
+    #[inline(never)]
+    pub(super) fn find(&mut self, poly: Poly) {
+        let bernstein = bernstein(&poly);
         // Just after 0; it is not 0 unless all coefficients are.
         let mut sign = first_sign(bernstein.iter());
         if bernstein[0].is_zero() {
             let place = Place::At(Dyadic::zero());
-            roots.push(place, Ordering::Equal, sign);
+            self.push(place, Ordering::Equal, sign);
         }
-        roots.polys.push(poly);
-        roots.add_inside(&bernstein, &mut sign);
-        if bernstein[roots.polys[0].degree()].is_zero() {
-            roots.push(Place::At(Dyadic::one()), sign, Ordering::Equal);
+        self.polys.push(poly);
+        self.add_inside(&bernstein, &mut sign);
+        if bernstein[self.polys[0].degree()].is_zero() {
+            self.push(Place::At(Dyadic::one()), sign, Ordering::Equal);
         }
-        roots
     }
 
     /// The roots.
@@ -120,6 +124,7 @@ impl Isolated {
 
     /// Adds the roots strictly between 0 and 1. `sign` is the polynomial's sign just before them
     /// and becomes the one just after them.
+    #[inline(never)]
     fn add_inside(&mut self, bernstein: &[Integer], sign: &mut Ordering) {
         let changes = changes(bernstein);
         if changes == 0 {
@@ -152,6 +157,8 @@ impl Isolated {
         );
     }
 
+    // Functions by themselves, so that the stack holds what only one of them needs at a time.
+    #[inline(never)]
     fn add_factors(&mut self, factors: Factors, sign: &mut Ordering) {
         match factors {
             Factors::Triple(linear) => self.add_linear(linear, true, sign),
@@ -191,6 +198,7 @@ impl Isolated {
     }
 
     /// Adds all roots in `(0, 1)`, which are simple, by halving.
+    #[inline(never)]
     fn add_by_halving(&mut self, bernstein: &[Integer], sign: &mut Ordering) {
         let mut current = Piece::unit(bernstein);
         let mut later: SmallVec<[Found; 3]> = SmallVec::new();
@@ -204,6 +212,7 @@ impl Isolated {
                 }
                 break;
             }
+            current.zoom();
             let (left, right) = current.halves();
             let middle = right.starts_at_root().then(|| right.low());
             let (in_left, in_right) = (left.changes(), right.changes());
@@ -218,7 +227,7 @@ impl Isolated {
                 if in_left < 2 {
                     break;
                 }
-                current = left.zoomed();
+                current = left;
             } else {
                 if in_left == 1 {
                     self.add_found(Found::Between(left.ends()), sign);
@@ -226,7 +235,7 @@ impl Isolated {
                 if let Some(middle) = middle {
                     self.add_found(Found::At(middle), sign);
                 }
-                current = right.zoomed();
+                current = right;
             }
         }
         for found in later.into_iter().rev() {
@@ -262,6 +271,7 @@ struct Hessian {
 }
 
 impl Hessian {
+    #[inline(never)]
     fn new(poly: &Poly) -> Self {
         let [d, c, b, a] = [0, 1, 2, 3].map(|i| poly.coefficient(i));
         let minor = |x: &Integer, y: &Integer, factor: i64, z: &Integer, w: &Integer| {
@@ -278,6 +288,7 @@ impl Hessian {
     }
 
     /// The sign of the discriminant of the cubic, `(4pr - q^2) / 3`.
+    #[inline(never)]
     fn discriminant_sign(&self) -> Ordering {
         Integer::product(&self.p, &self.r)
             .shifted(2)
@@ -285,6 +296,7 @@ impl Hessian {
     }
 
     /// The factors of a cubic or quadratic with discriminant 0.
+    #[inline(never)]
     fn factors(&self, poly: &Poly) -> Factors {
         let [d, c, b, a] = [0, 1, 2, 3].map(|i| poly.coefficient(i));
         if self.p.is_zero() {

@@ -73,7 +73,6 @@ mod width;
 
 use self::motion::Motion;
 pub(super) use face::{case_of_face, decide_face};
-use integer::Integer;
 use locus::{Locus, Place};
 pub(super) use near::are_near;
 pub(super) use passage::{Passage, passage_of_edges, passage_of_face};
@@ -87,7 +86,7 @@ pub(super) use thick::{
     perpendicular_of_edges,
 };
 use time::Time;
-use unlimited::Unlimited;
+use unlimited::{Boxed, Unlimited};
 use width::{Fixed, Number, Width};
 
 /// The largest error of the place of a [`Hit`] of this stage, 2^-50.
@@ -132,10 +131,10 @@ fn answer<Q: Question>(positions: &Positions) -> Q::Answer {
             } else if bits <= Huge::BITS {
                 answer_in::<Q, Huge, _>(component)
             } else {
-                answer_in::<Q, Unlimited, _>(|i| Integer::from(values[i]))
+                answer_in::<Q, Unlimited, _>(component)
             }
         }
-        Scaled::Broad(values) => answer_in::<Q, Unlimited, _>(|i| values[i].clone()),
+        Scaled::Broad(values) => answer_in::<Q, Unlimited, _>(|i| Boxed::from(&values[i])),
     }
 }
 

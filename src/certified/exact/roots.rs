@@ -4,7 +4,7 @@
 //! isolated in floating point ([`super::isolate_f64`]), or exactly: by values of alternating signs
 //! between them, or by halving ([`super::isolate_bisect`]). The rest is left to [`super::isolate`].
 
-use std::borrow::Borrow;
+use std::borrow::{Borrow, BorrowMut};
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 
@@ -31,7 +31,7 @@ pub(super) struct Roots<L: Width> {
     cells: SmallVec<[Cell; 4]>,
     isolated: Option<L::Isolated>,
     /// The polynomial in integers of any size, once it is needed.
-    poly: OnceCell<Poly>,
+    poly: OnceCell<L::Poly>,
 }
 
 /// A root and the signs of the polynomial around it.
@@ -113,8 +113,12 @@ impl<L: Width> Roots<L> {
         let Some(curve) = &self.curve else {
             return;
         };
-        let isolated = self.isolated.insert(Isolated::new(curve.to_poly()).into());
-        let isolated: &Isolated = (*isolated).borrow();
+        self.isolated = Some(place_for_isolated::<L>());
+        let Some(isolated) = &mut self.isolated else {
+            return;
+        };
+        let isolated: &mut Isolated = isolated.borrow_mut();
+        isolated.find(curve.to_poly());
         for (index, cell) in isolated.cells().iter().enumerate() {
             let proved = |at: &Option<GridTime>, sign: Ordering| {
                 at.is_none_or(|at| curve.sample(at).0 == sign)
@@ -161,11 +165,17 @@ impl<L: Width> Roots<L> {
     }
 }
 
+/// A place for isolated roots. A function by itself, so that the stack does not hold a second one.
+#[inline(never)]
+fn place_for_isolated<L: Width>() -> L::Isolated {
+    Isolated::none().into()
+}
+
 /// A polynomial of which a time is a root.
 pub(super) struct Source<'a, L: Width> {
     pub(super) curve: &'a Curve<L>,
     /// The same in integers of any size, once it is needed.
-    poly: &'a OnceCell<Poly>,
+    poly: &'a OnceCell<L::Poly>,
 }
 
 impl<L: Width> Clone for Source<'_, L> {
@@ -178,13 +188,14 @@ impl<L: Width> Copy for Source<'_, L> {}
 
 impl<'a, L: Width> Source<'a, L> {
     /// A polynomial, with a place for the same in integers of any size.
-    pub(super) fn new(curve: &'a Curve<L>, poly: &'a OnceCell<Poly>) -> Self {
+    pub(super) fn new(curve: &'a Curve<L>, poly: &'a OnceCell<L::Poly>) -> Self {
         Source { curve, poly }
     }
 
     /// The polynomial in integers of any size.
     pub(super) fn poly(self) -> &'a Poly {
-        self.poly.get_or_init(|| self.curve.to_poly())
+        let poly = self.poly.get_or_init(|| self.curve.to_poly().into());
+        poly.borrow()
     }
 
     /// The root between two times (`None` is the start or the end of the step), in integers of any

@@ -22,6 +22,7 @@ pub(super) enum Found {
 /// not, it has one sign in the whole piece. Its root and that of the derivative are not the same,
 /// so that narrowing to the latter, which takes few steps however near the two roots are, tells in
 /// the end.
+#[inline(never)]
 pub(super) fn two_or_none<const N: usize>(
     poly: &Poly<N>,
     derivative: &Poly<N>,

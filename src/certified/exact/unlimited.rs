@@ -6,14 +6,37 @@ use std::cmp::Ordering;
 use super::fraction::Fraction;
 use super::integer::Integer;
 use super::isolate::Isolated;
+use super::poly::Poly;
 use super::width::{Number, Width};
 
 /// Any width.
 pub(super) struct Unlimited;
 
-/// An integer of any size, on the heap.
-#[derive(Clone, Debug)]
+/// An integer of any size, on the heap. What makes one is never compiled into its caller, where
+/// each integer would take room on the stack for as long as that runs.
+#[derive(Debug)]
 pub(super) struct Boxed(Box<Integer>);
+
+impl Clone for Boxed {
+    #[inline(never)]
+    fn clone(&self) -> Self {
+        Boxed(self.0.clone())
+    }
+}
+
+impl From<&Integer> for Boxed {
+    #[inline(never)]
+    fn from(value: &Integer) -> Self {
+        Boxed(Box::new(value.clone()))
+    }
+}
+
+impl From<i128> for Boxed {
+    #[inline(never)]
+    fn from(value: i128) -> Self {
+        Boxed(Box::new(value.into()))
+    }
+}
 
 impl From<Integer> for Boxed {
     fn from(value: Integer) -> Self {
@@ -22,10 +45,12 @@ impl From<Integer> for Boxed {
 }
 
 impl Number for Boxed {
+    #[inline(never)]
     fn add(&self, other: &Self) -> Self {
         Integer::sum(&self.0, &other.0).into()
     }
 
+    #[inline(never)]
     fn sub(&self, other: &Self) -> Self {
         Integer::difference(&self.0, &other.0).into()
     }
@@ -50,7 +75,9 @@ impl Width for Unlimited {
     type QuadraticValue = Boxed;
     type CubicValue = Boxed;
     type Isolated = Box<Isolated>;
+    type Poly = Box<Poly>;
 
+    #[inline(never)]
     fn times(a: &Boxed, b: &Boxed) -> Boxed {
         Integer::product(&a.0, &b.0).into()
     }

@@ -17,12 +17,13 @@
 //! `(36^2 + 4 18^2) 2^(4b)`, with its sign `4b + 13` bits; that fits into the `2b + 8 + 256` bits
 //! of a value as `b` is at most 124.
 
-use std::borrow::Borrow;
+use std::borrow::{Borrow, BorrowMut};
 use std::cmp::Ordering;
 
 use super::fraction::Fraction;
 use super::integer::{Integer, add_limbs, multiply_add, subtract_limbs};
 use super::isolate::Isolated;
+use super::poly::Poly;
 
 /// Exact numbers of one width.
 pub(super) trait Number: Clone {
@@ -58,7 +59,9 @@ pub(super) trait Width {
     type CubicValue: Number;
     /// The roots that were isolated in integers of any size: in place, or on the heap where the
     /// numbers are there as well.
-    type Isolated: Borrow<Isolated> + From<Isolated>;
+    type Isolated: BorrowMut<Isolated> + From<Isolated>;
+    /// A polynomial in integers of any size, likewise.
+    type Poly: Borrow<Poly> + From<Poly>;
 
     /// `a b`.
     fn times(a: &Self::Linear, b: &Self::Linear) -> Self::Quadratic;
@@ -117,6 +120,7 @@ impl<const L: usize, const Q: usize, const C: usize, const QV: usize, const CV: 
     type QuadraticValue = Wide<QV>;
     type CubicValue = Wide<CV>;
     type Isolated = Isolated;
+    type Poly = Poly;
 
     #[inline]
     fn times(a: &Wide<L>, b: &Wide<L>) -> Wide<Q> {

@@ -3,7 +3,7 @@ use proptest::prelude::*;
 use super::super::curve::Curve;
 use super::super::grid_time::GridTime;
 use super::super::integer::Integer;
-use super::super::isolate::Isolated;
+use super::super::isolate::tests::isolated as isolate;
 use super::super::unlimited::{Boxed, Unlimited};
 use super::super::width::Wide;
 use super::*;
@@ -33,7 +33,7 @@ proptest! {
     #[test]
     fn halved_intervals_hold_the_isolated_roots(c in cubic()) {
         let exact = c.map(|c| Boxed::from(Integer::from(c)));
-        let isolated = Isolated::new(Curve::<Unlimited>::Cubic(exact.clone()).to_poly());
+        let isolated = isolate(Curve::<Unlimited>::Cubic(exact.clone()).to_poly());
         let halved = isolate_bisect::<Unlimited>(&exact);
         prop_assert_eq!(&halved, &isolate_bisect::<Medium>(&c.map(Wide::from)));
         let Some(halved) = halved else {

@@ -57,7 +57,7 @@ proptest! {
         };
         let q = if share && q.len() == 3 { vec![q[0] * q[2], q[0] + q[1] * q[2], q[1]] } else { q };
         prop_assume!(p.iter().any(|&c| c != 0));
-        let isolated = Isolated::new(poly(&p));
+        let isolated = isolated(poly(&p));
         for cell in isolated.cells() {
             let Place::Between { poly: index, low, high, before } = &cell.place else {
                 continue;

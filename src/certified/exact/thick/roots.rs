@@ -117,11 +117,14 @@ enum Part {
 impl Part {
     /// Of a piece. Those that are kept whole have two sign changes or more each, and all of them
     /// together no more than the first: there are few.
-    fn of(piece: Piece) -> Option<Self> {
+    fn of(mut piece: Piece) -> Option<Self> {
         match piece.changes() {
             0 => None,
             1 => Some(Part::Found(Cell::between(&piece))),
-            _ => Some(Part::Open(piece.zoomed())),
+            _ => {
+                piece.zoom();
+                Some(Part::Open(piece))
+            }
         }
     }
 }

@@ -101,6 +101,7 @@ impl Width for Bounds {
     type QuadraticValue = Bound<4>;
     type CubicValue = Bound<5>;
     type Isolated = Isolated;
+    type Poly = Poly;
 
     fn times(a: &Bound<1>, b: &Bound<1>) -> Bound<2> {
         Bound::checked(&a.0 * &b.0)
