@@ -106,6 +106,9 @@ fn every_loop_of_the_exact_stage_says_why_it_ends() {
                 visit(&path, loops);
                 continue;
             }
+            if path.ends_with("tests.rs") {
+                continue;
+            }
             let source = fs::read_to_string(&path).unwrap();
             let lines: Vec<&str> = source.lines().map(str::trim_start).collect();
             for (at, line) in lines.iter().enumerate() {

@@ -47,8 +47,9 @@ pub(super) fn changes(coefficients: &[Integer]) -> usize {
     count
 }
 
-/// The halvings that have to go the same way before more of them are taken at once.
-const ZOOM_DIGITS: u64 = 0xff;
+/// The last digits of an index where as many halvings went to the end: so many have to go the same
+/// way before more of them are taken at once.
+const ZOOM_DIGITS: u64 = u64::MAX;
 
 /// A polynomial on the interval from `index / 2^depth` to `(index + 1) / 2^depth`.
 pub(super) struct Piece {
@@ -112,9 +113,9 @@ impl Piece {
     /// changes: the rest has none, and no root where the two meet. Looked for where the last
     /// halvings all went the same way.
     pub(super) fn zoom(&mut self) {
-        let digits = self.index.window(0).0 & ZOOM_DIGITS;
+        let (digits, _) = self.index.window(0);
         let is_at_end = digits == ZOOM_DIGITS;
-        if self.depth < 8 || digits != 0 && !is_at_end {
+        if self.depth < 64 || digits != 0 && !is_at_end {
             return;
         }
         let changes = self.changes();

@@ -1,8 +1,8 @@
 use proptest::prelude::*;
 
 use super::super::dyadic::tests::middle;
-use super::super::isolate::tests::poly;
-use super::super::isolate::{Isolated, Place};
+use super::super::isolate::Place;
+use super::super::isolate::tests::{isolated, poly};
 use super::*;
 
 /// The sign by halving until the polynomial has no root and no other sign near the root; `None` if
