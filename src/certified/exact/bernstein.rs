@@ -47,6 +47,10 @@ pub(super) fn changes(coefficients: &[Integer]) -> usize {
     count
 }
 
+/// The last digits of an index where as many halvings went to the end: so many have to go the same
+/// way before more of them are taken at once.
+const ZOOM_DIGITS: u64 = u64::MAX;
+
 /// A polynomial on the interval from `index / 2^depth` to `(index + 1) / 2^depth`.
 pub(super) struct Piece {
     /// Positive multiples of the Bernstein coefficients there.
@@ -103,6 +107,78 @@ impl Piece {
     pub(super) fn ends(&self) -> (Dyadic, Dyadic) {
         let next = Integer::sum(&self.index, &Integer::from(1));
         (self.low(), Dyadic::new(next, self.depth))
+    }
+
+    /// Becomes the smallest part at its start or its end that comes of halving and has as many sign
+    /// changes: the rest has none, and no root where the two meet. Looked for where the last
+    /// halvings all went the same way.
+    pub(super) fn zoom(&mut self) {
+        let (digits, _) = self.index.window(0);
+        let is_at_end = digits == ZOOM_DIGITS;
+        if self.depth < 64 || digits != 0 && !is_at_end {
+            return;
+        }
+        let changes = self.changes();
+        let part = |halvings: u64| {
+            let part = self.part(halvings, is_at_end);
+            (part.changes() == changes).then_some(part)
+        };
+        // The bits of the number of halvings, from the highest one on.
+        let (mut step, mut zoomed, mut count) = (1, None, 0);
+        // Ends: the changes are those of a root inside, which is in no part that is small enough.
+        while let Some(found) = part(2 * step) {
+            (step, count, zoomed) = (2 * step, 2 * step, Some(found));
+        }
+        // Ends: the step is halved.
+        while step > 1 {
+            step /= 2;
+            if let Some(found) = part(count + step) {
+                (count, zoomed) = (count + step, Some(found));
+            }
+        }
+        if let Some(part) = zoomed {
+            *self = *part;
+        }
+    }
+
+    /// The first or the last `2^-halvings` of it, by de Casteljau's algorithm, times a power of two.
+    /// On the heap, as this is for numbers that are long.
+    #[inline(never)]
+    fn part(&self, halvings: u64, is_at_end: bool) -> Box<Piece> {
+        let degree = self.coefficients.len() - 1;
+        let mut row = self.coefficients.to_vec();
+        let mut part = SmallVec::new();
+        for i in 0..=degree {
+            let kept = if is_at_end { degree - i } else { 0 };
+            part.push(row[kept].shifted(halvings * (degree - i) as u64));
+            for j in 0..degree - i {
+                // (2^halvings - 1) times the nearer one, and the other one.
+                let (own, next) = row.split_at_mut(j + 1);
+                let [near, other] = if is_at_end {
+                    [&next[0], &own[j]]
+                } else {
+                    [&own[j], &next[0]]
+                };
+                let mut sum = near.shifted(halvings);
+                sum.sub_shifted(near, 0);
+                sum.add_shifted(other, 0);
+                own[j] = sum;
+            }
+        }
+        let mut index = self.index.clone();
+        if is_at_end {
+            part.reverse();
+            index.add_shifted(&Integer::from(1), 0);
+        }
+        index = index.shifted(halvings);
+        if is_at_end {
+            index.sub_shifted(&Integer::from(1), 0);
+        }
+        Box::new(Piece {
+            coefficients: part,
+            index,
+            depth: self.depth + halvings,
+        })
     }
 
     /// Both halves, by de Casteljau's algorithm without its divisions: row `i` is `2^i` times too

@@ -20,14 +20,20 @@
 //! narrows towards an end that is another root, until the exponent is larger than any that is
 //! needed: it is taken for what it has become, and the answer is as wrong as its premise.
 
+use std::cell::{Cell, RefCell};
 use std::cmp::Ordering;
 
 use super::dyadic::Dyadic;
+use super::enclosure::FIRST;
 use super::estimate::between;
 use super::integer::{Integer, ratio, scale};
 use super::modular::are_coprime;
 use super::poly::Poly;
 use super::sturm;
+
+mod quotient;
+
+pub(super) use quotient::exact_ratio;
 
 /// The only root of a polynomial strictly between two numbers, a simple one.
 #[derive(Clone, Debug)]
@@ -43,9 +49,21 @@ pub(super) struct Bracket<'a, const N: usize = 4> {
     is_high_proved: bool,
     /// The logarithm of the number of cells that the next step tries.
     bits: u32,
-    /// Whether only a sign is asked, so that more cells than floating point tells apart may be
-    /// tried. Places are rounded from the ends, and depend on the way there.
-    is_for_sign: bool,
+    /// How many bits of the polynomial's values were enough.
+    enough: Cell<u64>,
+    /// The ends as far as any question has narrowed it.
+    narrowest: RefCell<Option<Narrowed>>,
+    /// Whether more cells than floating point tells apart may be tried, so that few steps lead to
+    /// many bits.
+    is_far: bool,
+}
+
+/// Ends of a bracket, nearer than its own, and its `bits` there.
+#[derive(Clone, Debug)]
+struct Narrowed {
+    low: Dyadic,
+    high: Dyadic,
+    bits: u32,
 }
 
 /// A root compared with the `f64`s.
@@ -62,6 +80,9 @@ const LEAST_EXPONENT: u64 = 64;
 
 /// The most of these bits: beyond them narrowing costs as much as remainders do.
 const MOST_VAIN_BITS: u64 = 512;
+
+/// From ends with so many bits on, a place may depend on what else was asked of the root.
+const FAR: u64 = 2048;
 
 /// The most bits that a chord is worth, computed in floating point.
 pub(super) const MOST_BITS: u32 = 48;
@@ -99,7 +120,9 @@ impl<'a, const N: usize> Bracket<'a, N> {
             is_high_proved: false,
             // A line is its own chord.
             bits: if poly.degree() == 1 { MOST_BITS } else { 1 },
-            is_for_sign: false,
+            enough: Cell::new(FIRST),
+            narrowest: RefCell::new(None),
+            is_far: false,
         }
     }
 
@@ -109,6 +132,14 @@ impl<'a, const N: usize> Bracket<'a, N> {
             is_low_proved: true,
             is_high_proved: true,
             ..Bracket::new(poly, low, high, before)
+        }
+    }
+
+    /// The same, to be narrowed far: with more cells at a step than floating point tells apart.
+    pub(super) fn far(self) -> Self {
+        Bracket {
+            is_far: true,
+            ..self
         }
     }
 
@@ -182,8 +213,7 @@ impl<'a, const N: usize> Bracket<'a, N> {
         let own = self.exponent();
         let exponent = own + u64::from(self.bits);
         let start = self.low.numerator.shifted(exponent - self.low.exponent);
-        let mut width = self.high.numerator.shifted(own - self.high.exponent);
-        width.sub_shifted(&self.low.numerator, own - self.low.exponent);
+        let width = self.width();
         let one = Integer::from(1);
         let cells = one.shifted(self.bits.into());
         let Some(index) = self.chord(self.bits) else {
@@ -215,7 +245,7 @@ impl<'a, const N: usize> Bracket<'a, N> {
     /// needed, a share of those that there are, so that few steps lead there.
     fn most_cells(&self, exponent: u64) -> u32 {
         let share = (exponent / 4).saturating_sub(u64::from(MOST_BITS));
-        match self.is_for_sign {
+        match self.is_far {
             true => MOST_BITS.max(share as u32),
             false => MOST_BITS,
         }
@@ -224,21 +254,28 @@ impl<'a, const N: usize> Bracket<'a, N> {
     /// In which of `2^bits` cells between the ends the chord of the polynomial is 0, about. `None`
     /// if the sign at an end is that of the other side of the root.
     fn chord(&self, bits: u32) -> Option<Integer> {
-        let value = |at: &Dyadic, other_side: Ordering| {
-            let value = self.poly.evaluate(at);
-            let is_around = value.is_zero() || value.sign() != other_side;
-            is_around.then_some((value, at.exponent as i64 * self.poly.degree() as i64))
-        };
-        let (low, low_exponent) = value(&self.low, self.before.reverse())?;
-        let (high, high_exponent) = value(&self.high, self.before)?;
+        let is_around =
+            |low: Ordering, high: Ordering| low != self.before.reverse() && high != self.before;
         if bits > MOST_BITS {
-            let common = low_exponent.max(high_exponent);
-            let scaled = |x: &Integer, own: i64| x.magnitude().shifted((common - own) as u64);
-            let low = scaled(&low, low_exponent);
-            let whole = Integer::sum(&low, &scaled(&high, high_exponent));
+            let [(low, own), (high, other)] = [&self.low, &self.high]
+                .map(|at| self.poly.leading_at(at, &self.enough, u64::from(bits) + 64));
+            if !is_around(low.sign(), high.sign()) {
+                return None;
+            }
+            let common = own.min(other);
+            let scaled = |x: &Integer, own: i64| x.magnitude().shifted(own.abs_diff(common));
+            let low = scaled(&low, own);
+            let whole = Integer::sum(&low, &scaled(&high, other));
             return Some(divide_about(low, whole, bits));
         }
-        let ((low, own), (high, other)) = (low.approximate(), high.approximate());
+        let [(low_sign, (low, own)), (high_sign, (high, other))] =
+            [&self.low, &self.high].map(|at| self.poly.approximate_at(at, &self.enough));
+        if !is_around(low_sign, high_sign) {
+            return None;
+        }
+        let degree = self.poly.degree() as i64;
+        let [low_exponent, high_exponent] =
+            [&self.low, &self.high].map(|at| at.exponent as i64 * degree);
         let (own, other) = (own - low_exponent, other - high_exponent);
         let chord = 1.0 / (1.0 + scale((high / low).abs(), other - own));
         // 0 for what is not a number.
@@ -249,7 +286,7 @@ impl<'a, const N: usize> Bracket<'a, N> {
     /// Compares the root with a number strictly between the ends, which becomes one of them unless
     /// it is the root.
     fn cut(&mut self, at: &Dyadic) -> Ordering {
-        let sign = self.poly.sign_at(at);
+        let sign = self.poly.sign_near(at, &self.enough);
         if sign.is_eq() {
             Ordering::Equal
         } else if sign == self.before {
@@ -313,25 +350,52 @@ impl<'a, const N: usize> Bracket<'a, N> {
 
     /// The sign of a polynomial at the root, if it has that in the whole bracket.
     pub(super) fn plain_sign_of(&self, q: &Poly<N>) -> Option<Ordering> {
-        let (value, variation) = self.range(q, q.degree().max(1));
-        value.exceeds(&variation).then(|| value.sign())
+        let variation = slope_bound(q).bits() + self.width().bits();
+        q.sign_beyond(&self.low, variation as i64 - self.exponent() as i64)
     }
 
     /// The sign of a polynomial at the root, if it is shown before the ends have so many bits. If
     /// it is not 0, it is shown in the end.
     fn sign_by_narrowing(&self, q: &Poly<N>, most_bits: u64) -> Option<Ordering> {
-        let mut bracket = self.clone();
-        bracket.is_for_sign = true;
+        let mut bracket = self.clone().far();
+        bracket.narrow_as_kept();
+        let sign = bracket.narrow_for_sign(q, most_bits);
+        self.keep(bracket);
+        sign
+    }
+
+    /// Goes on where another question has narrowed it to, if that is farther.
+    fn narrow_as_kept(&mut self) {
+        let own = self.exponent();
+        if let Some(narrowed) = self.narrowest.take()
+            && narrowed.low.exponent.max(narrowed.high.exponent) > own
+        {
+            (self.low, self.high, self.bits) = (narrowed.low, narrowed.high, narrowed.bits);
+        }
+    }
+
+    /// Keeps how far it was narrowed.
+    fn keep(&self, narrowed: Self) {
+        let Bracket {
+            low, high, bits, ..
+        } = narrowed;
+        self.narrowest.replace(Some(Narrowed { low, high, bits }));
+        self.enough.set(narrowed.enough.get());
+    }
+
+    fn narrow_for_sign(&mut self, q: &Poly<N>, most_bits: u64) -> Option<Ordering> {
         // Ends: each turn narrows it, so that its exponent comes to be as large.
-        while bracket.exponent() < most_bits {
-            if let Some(at) = bracket.refine() {
-                return Some(q.sign_at(&at));
-            }
-            if let Some(sign) = bracket.plain_sign_of(q) {
+        loop {
+            if let Some(sign) = self.plain_sign_of(q) {
                 return Some(sign);
             }
+            if self.exponent() >= most_bits {
+                return None;
+            }
+            if let Some(at) = self.refine() {
+                return Some(q.sign_at(&at));
+            }
         }
-        None
     }
 
     /// The same for a polynomial that is likely to be 0 there.
@@ -345,94 +409,42 @@ impl<'a, const N: usize> Bracket<'a, N> {
     ///
     /// On `[0, 1]` the derivative of the sum of the `c_i t^i` is at most that of the `i |c_i|`.
     pub(super) fn range(&self, q: &Poly<N>, degree: usize) -> (Integer, Integer) {
-        let exponent = self.low.exponent.max(self.high.exponent);
-        let missing = exponent - self.low.exponent;
-        let value = q
-            .evaluate_as(degree, &self.low)
-            .shifted(degree as u64 * missing);
-        let mut slope = Integer::default();
-        for (coefficient, i) in q.coefficients().iter().zip(0..) {
-            slope.add_shifted(&coefficient.magnitude().times(i), 0);
-        }
+        (self.value_at_low(q, degree), self.variation(q, degree))
+    }
+
+    fn value_at_low(&self, q: &Poly<N>, degree: usize) -> Integer {
+        let missing = self.exponent() - self.low.exponent;
+        let value = q.evaluate_as(degree, &self.low);
+        value.shifted(degree as u64 * missing)
+    }
+
+    fn variation(&self, q: &Poly<N>, degree: usize) -> Integer {
+        let slope = Integer::product(&slope_bound(q), &self.width());
+        slope.shifted((degree as u64 - 1) * self.exponent())
+    }
+
+    /// The distance of the ends, times 2 to the power of the exponent of both.
+    fn width(&self) -> Integer {
+        let exponent = self.exponent();
         let mut width = self.high.numerator.shifted(exponent - self.high.exponent);
-        width.sub_shifted(&self.low.numerator, missing);
-        slope.mul_assign(&width);
-        (value, slope.shifted((degree as u64 - 1) * exponent))
-    }
-
-    /// `n / d` at the root, which is in `[0, 1]`.
-    ///
-    /// The error is at most [`PARAMETER_ERROR`](super::PARAMETER_ERROR), `2^-50`. The exact
-    /// quotient is between two numbers, each known up to 3/2 2^-52; the middle of what is known of
-    /// them is taken once these are not more than 4 2^-52 apart, which adds 2 2^-52, and is
-    /// rounded.
-    ///
-    /// It ends: the denominator is not 0 at the root, so that narrowing brings the two numbers
-    /// together as near as one likes. What is known of each then differs by a unit in the last
-    /// place, 2^-52, in numerator, denominator and quotient: by not more than 3 2^-52. Where a host
-    /// rounds otherwise it may be more, and the lower end is taken for the root in the end.
-    pub(super) fn quotient(&self, n: &Poly<N>, d: &Poly<N>) -> f64 {
-        let mut bracket = self.clone();
-        let most = self.most_exponent(common_degree(n, d), most_bits(n).max(most_bits(d)));
-        // Ends: each turn narrows it, so that its exponent comes to be as large.
-        while bracket.exponent() < most {
-            if let Some(value) = bracket.try_quotient(n, d) {
-                return value;
-            }
-            if let Some(at) = bracket.refine() {
-                return exact_ratio(n, d, &at);
-            }
-        }
-        exact_ratio(n, d, &bracket.low)
-    }
-
-    fn try_quotient(&self, n: &Poly<N>, d: &Poly<N>) -> Option<f64> {
-        let degree = common_degree(n, d).max(1);
-        let (mut n, n_variation) = self.range(n, degree);
-        let (mut d, d_variation) = self.range(d, degree);
-        if d.sign().is_lt() {
-            n.negate();
-            d.negate();
-        }
-        if !d.exceeds(&d_variation) {
-            return None;
-        }
-        let (mut least, mut most) = (n.clone(), n);
-        least.sub_shifted(&n_variation, 0);
-        most.add_shifted(&n_variation, 0);
-        let (narrow, wide) = (
-            Integer::difference(&d, &d_variation),
-            Integer::sum(&d, &d_variation),
-        );
-        let low = if least.sign().is_gt() {
-            ratio(&least, &wide)
-        } else {
-            0.0
-        };
-        let high = ratio(&most, &narrow);
-        (high - low <= 4.0 * f64::EPSILON).then(|| (0.5 * (low + high)).min(1.0))
+        width.sub_shifted(&self.low.numerator, exponent - self.low.exponent);
+        width
     }
 }
 
-/// `n / d` at a time, which is in `[0, 1]`.
-pub(super) fn exact_ratio<const N: usize>(n: &Poly<N>, d: &Poly<N>, at: &Dyadic) -> f64 {
-    let degree = common_degree(n, d);
-    let (mut n, mut d) = (n.evaluate_as(degree, at), d.evaluate_as(degree, at));
-    if d.sign().is_lt() {
-        n.negate();
-        d.negate();
+/// The most that the derivative of a polynomial is on `[0, 1]`: the sum of the `i |c_i|`.
+fn slope_bound<const N: usize>(q: &Poly<N>) -> Integer {
+    let mut slope = Integer::default();
+    for (coefficient, i) in q.coefficients().iter().zip(0..) {
+        slope.add_shifted(&coefficient.magnitude().times(i), 0);
     }
-    ratio(&n, &d).min(1.0)
+    slope
 }
 
 /// The bits of the longest coefficient.
 pub(super) fn most_bits<const N: usize>(poly: &Poly<N>) -> u64 {
     let bits = poly.coefficients().iter().map(Integer::bits);
     bits.max().unwrap_or(0)
-}
-
-fn common_degree<const N: usize>(n: &Poly<N>, d: &Poly<N>) -> usize {
-    n.degree().max(d.degree())
 }
 
 #[cfg(test)]

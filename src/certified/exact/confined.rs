@@ -46,6 +46,7 @@ impl<L: Width> Motion<L> {
 }
 
 /// The first time at which an end is on its edge, with a place for the roots of each.
+#[inline(never)]
 pub(super) fn first_contact<'a, L: Width, const N: usize>(
     ends: &[End<L>; N],
     roots: &'a mut [Roots<L>; N],

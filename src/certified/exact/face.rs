@@ -98,6 +98,7 @@ impl<L: Width> Face<L> {
     }
 
     /// `f` is not identically 0: every contact time is a root of it.
+    #[inline(never)]
     fn decide_general(&self) -> Option<Hit<FacePlace>> {
         let mut roots = Roots::none();
         roots.find(Curve::Cubic(self.motion.f.clone()));
@@ -116,6 +117,7 @@ impl<L: Width> Face<L> {
     /// `f` is identically 0. If the vertex were off all edges at a first contact after the start,
     /// it would be inside a face that is not a segment or a point, and so shortly before. The
     /// candidates are therefore 0 and the times at which it comes onto an edge.
+    #[inline(never)]
     fn decide_confined(&self) -> Option<Hit<FacePlace>> {
         let start = Time::start();
         if let Some(place) = self.place(&start) {
@@ -157,6 +159,7 @@ impl<L: Width> Face<L> {
     }
 
     /// The face has a plane; a component of its normal that is not 0 gives the weights.
+    #[inline(never)]
     fn place_on_plane(&self, time: &Time<L>, axis: usize, sign: Ordering) -> Option<Place<L>> {
         let Motion { k, l, m, n, .. } = &self.motion;
         let c = m.cross_component(l, axis);
@@ -182,6 +185,7 @@ impl<L: Width> Face<L> {
 
     /// The face is a segment or a point, and so its edges: the place at the first corner, else on
     /// the first edge, that the vertex is on.
+    #[inline(never)]
     fn place_on_edge(&self, time: &Time<L>) -> Option<Place<L>> {
         let is_zero = |square: Quadratic<L>| time.sign_of(&square).is_eq();
         let [to_b, to_c, to_d] = self.distances();

@@ -114,6 +114,22 @@ impl Integer {
         (self.signed(magnitude), 64 * (n as i64 - 2))
     }
 
+    /// The [approximation](Self::approximate) of the number times `2^shift`; `None` where that has
+    /// less than three limbs.
+    pub(super) fn approximate_shifted(&self, shift: i64) -> Option<(f64, i64)> {
+        let limbs = (self.bits() as i64 + shift + 63) / 64;
+        // What is below the two highest limbs.
+        let below = 64 * (limbs - 2);
+        let from = below - shift;
+        if self.is_zero() || below <= 0 || from < 0 {
+            return None;
+        }
+        let from = from.unsigned_abs();
+        let ((low, _), (high, _)) = (self.window(from), self.window(from + 64));
+        let magnitude = (u128::from(high) << 64 | u128::from(low)) as f64;
+        Some((self.signed(magnitude), below))
+    }
+
     fn signed(&self, magnitude: f64) -> f64 {
         if self.negative { -magnitude } else { magnitude }
     }

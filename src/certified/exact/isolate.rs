@@ -22,6 +22,7 @@ use super::grid_time::GridTime;
 use super::integer::Integer;
 use super::isolate_f64::Interval;
 use super::poly::Poly;
+use super::two_roots::{Found, two_or_none};
 
 /// The distinct roots in `[0, 1]` of a polynomial, in ascending order.
 #[derive(Debug)]
@@ -65,25 +66,29 @@ enum Factors {
 }
 
 impl Isolated {
-    /// The roots of a polynomial that is not identically 0.
-    pub(super) fn new(poly: Poly) -> Self {
-        let bernstein = bernstein(&poly);
-        let mut roots = Isolated {
+    /// A place for roots; to find them there takes less of the stack than to move them there.
+    pub(super) fn none() -> Self {
+        Isolated {
             polys: SmallVec::new(),
             cells: SmallVec::new(),
-        };
+        }
+    }
+
+    /// Puts the roots of a polynomial that is not identically 0 into an empty place.
+    #[inline(never)]
+    pub(super) fn find(&mut self, poly: Poly) {
+        let bernstein = bernstein(&poly);
         // Just after 0; it is not 0 unless all coefficients are.
         let mut sign = first_sign(bernstein.iter());
         if bernstein[0].is_zero() {
             let place = Place::At(Dyadic::zero());
-            roots.push(place, Ordering::Equal, sign);
+            self.push(place, Ordering::Equal, sign);
         }
-        roots.polys.push(poly);
-        roots.add_inside(&bernstein, &mut sign);
-        if bernstein[roots.polys[0].degree()].is_zero() {
-            roots.push(Place::At(Dyadic::one()), sign, Ordering::Equal);
+        self.polys.push(poly);
+        self.add_inside(&bernstein, &mut sign);
+        if bernstein[self.polys[0].degree()].is_zero() {
+            self.push(Place::At(Dyadic::one()), sign, Ordering::Equal);
         }
-        roots
     }
 
     /// The roots.
@@ -119,6 +124,7 @@ impl Isolated {
 
     /// Adds the roots strictly between 0 and 1. `sign` is the polynomial's sign just before them
     /// and becomes the one just after them.
+    #[inline(never)]
     fn add_inside(&mut self, bernstein: &[Integer], sign: &mut Ordering) {
         let changes = changes(bernstein);
         if changes == 0 {
@@ -151,6 +157,8 @@ impl Isolated {
         );
     }
 
+    // Functions by themselves, so that the stack holds what only one of them needs at a time.
+    #[inline(never)]
     fn add_factors(&mut self, factors: Factors, sign: &mut Ordering) {
         match factors {
             Factors::Triple(linear) => self.add_linear(linear, true, sign),
@@ -190,12 +198,21 @@ impl Isolated {
     }
 
     /// Adds all roots in `(0, 1)`, which are simple, by halving.
+    #[inline(never)]
     fn add_by_halving(&mut self, bernstein: &[Integer], sign: &mut Ordering) {
         let mut current = Piece::unit(bernstein);
         let mut later: SmallVec<[Found; 3]> = SmallVec::new();
         // Ends: the roots are simple, by the discriminant, so that they part (two circles theorem);
         // all of it in integers.
         loop {
+            if current.depth() >= MOST_HALVINGS && current.changes() == 2 && current.turns() == 1 {
+                let poly = &self.polys[0];
+                for found in two_or_none(poly, &poly.derivative(), &current) {
+                    self.add_found(found, sign);
+                }
+                break;
+            }
+            current.zoom();
             let (left, right) = current.halves();
             let middle = right.starts_at_root().then(|| right.low());
             let (in_left, in_right) = (left.changes(), right.changes());
@@ -235,11 +252,8 @@ impl Isolated {
     }
 }
 
-/// A simple root found by halving.
-enum Found {
-    At(Dyadic),
-    Between((Dyadic, Dyadic)),
-}
+/// How often the step is halved before two roots are parted by the turning point between them.
+const MOST_HALVINGS: u64 = 128;
 
 /// The interval from 0 to 1.
 fn unit() -> (Dyadic, Dyadic) {
@@ -257,6 +271,7 @@ struct Hessian {
 }
 
 impl Hessian {
+    #[inline(never)]
     fn new(poly: &Poly) -> Self {
         let [d, c, b, a] = [0, 1, 2, 3].map(|i| poly.coefficient(i));
         let minor = |x: &Integer, y: &Integer, factor: i64, z: &Integer, w: &Integer| {
@@ -273,6 +288,7 @@ impl Hessian {
     }
 
     /// The sign of the discriminant of the cubic, `(4pr - q^2) / 3`.
+    #[inline(never)]
     fn discriminant_sign(&self) -> Ordering {
         Integer::product(&self.p, &self.r)
             .shifted(2)
@@ -280,6 +296,7 @@ impl Hessian {
     }
 
     /// The factors of a cubic or quadratic with discriminant 0.
+    #[inline(never)]
     fn factors(&self, poly: &Poly) -> Factors {
         let [d, c, b, a] = [0, 1, 2, 3].map(|i| poly.coefficient(i));
         if self.p.is_zero() {

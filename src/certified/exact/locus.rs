@@ -86,6 +86,7 @@ impl<L: Width> Motion<L> {
 
     /// The lines meet in one point. From `A + u K = C + v L`: `M x L = u N` and `M x K = v N`,
     /// which one component of `N` that is not 0 solves.
+    #[inline(never)]
     fn locus_transversal(&self, time: &Time<L>, axis: usize, sign: Ordering) -> Option<Locus<L>> {
         let n = &self.n[axis];
         let u = Parameter::new(time, self.m.cross_component(&self.l, axis), n.clone(), sign)?;
@@ -99,6 +100,7 @@ impl<L: Width> Motion<L> {
     }
 
     /// The edges are parallel, or one of them is a point, or both are.
+    #[inline(never)]
     fn locus_parallel(&self, time: &Time<L>) -> Option<Locus<L>> {
         let (kk, ll) = (self.k.dot(&self.k), self.l.dot(&self.l));
         let first_is_point = time.sign_of(&kk).is_eq();

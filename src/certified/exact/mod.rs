@@ -43,6 +43,7 @@ mod bracket;
 mod confined;
 mod curve;
 mod dyadic;
+mod enclosure;
 mod estimate;
 mod face;
 mod fraction;
@@ -66,6 +67,8 @@ mod scaled;
 mod sturm;
 mod thick;
 mod time;
+mod two_roots;
+mod unlimited;
 mod width;
 
 use self::motion::Motion;
@@ -84,7 +87,8 @@ pub(super) use thick::{
     normal_of_edges_exactly, normal_of_face_exactly, perpendicular_of_edges,
 };
 use time::Time;
-use width::{Fixed, Number, Unlimited, Wide, Width};
+use unlimited::{Boxed, Unlimited};
+use width::{Fixed, Number, Width};
 
 /// The largest error of the place of a [`Hit`] of this stage, 2^-50.
 pub(super) const PLACE_ERROR: f64 = 4.0 * f64::EPSILON;
@@ -110,27 +114,38 @@ trait Question {
 fn answer<Q: Question>(positions: &Positions) -> Q::Answer {
     match Scaled::new(positions) {
         Scaled::Short { values, bits } => {
+            let component = |i: usize| values[i];
             if bits <= Tiny::BITS {
-                Q::answer(Motion::<Tiny>::new(|i| Wide::from(values[i])))
+                answer_in::<Q, Tiny, _>(component)
             } else if bits <= Small::BITS {
-                Q::answer(Motion::<Small>::new(|i| Wide::from(values[i])))
+                answer_in::<Q, Small, _>(component)
             } else if bits <= Medium::BITS {
-                Q::answer(Motion::<Medium>::new(|i| Wide::from(values[i])))
+                answer_in::<Q, Medium, _>(component)
             } else {
-                Q::answer(Motion::<Large>::new(|i| Wide::from(values[i])))
+                answer_in::<Q, Large, _>(component)
             }
         }
         Scaled::Narrow { values, bits } => {
+            let component = |i: usize| values[i];
             if bits <= Large::BITS {
-                Q::answer(Motion::<Large>::new(|i| Wide::from(values[i])))
+                answer_in::<Q, Large, _>(component)
             } else if bits <= Huge::BITS {
-                Q::answer(Motion::<Huge>::new(|i| Wide::from(values[i])))
+                answer_in::<Q, Huge, _>(component)
             } else {
-                Q::answer(Motion::<Unlimited>::new(|i| values[i].into()))
+                answer_in::<Q, Unlimited, _>(component)
             }
         }
-        Scaled::Broad(values) => Q::answer(Motion::<Unlimited>::new(|i| values[i].clone())),
+        Scaled::Broad(values) => answer_in::<Q, Unlimited, _>(|i| Boxed::from(&values[i])),
     }
+}
+
+/// The answer in one width, from the components of the motion. A function by itself, so that the
+/// stack holds a motion of this width alone.
+#[inline(never)]
+fn answer_in<Q: Question, L: Width<Linear: From<T>>, T>(
+    component: impl Fn(usize) -> T,
+) -> Q::Answer {
+    Q::answer(Motion::<L>::new(|i| component(i).into()))
 }
 
 type Tiny = Fixed<1, 1, 2, 5, 8>;

@@ -1,7 +1,5 @@
 //! Polynomials of small degree with integers of any size as coefficients.
 
-use std::cmp::Ordering;
-
 use smallvec::SmallVec;
 
 use super::dyadic::Dyadic;
@@ -83,11 +81,6 @@ impl<const N: usize> Poly<N> {
             0 => value,
             missing => value.shifted(missing),
         }
-    }
-
-    /// The sign of the value at a time.
-    pub(super) fn sign_at(&self, at: &Dyadic) -> Ordering {
-        self.evaluate(at).sign()
     }
 
     /// The remainder of a division by `divisor`, which is not 0, times the magnitude of its leading

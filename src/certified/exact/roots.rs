@@ -4,6 +4,7 @@
 //! isolated in floating point ([`super::isolate_f64`]), or exactly: by values of alternating signs
 //! between them, or by halving ([`super::isolate_bisect`]). The rest is left to [`super::isolate`].
 
+use std::borrow::{Borrow, BorrowMut};
 use std::cell::OnceCell;
 use std::cmp::Ordering;
 
@@ -28,9 +29,9 @@ pub(super) struct Roots<L: Width> {
     /// The polynomial, or its derivative in place of one with a double root.
     curve: Option<Curve<L>>,
     cells: SmallVec<[Cell; 4]>,
-    isolated: Option<Isolated>,
+    isolated: Option<L::Isolated>,
     /// The polynomial in integers of any size, once it is needed.
-    poly: OnceCell<Poly>,
+    poly: OnceCell<L::Poly>,
 }
 
 /// A root and the signs of the polynomial around it.
@@ -107,11 +108,17 @@ impl<L: Width> Roots<L> {
     }
 
     /// Takes the roots from [`Isolated`], on the grid where that is possible.
+    #[inline(never)]
     fn isolate(&mut self) {
         let Some(curve) = &self.curve else {
             return;
         };
-        let isolated = self.isolated.insert(Isolated::new(curve.to_poly()));
+        self.isolated = Some(place_for_isolated::<L>());
+        let Some(isolated) = &mut self.isolated else {
+            return;
+        };
+        let isolated: &mut Isolated = isolated.borrow_mut();
+        isolated.find(curve.to_poly());
         for (index, cell) in isolated.cells().iter().enumerate() {
             let proved = |at: &Option<GridTime>, sign: Ordering| {
                 at.is_none_or(|at| curve.sample(at).0 == sign)
@@ -149,18 +156,26 @@ impl<L: Width> Roots<L> {
                     let of = Source::new(self.curve.as_ref()?, &self.poly);
                     Time::of_root(of, before, low, high)
                 }
-                Place::Isolated(index) => Time::of_isolated(self.isolated.as_ref()?, index),
+                Place::Isolated(index) => {
+                    Time::of_isolated(self.isolated.as_ref()?.borrow(), index)
+                }
             };
             Some((time, cell.before, cell.after))
         })
     }
 }
 
+/// A place for isolated roots. A function by itself, so that the stack does not hold a second one.
+#[inline(never)]
+fn place_for_isolated<L: Width>() -> L::Isolated {
+    Isolated::none().into()
+}
+
 /// A polynomial of which a time is a root.
 pub(super) struct Source<'a, L: Width> {
     pub(super) curve: &'a Curve<L>,
     /// The same in integers of any size, once it is needed.
-    poly: &'a OnceCell<Poly>,
+    poly: &'a OnceCell<L::Poly>,
 }
 
 impl<L: Width> Clone for Source<'_, L> {
@@ -173,13 +188,14 @@ impl<L: Width> Copy for Source<'_, L> {}
 
 impl<'a, L: Width> Source<'a, L> {
     /// A polynomial, with a place for the same in integers of any size.
-    pub(super) fn new(curve: &'a Curve<L>, poly: &'a OnceCell<Poly>) -> Self {
+    pub(super) fn new(curve: &'a Curve<L>, poly: &'a OnceCell<L::Poly>) -> Self {
         Source { curve, poly }
     }
 
     /// The polynomial in integers of any size.
     pub(super) fn poly(self) -> &'a Poly {
-        self.poly.get_or_init(|| self.curve.to_poly())
+        let poly = self.poly.get_or_init(|| self.curve.to_poly().into());
+        poly.borrow()
     }
 
     /// The root between two times (`None` is the start or the end of the step), in integers of any

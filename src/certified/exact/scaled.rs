@@ -30,7 +30,7 @@ pub(super) enum Scaled {
         bits: u32,
     },
     /// Of any size.
-    Broad([Integer; COUNT]),
+    Broad(Box<[Integer; COUNT]>),
 }
 
 /// The widest range of coordinates in bits for which differences of differences fit into `i64`.
@@ -103,6 +103,7 @@ impl Scaled {
         }
     }
 
+    #[inline(never)]
     fn broad(parts: &[(i64, i32); 24], lowest: i32) -> Self {
         let coordinates = parts.map(|(mantissa, exponent)| {
             let shift = if mantissa == 0 {
@@ -112,7 +113,7 @@ impl Scaled {
             };
             Integer::from(i128::from(mantissa)).shifted(shift.into())
         });
-        Scaled::Broad(differences(&coordinates, Integer::difference))
+        Scaled::Broad(Box::new(differences(&coordinates, Integer::difference)))
     }
 }
 

@@ -74,6 +74,7 @@ impl<'a, L: Width> Time<'a, L> {
 
     /// The only root strictly between two times (`None` is the start or the end of the step), a
     /// simple one with the sign `before` before it.
+    #[inline(never)]
     pub(super) fn of_root(
         of: Source<'a, L>,
         before: Ordering,
@@ -115,6 +116,7 @@ impl<'a, L: Width> Time<'a, L> {
     }
 
     /// The time of an isolated root.
+    #[inline(never)]
     pub(super) fn of_isolated(isolated: &'a Isolated, index: usize) -> Self {
         match &isolated.cells()[index].place {
             Place::At(at) => Time::at(at.clone()),
@@ -131,6 +133,7 @@ impl<'a, L: Width> Time<'a, L> {
     }
 
     /// The only root strictly between the ends of a bracket.
+    #[inline(never)]
     pub(super) fn between(bracket: Bracket<'a>) -> Self {
         let (moment, [below, above]) = AlgebraicTime::settled(bracket);
         Time {
@@ -158,9 +161,14 @@ impl<'a, L: Width> Time<'a, L> {
 
     /// The sign of a polynomial at the time.
     pub(super) fn sign_of(&self, q: &Quadratic<L>) -> Ordering {
-        if let Some(sign) = self.quick_value_of(q).and_then(sign) {
-            return sign;
-        }
+        let quick = self.quick_value_of(q).and_then(sign);
+        quick.unwrap_or_else(|| self.exact_sign_of(q))
+    }
+
+    /// The same in integers. A function by itself, as its callers ask for many signs, and each
+    /// would take room on their stack.
+    #[inline(never)]
+    fn exact_sign_of(&self, q: &Quadratic<L>) -> Ordering {
         match &self.exact {
             Exact::At(at) => L::quadratic_at(q, at.0).sign(),
             Exact::Root {
@@ -222,7 +230,13 @@ impl<'a, L: Width> Time<'a, L> {
             let quick = nearer.quick_quotient(n, d);
             quick.or_else(|| nearer.tightened()?.quick_quotient(n, d))
         });
-        quick.unwrap_or_else(|| self.moment().quotient(&Poly::new(n), &Poly::new(d)))
+        quick.unwrap_or_else(|| self.exact_quotient(n, d))
+    }
+
+    /// The same in integers of any size.
+    #[inline(never)]
+    fn exact_quotient(&self, n: &Quadratic<L>, d: &Quadratic<L>) -> f64 {
+        self.moment().quotient(&Poly::new(n), &Poly::new(d))
     }
 
     /// The time in narrower bounds, if a Newton step finds them.
@@ -287,6 +301,11 @@ impl<'a, L: Width> Time<'a, L> {
         if let Some(order) = self.quick_compare(other) {
             return order;
         }
+        self.exact_compare(other)
+    }
+
+    #[inline(never)]
+    fn exact_compare(&self, other: &Self) -> Ordering {
         self.moment().compare(&other.moment())
     }
 

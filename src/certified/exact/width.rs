@@ -17,10 +17,13 @@
 //! `(36^2 + 4 18^2) 2^(4b)`, with its sign `4b + 13` bits; that fits into the `2b + 8 + 256` bits
 //! of a value as `b` is at most 124.
 
+use std::borrow::{Borrow, BorrowMut};
 use std::cmp::Ordering;
 
 use super::fraction::Fraction;
 use super::integer::{Integer, add_limbs, multiply_add, subtract_limbs};
+use super::isolate::Isolated;
+use super::poly::Poly;
 
 /// Exact numbers of one width.
 pub(super) trait Number: Clone {
@@ -54,6 +57,11 @@ pub(super) trait Width {
     type QuadraticValue: Number;
     /// Values of polynomials of degree 3.
     type CubicValue: Number;
+    /// The roots that were isolated in integers of any size: in place, or on the heap where the
+    /// numbers are there as well.
+    type Isolated: BorrowMut<Isolated> + From<Isolated>;
+    /// A polynomial in integers of any size, likewise.
+    type Poly: Borrow<Poly> + From<Poly>;
 
     /// `a b`.
     fn times(a: &Self::Linear, b: &Self::Linear) -> Self::Quadratic;
@@ -85,9 +93,6 @@ pub(super) struct Fixed<
     const CV: usize,
 >;
 
-/// Any width, on the heap where it must be.
-pub(super) struct Unlimited;
-
 impl<const L: usize, const Q: usize, const C: usize, const QV: usize, const CV: usize>
     Fixed<L, Q, C, QV, CV>
 {
@@ -114,6 +119,8 @@ impl<const L: usize, const Q: usize, const C: usize, const QV: usize, const CV: 
     type Cubic = Wide<C>;
     type QuadraticValue = Wide<QV>;
     type CubicValue = Wide<CV>;
+    type Isolated = Isolated;
+    type Poly = Poly;
 
     #[inline]
     fn times(a: &Wide<L>, b: &Wide<L>) -> Wide<Q> {
@@ -147,46 +154,6 @@ impl<const L: usize, const Q: usize, const C: usize, const QV: usize, const CV: 
 
     fn cubic_at_fraction(c: &[Wide<C>; 4], at: Fraction) -> Wide<CV> {
         horner_fraction(c, at)
-    }
-}
-
-impl Width for Unlimited {
-    type Linear = Integer;
-    type Quadratic = Integer;
-    type Cubic = Integer;
-    type QuadraticValue = Integer;
-    type CubicValue = Integer;
-
-    fn times(a: &Integer, b: &Integer) -> Integer {
-        Integer::product(a, b)
-    }
-
-    fn times_quadratic(a: &Integer, b: &Integer) -> Integer {
-        Integer::product(a, b)
-    }
-
-    fn times_quadratics(a: &Integer, b: &Integer) -> Integer {
-        Integer::product(a, b)
-    }
-
-    fn quadratic_at(c: &[Integer; 3], grid_time: u128) -> Integer {
-        horner_unlimited(c, grid_time)
-    }
-
-    fn cubic_at(c: &[Integer; 4], grid_time: u128) -> Integer {
-        horner_unlimited(c, grid_time)
-    }
-
-    fn widened(c: &Integer) -> Integer {
-        c.clone()
-    }
-
-    fn quadratic_at_fraction(c: &[Integer; 3], at: Fraction) -> Integer {
-        horner_fraction_unlimited(c, at)
-    }
-
-    fn cubic_at_fraction(c: &[Integer; 4], at: Fraction) -> Integer {
-        horner_fraction_unlimited(c, at)
     }
 }
 
@@ -389,27 +356,6 @@ fn shifted_limbs<const N: usize, const V: usize>(number: &Wide<N>, by: usize) ->
     limbs
 }
 
-fn horner_unlimited(coefficients: &[Integer], grid_time: u128) -> Integer {
-    let grid_time = Integer::from_magnitude(false, &[grid_time as u64, (grid_time >> 64) as u64]);
-    let mut value = Integer::default();
-    for (coefficient, step) in coefficients.iter().rev().zip(0..) {
-        value.mul_assign(&grid_time);
-        value.add_shifted(coefficient, 128 * step);
-    }
-    value
-}
-
-fn horner_fraction_unlimited(coefficients: &[Integer], at: Fraction) -> Integer {
-    let [numerator, denominator] = [at.numerator, at.denominator].map(|n| i128::from(n).into());
-    let (mut value, mut power) = (Integer::default(), Integer::from(1));
-    for coefficient in coefficients.iter().rev() {
-        value.mul_assign(&numerator);
-        value.add_shifted(&Integer::product(coefficient, &power), 0);
-        power.mul_assign(&denominator);
-    }
-    value
-}
-
 /// `limbs -= other 2^(64 from)`, wrapping around.
 #[inline]
 fn subtract_high(limbs: &mut [u64], from: usize, other: &[u64]) {
@@ -419,5 +365,7 @@ fn subtract_high(limbs: &mut [u64], from: usize, other: &[u64]) {
     }
 }
 
+#[cfg(test)]
+mod bounds;
 #[cfg(test)]
 mod tests;

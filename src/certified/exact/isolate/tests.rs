@@ -2,6 +2,13 @@ use proptest::prelude::*;
 
 use super::*;
 
+/// The roots of a polynomial.
+pub(in super::super) fn isolated(poly: Poly) -> Isolated {
+    let mut roots = Isolated::none();
+    roots.find(poly);
+    roots
+}
+
 /// `d t - n` for each of the roots `n / d`, multiplied, as `i64` coefficients.
 fn with_roots(roots: &[(i64, i64)], factor: i64) -> Vec<i64> {
     let mut product = vec![factor];
@@ -54,7 +61,7 @@ proptest! {
         roots in prop::collection::vec(root(), 1..=3),
         factor in prop_oneof![-3i64..=-1, 1i64..=3],
     ) {
-        let isolated = Isolated::new(poly(&with_roots(&roots, factor)));
+        let isolated = isolated(poly(&with_roots(&roots, factor)));
         let mut expected: Vec<(i64, i64, bool)> = Vec::new();
         for &(n, d) in &roots {
             match expected.iter_mut().find(|(m, e, _)| m * d == n * *e) {
@@ -90,7 +97,7 @@ proptest! {
         let a = b * b / (4 * c) + up;
         prop_assume!(a * c * 4 > b * b && a > 0);
         let cubic = [-n * c, d * c - n * b, d * b - n * a, d * a];
-        let isolated = Isolated::new(poly(&cubic));
+        let isolated = isolated(poly(&cubic));
         let is_inside = (0..=d).contains(&n);
         prop_assert_eq!(isolated.cells().len(), usize::from(is_inside));
         prop_assert!(isolated.cells().iter().all(|cell| holds(cell, (n, d))));

@@ -3,8 +3,9 @@ use proptest::prelude::*;
 use super::super::curve::Curve;
 use super::super::grid_time::GridTime;
 use super::super::integer::Integer;
-use super::super::isolate::Isolated;
-use super::super::width::{Unlimited, Wide};
+use super::super::isolate::tests::isolated as isolate;
+use super::super::unlimited::{Boxed, Unlimited};
+use super::super::width::Wide;
 use super::*;
 use crate::certified::exact::Medium;
 
@@ -31,8 +32,8 @@ proptest! {
 
     #[test]
     fn halved_intervals_hold_the_isolated_roots(c in cubic()) {
-        let exact = c.map(Integer::from);
-        let isolated = Isolated::new(Curve::<Unlimited>::Cubic(exact.clone()).to_poly());
+        let exact = c.map(|c| Boxed::from(Integer::from(c)));
+        let isolated = isolate(Curve::<Unlimited>::Cubic(exact.clone()).to_poly());
         let halved = isolate_bisect::<Unlimited>(&exact);
         prop_assert_eq!(&halved, &isolate_bisect::<Medium>(&c.map(Wide::from)));
         let Some(halved) = halved else {
@@ -56,7 +57,7 @@ proptest! {
 /// `(d t - k) (d t - k - 1) (t + 1)`, halved: how many roots are found.
 fn count_of_near_roots(d: i128, k: i128) -> Option<usize> {
     let (a, b, c) = (d * d, -d * (2 * k + 1), k * (k + 1));
-    let cubic = [c, b + c, a + b, a].map(Integer::from);
+    let cubic = [c, b + c, a + b, a].map(|c| Boxed::from(Integer::from(c)));
     isolate_bisect::<Unlimited>(&cubic).map(|found| found.len())
 }
 

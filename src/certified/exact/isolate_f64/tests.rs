@@ -1,6 +1,6 @@
 use proptest::prelude::*;
 
-use super::super::isolate::Isolated;
+use super::super::isolate::tests::isolated;
 use super::super::isolate::tests::poly;
 use super::super::poly::Poly;
 use super::*;
@@ -25,7 +25,7 @@ proptest! {
         let p = poly(&c);
         prop_assume!(!p.is_zero());
         if let Some(intervals) = isolate_f64(&c.map(|c| c as f64)) {
-            let isolated = Isolated::new(p.clone());
+            let isolated = isolated(p.clone());
             prop_assert_eq!(intervals.len(), isolated.cells().len());
             for &interval in &intervals {
                 prop_assert!(changes_sign(&p, interval), "{interval:?}");

@@ -1,8 +1,8 @@
 use proptest::prelude::*;
 
 use super::super::dyadic::tests::middle;
-use super::super::isolate::tests::poly;
-use super::super::isolate::{Isolated, Place};
+use super::super::isolate::Place;
+use super::super::isolate::tests::{isolated, poly};
 use super::*;
 
 /// The sign by halving until the polynomial has no root and no other sign near the root; `None` if
@@ -57,7 +57,7 @@ proptest! {
         };
         let q = if share && q.len() == 3 { vec![q[0] * q[2], q[0] + q[1] * q[2], q[1]] } else { q };
         prop_assume!(p.iter().any(|&c| c != 0));
-        let isolated = Isolated::new(poly(&p));
+        let isolated = isolated(poly(&p));
         for cell in isolated.cells() {
             let Place::Between { poly: index, low, high, before } = &cell.place else {
                 continue;

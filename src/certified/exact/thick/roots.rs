@@ -11,6 +11,7 @@ use crate::certified::exact::dyadic::Dyadic;
 use crate::certified::exact::integer::Integer;
 use crate::certified::exact::modular::are_coprime;
 use crate::certified::exact::remainders::Remainders;
+use crate::certified::exact::two_roots::{Found, two_or_none};
 
 /// How often the step is halved before multiple roots are made simple: these never part.
 const FEW_HALVINGS: u64 = 20;
@@ -74,28 +75,28 @@ fn isolate(poly: &Poly, halvings: u64) -> Option<SmallVec<[Cell; 2]>> {
     // so that its roots part (two circles theorem). All of it in integers.
     while let Some(part) = parts.pop() {
         match part {
-            Part::Root(at) => cells.push(Cell::At(at)),
+            Part::Found(cell) => cells.push(cell),
             Part::Open(piece) => match piece.changes() {
                 0 => {}
-                1 => {
-                    let (low, high) = piece.ends();
-                    let before = piece.first_sign();
-                    cells.push(Cell::Between { low, high, before });
-                }
-                _ if piece.depth() == halvings => return None,
+                1 => cells.push(Cell::between(&piece)),
+                _ if piece.depth() >= halvings => return None,
                 2 if piece.depth() >= FEW_HALVINGS && piece.turns() == 1 => {
-                    cells.extend(two_or_none(
-                        poly,
-                        derivative.get_or_insert_with(|| poly.derivative()),
-                        &piece,
-                    ));
+                    let derivative = derivative.get_or_insert_with(|| poly.derivative());
+                    let mut before = piece.first_sign();
+                    for found in two_or_none(poly, derivative, &piece) {
+                        cells.push(match found {
+                            Found::At(at) => Cell::At(at),
+                            Found::Between((low, high)) => Cell::Between { low, high, before },
+                        });
+                        before = before.reverse();
+                    }
                 }
                 _ => {
                     let (left, right) = piece.halves();
-                    let middle = right.starts_at_root().then(|| Part::Root(right.low()));
-                    parts.push(Part::Open(right));
-                    parts.extend(middle);
-                    parts.push(Part::Open(left));
+                    let middle = right.starts_at_root().then(|| Cell::At(right.low()));
+                    parts.extend(Part::of(right));
+                    parts.extend(middle.map(Part::Found));
+                    parts.extend(Part::of(left));
                 }
             },
         }
@@ -106,57 +107,38 @@ fn isolate(poly: &Poly, halvings: u64) -> Option<SmallVec<[Cell; 2]>> {
     Some(cells)
 }
 
-/// The roots in a piece that has two or none, and in which the derivative has one root.
-///
-/// If there are two, that root is between them, and the polynomial has the other sign there; if
-/// not, it has one sign in the whole piece. Its root and that of the derivative are not the same,
-/// so that narrowing to the latter, which takes few steps however near the two roots are, tells in
-/// the end.
-fn two_or_none(poly: &Poly, derivative: &Poly, piece: &Piece) -> SmallVec<[Cell; 2]> {
-    let (low, high) = piece.ends();
-    let sign = piece.first_sign();
-    let between = |low: &Dyadic, high: &Dyadic, before| Cell::Between {
-        low: low.clone(),
-        high: high.clone(),
-        before,
-    };
-    let mut turn = Bracket::new(derivative, low.clone(), high.clone(), sign.reverse());
-    // Ends: as said above; integers alone decide that the derivative has one root here, and each
-    // turn narrows its bracket.
-    loop {
-        let met = turn.refine();
-        let ends = match &met {
-            Some(at) => [at, at],
-            None => turn.ends(),
-        };
-        for (at, is_before) in ends.into_iter().zip([true, false]) {
-            if at.compare(&low).is_le() || at.compare(&high).is_ge() {
-                continue;
+/// A part of the step that is still to be looked at.
+enum Part {
+    Found(Cell),
+    /// An interval without its ends.
+    Open(Piece),
+}
+
+impl Part {
+    /// Of a piece. Those that are kept whole have two sign changes or more each, and all of them
+    /// together no more than the first: there are few.
+    fn of(mut piece: Piece) -> Option<Self> {
+        match piece.changes() {
+            0 => None,
+            1 => Some(Part::Found(Cell::between(&piece))),
+            _ => {
+                piece.zoom();
+                Some(Part::Open(piece))
             }
-            let here = poly.sign_at(at);
-            if here == sign.reverse() {
-                return [between(&low, at, sign), between(at, &high, here)].into();
-            }
-            if here.is_eq() {
-                let root = Cell::At(at.clone());
-                return match is_before {
-                    true => [root, between(at, &high, sign.reverse())].into(),
-                    false => [between(&low, at, sign), root].into(),
-                };
-            }
-        }
-        if met.is_some() || turn.plain_sign_of(poly).is_some() {
-            return SmallVec::new();
         }
     }
 }
 
-/// A part of the step.
-enum Part {
-    /// This time, which is a root.
-    Root(Dyadic),
-    /// An interval without its ends.
-    Open(Piece),
+impl Cell {
+    /// The root of a piece with one sign change.
+    fn between(piece: &Piece) -> Self {
+        let (low, high) = piece.ends();
+        Cell::Between {
+            low,
+            high,
+            before: piece.first_sign(),
+        }
+    }
 }
 
 /// The polynomial divided by its greatest common divisor with its derivative.

@@ -3,7 +3,8 @@ use std::cell::OnceCell;
 use proptest::prelude::*;
 
 use super::super::roots::Roots;
-use super::super::width::{Fixed, Unlimited, Wide};
+use super::super::unlimited::{Boxed, Unlimited};
+use super::super::width::{Fixed, Wide};
 use super::*;
 use crate::certified::exact::integer::Integer;
 
@@ -113,7 +114,8 @@ fn time_of_a_root_that_fixed_widths_do_not_reach_is_found() {
     let one = Integer::from(1);
     let mut minus_one = one.clone();
     minus_one.negate();
-    let curve = Curve::<Unlimited>::Quadratic([minus_one, one.shifted(200), Integer::default()]);
+    let curve = [minus_one, one.shifted(200), Integer::default()].map(Boxed::from);
+    let curve = Curve::<Unlimited>::Quadratic(curve);
     let poly = OnceCell::new();
     let time = Time::of_root(Source::new(&curve, &poly), Ordering::Less, None, None);
     assert_eq!((time.below, time.above), (2f64.powi(-200), 2f64.powi(-200)));
@@ -121,7 +123,8 @@ fn time_of_a_root_that_fixed_widths_do_not_reach_is_found() {
     let three = one.times(3).shifted(200);
     let mut minus_one = one.clone();
     minus_one.negate();
-    let curve = Curve::<Unlimited>::Quadratic([minus_one, three, Integer::default()]);
+    let curve = [minus_one, three, Integer::default()].map(Boxed::from);
+    let curve = Curve::<Unlimited>::Quadratic(curve);
     let poly = OnceCell::new();
     let time = Time::of_root(Source::new(&curve, &poly), Ordering::Less, None, None);
     let below = 2f64.powi(-200) / 3.0;

@@ -1,5 +1,6 @@
 use proptest::prelude::*;
 
+use super::super::unlimited::{Boxed, Unlimited};
 use super::*;
 
 /// A number of at most `bits` bits, often at the end of that range.
@@ -56,16 +57,23 @@ fn check<const L: usize, const Q: usize, const C: usize, const QV: usize, const 
     same(&reversed, &difference)?;
     let (twice, double) = (quadratic.add(&quadratic), Integer::sum(&sum, &sum));
     let value = Fixed::<L, Q, C, QV, CV>::quadratic_at(&[quadratic, twice, quadratic], grid_time);
+    let exact = [sum.clone(), double, sum].map(Boxed::from);
     same(
         &value,
-        &Unlimited::quadratic_at(&[sum.clone(), double, sum], grid_time),
+        &Unlimited::quadratic_at(&exact, grid_time).to_integer(),
     )?;
     let wide = [reversed, quadratic, reversed];
-    let exact = [difference.clone(), sum_of(&ij, 18), difference];
+    let exact = [difference.clone(), sum_of(&ij, 18), difference].map(Boxed::from);
     let value = Fixed::<L, Q, C, QV, CV>::quadratic_at(&wide, grid_time);
-    same(&value, &Unlimited::quadratic_at(&exact, grid_time))?;
+    same(
+        &value,
+        &Unlimited::quadratic_at(&exact, grid_time).to_integer(),
+    )?;
     let value = Fixed::<L, Q, C, QV, CV>::quadratic_at_fraction(&wide, at);
-    same(&value, &Unlimited::quadratic_at_fraction(&exact, at))?;
+    same(
+        &value,
+        &Unlimited::quadratic_at_fraction(&exact, at).to_integer(),
+    )?;
     let (xyz, ijk) = (
         Fixed::<L, Q, C, QV, CV>::times_quadratic(&xy, &z),
         Integer::product(&ij, &k),
@@ -78,12 +86,15 @@ fn check<const L: usize, const Q: usize, const C: usize, const QV: usize, const 
     same(&cubic, &sum)?;
     let (wide, exact) = (
         [xyz, cubic, cubic, xyz],
-        [ijk.clone(), sum.clone(), sum.clone(), ijk],
+        [ijk.clone(), sum.clone(), sum.clone(), ijk].map(Boxed::from),
     );
     let value = Fixed::<L, Q, C, QV, CV>::cubic_at(&wide, grid_time);
-    same(&value, &Unlimited::cubic_at(&exact, grid_time))?;
+    same(&value, &Unlimited::cubic_at(&exact, grid_time).to_integer())?;
     let value = Fixed::<L, Q, C, QV, CV>::cubic_at_fraction(&wide, at);
-    same(&value, &Unlimited::cubic_at_fraction(&exact, at))?;
+    same(
+        &value,
+        &Unlimited::cubic_at_fraction(&exact, at).to_integer(),
+    )?;
     for _ in 1..8 {
         (cubic, sum) = (
             cubic.add(&sum_wide(&xyz, 18)),
@@ -163,13 +174,76 @@ fn lane_values_at_a_fraction_are_those_of_the_polynomial() {
         numerator: 2,
         denominator: 3,
     };
-    let c = [5, -7, 11, -13].map(Integer::from);
+    let c = [5, -7, 11, -13].map(|c| Boxed::from(Integer::from(c)));
     let value = Unlimited::cubic_at_fraction(&c, at);
     assert_eq!(
-        value,
+        value.to_integer(),
         Integer::from(5 * 27 - 7 * 2 * 9 + 11 * 4 * 3 - 13 * 8)
     );
     let [c0, c1, c2, _] = c;
     let value = Unlimited::quadratic_at_fraction(&[c0, c1, c2], at);
-    assert_eq!(value, Integer::from(5 * 9 - 7 * 2 * 3 + 11 * 4));
+    assert_eq!(
+        value.to_integer(),
+        Integer::from(5 * 9 - 7 * 2 * 3 + 11 * 4)
+    );
+}
+
+/// Limbs at which carries and borrows begin and end.
+const LIMBS: [u64; 7] = [0, 1, 2, (1 << 63) - 1, 1 << 63, u64::MAX - 1, u64::MAX];
+
+/// `a + b`, `a - b` and `a b` of all numbers of two limbs of these, where they fit, against `i128`
+/// and integers of any size.
+#[test]
+fn wide_numbers_of_all_edge_limbs_are_computed_exactly() {
+    let pairs = LIMBS.iter().flat_map(|&low| LIMBS.map(|high| [low, high]));
+    let numbers: Vec<Wide<2>> = pairs.map(Wide).collect();
+    let value = |x: &Wide<2>| (u128::from(x.0[1]) << 64 | u128::from(x.0[0])) as i128;
+    let mut count = 0;
+    for a in &numbers {
+        for b in &numbers {
+            let (x, y) = (value(a), value(b));
+            if let Some(sum) = x.checked_add(y) {
+                assert_eq!(value(&a.add(b)), sum);
+                count += 1;
+            }
+            if let Some(difference) = x.checked_sub(y) {
+                assert_eq!(value(&a.sub(b)), difference);
+            }
+            let product: Wide<4> = product(a, b);
+            let exact = Integer::product(&Integer::from(x), &Integer::from(y));
+            assert_eq!(product.to_integer(), exact);
+            assert_eq!(product.sign(), exact.sign());
+        }
+    }
+    assert!(count > 1000);
+}
+
+/// Every number of 8 bits in place of a limb's: carry and borrow of all sums and differences.
+#[test]
+fn limbs_carry_and_borrow_as_the_integers_do() {
+    for a in 0..=255u64 {
+        for b in 0..=255u64 {
+            // At the top of the limb, where it overflows.
+            let [a, b] = [a, b].map(|x| x << 56);
+            for carry in [false, true] {
+                let (sum, over) = add_limbs(a, b, carry);
+                let exact = u128::from(a) + u128::from(b) + u128::from(carry);
+                assert_eq!(u128::from(over) << 64 | u128::from(sum), exact);
+                let (difference, under) = subtract_limbs(a, b, carry);
+                let exact = i128::from(a) - i128::from(b) - i128::from(carry);
+                assert_eq!(i128::from(difference) - (i128::from(under) << 64), exact);
+            }
+        }
+    }
+    for [a, b, c, d] in edge_limbs() {
+        let (low, high) = multiply_add(a, b, c, d);
+        let exact = Integer::product(&i128::from(a).into(), &i128::from(b).into());
+        let exact = Integer::sum(&exact, &(i128::from(c) + i128::from(d)).into());
+        assert_eq!(Integer::from_magnitude(false, &[low, high]), exact);
+    }
+}
+
+fn edge_limbs() -> impl Iterator<Item = [u64; 4]> {
+    let four = |i: usize| [0, 1, 2, 3].map(|place| LIMBS[i / 7usize.pow(place) % 7]);
+    (0..7usize.pow(4)).map(four)
 }

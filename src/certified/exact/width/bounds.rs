@@ -1,0 +1,223 @@
+//! The bounds of the module, by the code that they speak of: its own functions, on numbers that are
+//! bounds of magnitudes in place of values.
+//!
+//! Every sum and every product that is computed is checked against the bits that its type has. What
+//! depends on a sign takes either way, by chance, so that many runs go through every branch.
+
+use std::cell::Cell;
+use std::cmp::Ordering;
+
+use num_bigint::BigUint;
+
+use super::super::curve::{Curve, bernstein_signs};
+use super::super::face::Face;
+use super::super::fraction::Fraction;
+use super::super::motion::Motion;
+use super::super::time::Time;
+use super::super::{Huge, Large, Medium, Small, Tiny};
+use super::*;
+
+thread_local! {
+    /// The `b` of the bounds, and how far chance has come.
+    static WIDTH: Cell<u32> = const { Cell::new(0) };
+    static CHANCE: Cell<u64> = const { Cell::new(1) };
+}
+
+fn chance() -> Ordering {
+    let mut x = CHANCE.get();
+    x ^= x << 13;
+    x ^= x >> 7;
+    x ^= x << 17;
+    CHANCE.set(x);
+    [Ordering::Less, Ordering::Equal, Ordering::Greater][(x >> 33) as usize % 3]
+}
+
+/// A magnitude that a number of degree `D` in the coordinate differences does not exceed.
+#[derive(Clone, Debug)]
+struct Bound<const D: u32>(BigUint);
+
+impl<const D: u32> Bound<D> {
+    /// The bits of the magnitude that the documentation of the module states.
+    fn bits() -> u64 {
+        let b = u64::from(WIDTH.get());
+        match D {
+            1 => b,
+            2 => 2 * b + 7,
+            3 => 3 * b + 8,
+            // Values of degree 2, and what is of degree 4.
+            4 => 2 * b + 7 + 256,
+            _ => 3 * b + 8 + 384,
+        }
+    }
+
+    fn checked(magnitude: BigUint) -> Self {
+        assert!(
+            magnitude.bits() <= Self::bits(),
+            "{magnitude} of degree {D}"
+        );
+        Bound(magnitude)
+    }
+}
+
+impl<const D: u32> Number for Bound<D> {
+    fn add(&self, other: &Self) -> Self {
+        Bound::checked(&self.0 + &other.0)
+    }
+
+    fn sub(&self, other: &Self) -> Self {
+        self.add(other)
+    }
+
+    fn sign(&self) -> Ordering {
+        chance()
+    }
+
+    fn to_f64(&self) -> f64 {
+        f64::from(chance() as i8)
+    }
+
+    fn to_integer(&self) -> Integer {
+        Integer::default()
+    }
+}
+
+/// `|c0| + |c1| + ...` times the powers of a denominator: what a value at a time in `[0, 1]` is not
+/// above, nor any sum on the way.
+fn value<const D: u32, const V: u32>(c: &[Bound<D>], denominator: &BigUint) -> Bound<V> {
+    let sum: BigUint = c.iter().map(|c| &c.0).sum();
+    Bound::checked(sum * denominator.pow(c.len() as u32 - 1))
+}
+
+fn grid() -> BigUint {
+    BigUint::from(1u32) << 128
+}
+
+struct Bounds;
+
+impl Width for Bounds {
+    type Linear = Bound<1>;
+    type Quadratic = Bound<2>;
+    type Cubic = Bound<3>;
+    type QuadraticValue = Bound<4>;
+    type CubicValue = Bound<5>;
+    type Isolated = Isolated;
+    type Poly = Poly;
+
+    fn times(a: &Bound<1>, b: &Bound<1>) -> Bound<2> {
+        Bound::checked(&a.0 * &b.0)
+    }
+
+    fn times_quadratic(a: &Bound<2>, b: &Bound<1>) -> Bound<3> {
+        Bound::checked(&a.0 * &b.0)
+    }
+
+    fn times_quadratics(a: &Bound<2>, b: &Bound<2>) -> Bound<4> {
+        Bound::checked(&a.0 * &b.0)
+    }
+
+    fn quadratic_at(c: &[Bound<2>; 3], _: u128) -> Bound<4> {
+        value(c, &grid())
+    }
+
+    fn cubic_at(c: &[Bound<3>; 4], _: u128) -> Bound<5> {
+        value(c, &grid())
+    }
+
+    fn widened(c: &Bound<3>) -> Bound<5> {
+        Bound::checked(c.0.clone())
+    }
+
+    fn quadratic_at_fraction(c: &[Bound<2>; 3], at: Fraction) -> Bound<4> {
+        value(c, &BigUint::from(at.denominator))
+    }
+
+    fn cubic_at_fraction(c: &[Bound<3>; 4], at: Fraction) -> Bound<5> {
+        value(c, &BigUint::from(at.denominator))
+    }
+}
+
+/// Everything that is computed of a motion with differences below `2^b`.
+fn compute_all(b: u32) {
+    WIDTH.set(b);
+    let motion = || Motion::<Bounds>::new(|_| Bound::checked((BigUint::from(1u32) << b) - 1u32));
+    let at = Fraction {
+        numerator: 1,
+        denominator: Fraction::LIMIT - 1,
+    };
+    let visit = |c: &[Bound<2>; 3]| {
+        let curve = Curve::<Bounds>::Quadratic(c.clone());
+        let _ = bernstein_signs::<Bounds>(c);
+        let _ = (curve.bernstein_signs(), curve.discriminant_sign());
+        let derivative = curve.derivative().expect("a quadratic");
+        let _ = (derivative.bernstein_signs(), derivative.is_root(at));
+        Bounds::quadratic_at(c, 1);
+        Bounds::times_quadratics(&c[0], &c[2]).sub(&Bounds::times_quadratics(&c[2], &c[0]));
+        Bounds::quadratic_at_fraction(c, at);
+    };
+    let edges = motion();
+    for end in edges.ends() {
+        end.turn.iter().for_each(visit);
+        visit(&end.between);
+    }
+    edges.n.iter().for_each(visit);
+    let curve = Curve::<Bounds>::Cubic(edges.f.clone());
+    let _ = (curve.bernstein_signs(), curve.is_root(at));
+    Bounds::cubic_at(&edges.f, 1);
+    let face = Face::new(motion());
+    for end in face.edges() {
+        end.turn.iter().for_each(visit);
+        visit(&end.between);
+    }
+    for _ in 0..2000 {
+        for time in [Time::start(), Time::end()] {
+            let _ = (edges.locus(&time).is_some(), face.place(&time).is_some());
+        }
+        let _ = (edges.confined_case(), face.case());
+    }
+}
+
+#[test]
+fn widths_hold_every_number_that_is_computed() {
+    for b in [
+        Tiny::BITS,
+        Small::BITS,
+        Medium::BITS,
+        Large::BITS,
+        Huge::BITS,
+    ] {
+        compute_all(b);
+    }
+}
+
+/// The bits that are stated fit into the limbs that each width has, and no width is a bit too
+/// careful: one more does not fit.
+#[test]
+fn widths_have_the_limbs_of_their_bounds() {
+    fn check<const L: u32, const Q: u32, const C: u32>(b: u32) {
+        let fits = |b: u32| {
+            WIDTH.set(b);
+            let limbs = |bits: u64| (bits + 1).div_ceil(64) as u32;
+            limbs(Bound::<1>::bits()) <= L
+                && limbs(Bound::<2>::bits()) <= Q
+                && limbs(Bound::<3>::bits()) <= C
+                && limbs(Bound::<4>::bits()) <= Q + 4
+                && limbs(Bound::<5>::bits()) <= C + 6
+        };
+        assert!(fits(b) && !fits(b + 1), "{b}");
+    }
+    check::<1, 1, 2>(Tiny::BITS);
+    check::<1, 2, 2>(Small::BITS);
+    check::<1, 2, 3>(Medium::BITS);
+    check::<2, 3, 5>(Large::BITS);
+    check::<2, 4, 6>(Huge::BITS);
+}
+
+/// A bound that is a bit too small is noticed.
+#[test]
+#[should_panic(expected = "of degree")]
+fn widths_are_too_small_for_larger_differences() {
+    WIDTH.set(30);
+    let large = (BigUint::from(1u32) << 34) - 1u32;
+    let motion = Motion::<Bounds>::new(|_| Bound(large.clone()));
+    let _ = motion.ends();
+}
