@@ -60,3 +60,10 @@ proptest! {
         }
     }
 }
+
+/// At a root, nothing is beyond anything, however little that is.
+#[test]
+fn enclosure_of_zero_is_beyond_nothing() {
+    let poly = Poly::<4>::new(&[Integer::ZERO, Integer::from(1)]);
+    assert_eq!(poly.sign_beyond(&Dyadic::zero(), -1000), None);
+}
