@@ -160,7 +160,7 @@ impl<const N: usize> Poly<N> {
     pub(super) fn sign_beyond(&self, at: &Dyadic, exponent: i64) -> Option<Ordering> {
         if at.numerator.is_zero() {
             let value = self.coefficient(0);
-            let is_beyond = value.bits() as i64 > exponent + 1;
+            let is_beyond = !value.is_zero() && value.bits() as i64 > exponent + 1;
             return is_beyond.then(|| value.sign());
         }
         // Up to a unit of which the error is less than that.

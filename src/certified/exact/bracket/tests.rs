@@ -113,9 +113,9 @@ fn divide_about_is_within_a_cell() {
 fn bracket_narrows_for_a_sign_in_few_turns() {
     // t^3 + t = 1
     let poly = poly(&[-1, 1, 0, 1]);
-    let turns = |is_for_sign: bool| {
+    let turns = |is_far: bool| {
         let new = Bracket::new(&poly, Dyadic::zero(), Dyadic::one(), Ordering::Less);
-        let mut bracket = Bracket { is_for_sign, ..new };
+        let mut bracket = Bracket { is_far, ..new };
         let mut turns = 0;
         while bracket.exponent() < 20_000 {
             assert!(bracket.refine().is_none(), "it is no binary number");

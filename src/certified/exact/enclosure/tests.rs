@@ -56,7 +56,14 @@ proptest! {
         match poly.sign_beyond(&at, from) {
             Some(sign) => prop_assert!(sign == exact.sign() && bits > from + scale),
             // At most 4 times that.
-            None => prop_assert!(bits <= from + scale + 2),
+            None => prop_assert!(exact.is_zero() || bits <= from + scale + 2),
         }
     }
+}
+
+/// At a root, nothing is beyond anything, however little that is.
+#[test]
+fn enclosure_of_zero_is_beyond_nothing() {
+    let poly = Poly::<4>::new(&[Integer::ZERO, Integer::from(1)]);
+    assert_eq!(poly.sign_beyond(&Dyadic::zero(), -1000), None);
 }
