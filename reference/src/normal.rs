@@ -1,7 +1,7 @@
 //! The exact contact normal, and normals judged by it.
 //!
 //! The normal of a contact is the direction of the shortest vector from the first side to the second,
-//! a moment before the first contact ([`Hit::normal`](tunnelproof::certified::Hit::normal)). Here that vector is found in integers, by trying
+//! a moment before the first contact ([`Hit::normal`](tunnelproof::contact::Hit::normal)). Here that vector is found in integers, by trying
 //! all features, at a time so shortly before the oracle's time of impact that nearer ones no longer
 //! turn it. With a radius above 0 that is the normal at the contact too, because the vector is
 //! continuous there.
