@@ -20,6 +20,7 @@ use tunnelproof_reference::answer::ExactHit;
 use tunnelproof_reference::oracle::decide_rigid_query;
 
 use super::core::{Core, ROUNDING, Surface};
+use super::pairs::covering;
 use super::separate::{are_boxes_apart, is_node_apart, is_segment_apart};
 
 type Vector = Vector3<f64>;
@@ -285,7 +286,7 @@ impl Part {
                     return Ok(None);
                 }
                 *asked += 1;
-                let covering = covering(looks.as_flattened());
+                let covering = covering(reach(looks.as_flattened()));
                 let on_node = |node: usize| self.against_face(node, &covering);
                 Ok(first([on_node(0)?, on_node(1)?]))
             }
@@ -356,17 +357,11 @@ pub(super) fn first(hits: impl IntoIterator<Item = Option<ExactHit>>) -> Option<
     hits.into_iter().flatten().min_by(earlier)
 }
 
-/// A triangle of the plane `z = 0` that covers wherever points come that go between these.
-fn covering(points: &[Vector]) -> [Point; 3] {
-    let far = points
+/// The largest distance of some points from the origin.
+fn reach(points: &[Vector]) -> f64 {
+    points
         .iter()
-        .fold(1e-300, |a: f64, point| a.max(point.norm()));
-    let size = 16.0 * far;
-    [
-        Point::new(-size, -size, 0.0),
-        Point::new(2.0 * size, -size, 0.0),
-        Point::new(-size, 2.0 * size, 0.0),
-    ]
+        .fold(0.0, |far: f64, point| far.max(point.norm()))
 }
 
 /// Whether a segment touches a core, or is certainly inside.
@@ -408,7 +403,7 @@ pub(super) fn is_swept(
     };
     let surface = match core {
         Core::Plane => {
-            let covering = covering(&local);
+            let covering = covering(reach(&local));
             return any(sides, |[from, to]| touches(from, to, &covering));
         }
         Core::Surface(surface) => surface,

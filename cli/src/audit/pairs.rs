@@ -21,6 +21,7 @@ use tunnelproof_reference::oracle::decide_rigid_query;
 use super::bodies::{BodyWay, Touch, first, quarter_tangent};
 use super::core::{Core, ROUNDING};
 use super::overlap::overlap;
+use super::separate::gap;
 
 type Vector = Vector3<f64>;
 
@@ -257,13 +258,11 @@ impl Stage {
 
 /// Whether points of two bodies are farther apart than a margin along an axis, at each of some times.
 fn is_between(axis: &Vector, times: &[[Vec<Vector>; 2]], margin: f64) -> bool {
-    let least = |points: &[Vector], sign: f64| {
-        let along = points.iter().map(|point| sign * axis.dot(point));
-        along.fold(f64::INFINITY, f64::min)
+    let is_beyond = |[first, second]: [usize; 2]| {
+        let mut times = times.iter();
+        times.all(|points| gap(axis, &points[first], &points[second]) > margin)
     };
-    let gap = |[a, b]: &[Vec<Vector>; 2], sign: f64| least(a, sign) + least(b, -sign);
-    let is_apart = |sign: f64| times.iter().all(|time| gap(time, sign) > margin);
-    is_apart(1.0) || is_apart(-1.0)
+    is_beyond([0, 1]) || is_beyond([1, 0])
 }
 
 /// Whether points of two bodies at rest are farther apart than a margin.
@@ -285,7 +284,7 @@ pub(super) fn corners(faces: &[[Point; 3]]) -> Vec<Point> {
 }
 
 /// A triangle of the plane `z = 0` that covers a circle of this radius.
-fn covering(radius: f64) -> [Point; 3] {
+pub(super) fn covering(radius: f64) -> [Point; 3] {
     let size = 16.0 * radius.max(1e-300);
     [
         Point::new(-size, -size, 0.0),

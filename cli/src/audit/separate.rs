@@ -29,9 +29,15 @@ pub(super) fn is_segment_apart(way: &[Vector; 4], edge: &[Vector; 2], stray: f64
     let along = edge[1] - edge[0];
     let [first, last] = [way[1] - way[0], way[3] - way[2]];
     let moved = [way[2] - way[0], way[3] - way[1]];
-    let mut axes = vec![first.cross(&last)];
-    axes.extend([first, last, moved[0], moved[1]].map(|direction| direction.cross(&along)));
-    axes.extend(moved.map(|moved| first.cross(&moved)));
+    let axes = [
+        first.cross(&last),
+        first.cross(&along),
+        last.cross(&along),
+        moved[0].cross(&along),
+        moved[1].cross(&along),
+        first.cross(&moved[0]),
+        first.cross(&moved[1]),
+    ];
     let (low, high) = (edge[0].inf(&edge[1]), edge[0].sup(&edge[1]));
     are_boxes_apart(way, stray, &low, &high) || are_separated(way, edge, stray, &axes)
 }
@@ -39,17 +45,17 @@ pub(super) fn is_segment_apart(way: &[Vector; 4], edge: &[Vector; 2], stray: f64
 /// Whether one of some axes separates two convex hulls by more than `stray`, which is more than all
 /// roundings here; an axis so short that its products are subnormal does not.
 fn are_separated(points: &[Vector], others: &[Vector], stray: f64, axes: &[Vector]) -> bool {
-    let span = |of: &[Vector], axis: &Vector| {
-        let along = of.iter().map(|point| axis.dot(point));
-        along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
-            [low.min(x), high.max(x)]
-        })
-    };
     axes.iter().any(|axis| {
         let margin = stray * axis.norm();
-        let [low, high] = span(points, axis);
-        let [other_low, other_high] = span(others, axis);
-        let gap = (low - other_high).max(other_low - high);
+        let gap = gap(axis, points, others).max(gap(axis, others, points));
         margin.is_normal() && gap > margin
     })
+}
+
+/// How far some points are beyond others along an axis; below 0 if some are not.
+pub(super) fn gap(axis: &Vector, points: &[Vector], others: &[Vector]) -> f64 {
+    let along = |points: &[Vector], least: fn(f64, f64) -> f64, from: f64| {
+        points.iter().map(|point| axis.dot(point)).fold(from, least)
+    };
+    along(points, f64::min, f64::INFINITY) - along(others, f64::max, f64::NEG_INFINITY)
 }

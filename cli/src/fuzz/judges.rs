@@ -46,24 +46,20 @@ pub(super) fn certified_vs_oracle(query: &Query) -> Option<String> {
     fault(&disagreement, query).or_else(|| normal_fault(query))
 }
 
-/// What is wrong with the certified path's normal.
+/// What is wrong with the certified path's normal of a hit.
 fn normal_fault(query: &Query) -> Option<String> {
     let found = match query {
-        Query::EdgeEdge(query) => decide(query).map(|hit| hit.normal(query)),
-        Query::VertexFace(query) => decide(query).map(|hit| hit.normal(query)),
+        Query::EdgeEdge(query) => decide(query)?.normal(query),
+        Query::VertexFace(query) => decide(query)?.normal(query),
     };
-    normals_differ(ExactNormal::of(query), found)
+    wrong_normal(ExactNormal::of(query), found)
 }
 
-/// What is wrong with the normal that was found of a hit.
-pub(super) fn normals_differ(
-    exact: Option<ExactNormal>,
-    found: Option<Option<Normal>>,
-) -> Option<String> {
-    match (exact, found) {
-        (None, None) => None,
-        (Some(exact), Some(found)) => exact.judge(found.as_ref()).err(),
-        (exact, found) => Some(format!("{found:?} instead of {exact:?}")),
+/// What is wrong with the normal of a hit.
+pub(super) fn wrong_normal(exact: Option<ExactNormal>, found: Option<Normal>) -> Option<String> {
+    match exact {
+        Some(exact) => exact.judge(found.as_ref()).err(),
+        None => Some("a hit where the oracle has none".to_owned()),
     }
 }
 

@@ -19,7 +19,7 @@ use tunnelproof_reference::registry::turning_subjects;
 use tunnelproof_reference::subject::Answer;
 
 use super::input::{Numbers, byte, finite, word};
-use super::judges::normals_differ;
+use super::judges::wrong_normal;
 
 /// What is wrong: who differs from the oracle, and the query.
 pub(super) fn check(bytes: &[u8]) -> Option<String> {
@@ -40,8 +40,8 @@ pub(super) fn check(bytes: &[u8]) -> Option<String> {
     let wrong = match wrong_subject {
         Some(subject) => format!("{} differs from the oracle", subject.name()),
         None => {
-            let found = decide_rigid(&query).map(|hit| hit.normal(&query));
-            normals_differ(ExactNormal::of_rigid(&query), found)?
+            let found = decide_rigid(&query)?.normal(&query);
+            wrong_normal(ExactNormal::of_rigid(&query), found)?
         }
     };
     let entry = TurningEntry {
