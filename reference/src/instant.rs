@@ -13,6 +13,8 @@ use num_traits::{One, Signed, Zero};
 use tunnelproof::certified::Proximity;
 use tunnelproof::query::{EdgeEdge, Point};
 
+use crate::vector::{cross, dot};
+
 type Vector = [BigRational; 3];
 
 /// What of a [`Proximity`] is not as promised.
@@ -232,14 +234,6 @@ fn number(x: f64) -> BigRational {
 fn square(x: f64) -> BigRational {
     let x = number(x);
     &x * &x
-}
-
-fn dot(x: &Vector, y: &Vector) -> BigRational {
-    (0..3).map(|i| &x[i] * &y[i]).sum()
-}
-
-fn cross(x: &Vector, y: &Vector) -> Vector {
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j): (usize, usize)| &x[i] * &y[j] - &x[j] * &y[i])
 }
 
 impl fmt::Display for Wrong {

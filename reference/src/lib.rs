@@ -23,5 +23,6 @@ pub mod shadow;
 pub mod shape;
 pub mod shrink;
 pub mod subject;
+mod vector;
 
 pub use certify::trial::certify;

@@ -14,10 +14,11 @@ use tunnelproof::rigid::RigidQuery;
 use crate::algebraic::Algebraic;
 use crate::oracle;
 use crate::scaled::{Scaled, ScaledBody, ScaledRigid, ScaledSide};
+use crate::vector::{cross, dot, sub};
 
 mod shortest;
 
-use shortest::{Vector, cross, dot, shortest, sub, times};
+use shortest::{Vector, shortest, times};
 
 /// The bits of numbers in fixed point.
 const BITS: u64 = 200;

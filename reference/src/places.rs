@@ -13,6 +13,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use tunnelproof::query::{Point, Query};
 
 use crate::answer::{Enclosure, ExactHit};
+use crate::vector::{dot, sub};
 
 type Vector = [BigRational; 3];
 
@@ -125,14 +126,6 @@ fn number(x: f64) -> BigRational {
 
 fn between(a: &BigRational, b: &BigRational, t: &BigRational) -> BigRational {
     a + t * (b - a)
-}
-
-fn sub(x: &Vector, y: &Vector) -> Vector {
-    [0, 1, 2].map(|i| &x[i] - &y[i])
-}
-
-fn dot(x: &Vector, y: &Vector) -> BigRational {
-    (0..3).map(|i| &x[i] * &y[i]).sum()
 }
 
 #[cfg(test)]

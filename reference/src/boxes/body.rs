@@ -5,6 +5,8 @@ use num_rational::BigRational;
 use num_traits::Zero;
 use tunnelproof::query::Point;
 
+use crate::vector::{dot, sub};
+
 /// What a body is, without its radius.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
@@ -231,18 +233,6 @@ pub(super) fn add(x: &Vector, y: &Vector) -> Vector {
     [0, 1, 2].map(|h| &x[h] + &y[h])
 }
 
-pub(super) fn sub(x: &Vector, y: &Vector) -> Vector {
-    [0, 1, 2].map(|h| &x[h] - &y[h])
-}
-
 pub(super) fn scale(x: &Vector, by: &BigRational) -> Vector {
     [0, 1, 2].map(|h| &x[h] * by)
-}
-
-pub(super) fn dot(x: &Vector, y: &Vector) -> BigRational {
-    &x[0] * &y[0] + &x[1] * &y[1] + &x[2] * &y[2]
-}
-
-pub(super) fn cross(x: &Vector, y: &Vector) -> Vector {
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &x[i] * &y[j] - &x[j] * &y[i])
 }

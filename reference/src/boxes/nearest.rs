@@ -14,7 +14,9 @@
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-use super::body::{BoxCast, Vector, add, dot, number, scale, sub, vector};
+use crate::vector::{dot, sub};
+
+use super::body::{BoxCast, Vector, add, number, scale, vector};
 
 /// The square of the least distance of the bodies, without their radii, from the start until this
 /// time of the step.

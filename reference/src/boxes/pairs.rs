@@ -16,8 +16,9 @@ use tunnelproof::query::{Point, Query, QueryKind};
 
 use crate::answer::Enclosure;
 use crate::oracle::decide_query;
+use crate::vector::{dot, sub};
 
-use super::body::{Body, BoxCast, Shape, dot, sub, vector};
+use super::body::{Body, BoxCast, Shape, vector};
 
 /// The time of the first contact; `None` if there is none.
 pub fn decide_pairs(cast: &BoxCast) -> Option<Enclosure> {

@@ -9,7 +9,9 @@
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-use super::body::{Body, BoxCast, Shape, Vector, cross, dot, sub, vector};
+use crate::vector::{cross, dot, sub};
+
+use super::body::{Body, BoxCast, Shape, Vector, vector};
 
 /// When the bodies share a point, without their radii.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,22 +5,12 @@
 use num_bigint::BigInt;
 use tunnelproof::query::QueryKind;
 
-pub(super) type Vector = [BigInt; 3];
+use crate::vector::{cross, dot, sub};
 
-pub(super) fn sub(x: &Vector, y: &Vector) -> Vector {
-    [0, 1, 2].map(|i: usize| &x[i] - &y[i])
-}
+pub(super) type Vector = [BigInt; 3];
 
 pub(super) fn times(factor: &BigInt, x: &Vector) -> Vector {
     x.each_ref().map(|x| factor * x)
-}
-
-pub(super) fn dot(x: &Vector, y: &Vector) -> BigInt {
-    &x[0] * &y[0] + &x[1] * &y[1] + &x[2] * &y[2]
-}
-
-pub(super) fn cross(x: &Vector, y: &Vector) -> Vector {
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j): (usize, usize)| &x[i] * &y[j] - &x[j] * &y[i])
 }
 
 /// The vector `way / by`, `by` above 0.
