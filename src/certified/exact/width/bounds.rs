@@ -33,6 +33,23 @@ fn chance() -> Ordering {
     [Ordering::Less, Ordering::Equal, Ordering::Greater][(x >> 33) as usize % 3]
 }
 
+/// The functions of a number that tell its value, of which nothing is known.
+macro_rules! values_by_chance {
+    () => {
+        fn sign(&self) -> Ordering {
+            chance()
+        }
+
+        fn to_f64(&self) -> f64 {
+            f64::from(chance() as i8)
+        }
+
+        fn to_integer(&self) -> Integer {
+            Integer::default()
+        }
+    };
+}
+
 /// A polynomial in the components of a motion, of degree `D`: the product of the components with
 /// these indices, in ascending order, times a coefficient each. So what cancels is seen.
 #[derive(Clone, Debug)]
@@ -102,17 +119,7 @@ impl<const D: u32> Number for Terms<D> {
         self.plus(other, -1)
     }
 
-    fn sign(&self) -> Ordering {
-        chance()
-    }
-
-    fn to_f64(&self) -> f64 {
-        f64::from(chance() as i8)
-    }
-
-    fn to_integer(&self) -> Integer {
-        Integer::default()
-    }
+    values_by_chance!();
 }
 
 impl<const D: u32> Bound<D> {
@@ -134,17 +141,7 @@ impl<const D: u32> Number for Bound<D> {
         self.add(other)
     }
 
-    fn sign(&self) -> Ordering {
-        chance()
-    }
-
-    fn to_f64(&self) -> f64 {
-        f64::from(chance() as i8)
-    }
-
-    fn to_integer(&self) -> Integer {
-        Integer::default()
-    }
+    values_by_chance!();
 }
 
 /// `|c0| + |c1| + ...` times the power of a denominator: what a value at a time in `[0, 1]` is not
