@@ -46,4 +46,11 @@ cases! {
     momentum_of_an_isolated_system_stays: "momentum",
     angular_momentum_of_an_isolated_chain_stays: "angular momentum",
     energy_never_rises_but_for_the_order_of_the_step: "energy",
+    cantilever_bends_far_as_the_elastica: "cantilever, bent far",
+    column_buckles_as_the_elastica: "column, buckled",
+    column_bends_over_at_greenhills_height: "tallest column",
+    rope_hangs_in_an_elastic_catenary: "elastic catenary",
+    folded_chain_falls_ahead_of_free_fall: "folded chain",
+    hanging_chain_swings_as_bernoulli_found: "hanging chain",
+    sagging_cable_has_the_frequency_of_its_stretch: "sagging cable",
 }

@@ -3,8 +3,11 @@
 //! `cargo run --release --example wire_table` prints them; `tests/wire_table.rs` holds each to its
 //! tolerance.
 
+mod cable;
 mod contact;
 mod drum;
+mod elastica;
+mod falling;
 mod motion;
 mod statics;
 mod swing;
@@ -60,7 +63,7 @@ impl Comparison {
 }
 
 /// All cases.
-pub(crate) const CASES: [Case; 18] = [
+pub(crate) const CASES: [Case; 25] = [
     motion::FREE_FALL,
     statics::STRETCH,
     motion::PENDULUM,
@@ -79,6 +82,13 @@ pub(crate) const CASES: [Case; 18] = [
     motion::MOMENTUM,
     motion::ANGULAR_MOMENTUM,
     motion::ENERGY,
+    elastica::BENT_CANTILEVER,
+    elastica::COLUMN,
+    elastica::TALLEST,
+    elastica::ELASTIC_CATENARY,
+    falling::FOLDED,
+    cable::HANGING,
+    cable::SAGGING,
 ];
 
 /// What contacts a world has at present.
