@@ -21,6 +21,10 @@ use tunnelproof::wire::{
 use crate::sweep::Setting;
 use tunnelproof_reference::certify::table::grouped;
 
+mod behind;
+
+pub use behind::Behind;
+
 /// No continuous detection at all: wires get contacts where they overlap at the end of a step. In
 /// guard mode changes of resolution are tested still: no time passes in them.
 pub struct Discrete;
@@ -155,6 +159,8 @@ pub struct Summary {
     pub grazed: usize,
     /// Motions shortened.
     pub held: usize,
+    /// Scripted bodies that made less of their way than their script says, in the order of the scene.
+    pub behind: Vec<Behind>,
     /// Changes of resolution.
     pub remeshes: usize,
     /// Changes of resolution refused.
@@ -239,6 +245,7 @@ impl Run<'_> {
             match record {
                 Ok(record) => {
                     summary.add(&record);
+                    behind::add(&mut summary.behind, &record, &world, self.scene);
                     observe(&world, &collisions, &record)?;
                 }
                 Err(error) => {
@@ -372,6 +379,9 @@ impl fmt::Display for Summary {
         }
         for (name, value) in rows {
             writeln!(f, "  {name:<22}{value}")?;
+        }
+        for behind in &self.behind {
+            writeln!(f, "  {:<22}{behind}", "behind its script")?;
         }
         match &self.stopped {
             Some(error) => writeln!(f, "  {:<22}{error}", "stopped"),

@@ -115,10 +115,15 @@ impl fmt::Display for RigidError {
                 write!(f, "the quaternion at t = {time} is 0; it needs a length")
             }
             RigidError::TurnsTooFar { degrees } => {
+                // All digits where fewer would read as if it were permitted.
+                let angle = match degrees - MOST_DEGREES > 1e-3 {
+                    true => format!("{degrees:.3}"),
+                    false => degrees.to_string(),
+                };
                 write!(
                     f,
-                    "the body turns by {degrees:.3} degrees in the step; divide the step so that \
-                     it turns by at most {MOST_DEGREES}"
+                    "the body turns by {angle} degrees in the step; divide the step so that it \
+                     turns by at most {MOST_DEGREES}"
                 )
             }
             RigidError::World {

@@ -99,7 +99,8 @@ impl Explain {
         self.programs.check_turning(&more)?;
         let programs = more.iter().filter(|more| more.program().is_some());
         let subjects = registry::turning_subjects().into_iter();
-        let subjects: Vec<_> = subjects.chain(programs.map(Answering::subject)).collect();
+        let subjects = subjects.chain(programs.map(Answering::subject));
+        let subjects: Vec<_> = subjects.map(certify::judged).collect();
         print(&report::turning::explain(&entry, &answer, &subjects))?;
         Ok(ExitCode::SUCCESS)
     }

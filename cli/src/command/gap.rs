@@ -4,6 +4,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use tunnelproof_reference::corpus::locate::locate;
+use tunnelproof_reference::generate::RigidId;
 use tunnelproof_reference::oracle::least_gap_to;
 
 use super::output::print;
@@ -33,6 +34,10 @@ pub(super) struct Gap {
 
 impl Gap {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
+        if RigidId::parse(&self.query).is_some() {
+            let problem = "is of bodies that turn, of which no gap is measured";
+            return Err(Failure::file(&self.query, problem));
+        }
         let entry = locate(&self.query, self.reading.options())?;
         let gap = least_gap_to(&entry.query, self.width);
         print(&format!("{} {}\n", gap.below, gap.above))?;

@@ -77,6 +77,7 @@ impl Shrink {
             subject: answering.subject(),
             truth: self.truth.truth,
         };
+        let mut is_asked = false;
         for entry in self.entries()? {
             let (id, query) = entry?;
             let refused = |reason: Unsupported| RunError::NoAnswer {
@@ -84,6 +85,7 @@ impl Shrink {
                 reason: reason.into(),
             };
             let Some(fault) = disagreement.fault(&query).map_err(refused)? else {
+                is_asked |= disagreement.is_asked(&query);
                 continue;
             };
             let name = format!("{}{SHRUNK}", id.strip_suffix(SHRUNK).unwrap_or(&id));
@@ -99,11 +101,14 @@ impl Shrink {
             print(&format!("{line}\n"))?;
             return Ok(ExitCode::SUCCESS);
         }
-        eprintln!(
-            "{}: {} is right, there is nothing to shrink",
-            self.query,
-            answering.subject().name()
-        );
+        let name = answering.subject().name();
+        match is_asked {
+            true => eprintln!(
+                "{}: {name} is right, there is nothing to shrink",
+                self.query
+            ),
+            false => eprintln!("{}: {name} takes no such queries", self.query),
+        }
         Ok(ExitCode::FAILURE)
     }
 

@@ -121,8 +121,20 @@ impl Programs {
     ///
     /// # Errors
     ///
-    /// A library, or a program that reads the binary form.
+    /// A subject that is known to take none, a library, or a program that reads the binary form.
     pub(super) fn check_turning(&self, answering: &[Answering]) -> Result<(), Failure> {
+        let takers = registry::turning_subjects().map(|subject| subject.name());
+        for name in answering.iter().map(|one| one.subject().name()) {
+            if registry::by_name(name).is_some() && !takers.contains(&name) {
+                return Err(Failure::Program {
+                    name: name.to_owned(),
+                    reason: format!(
+                        "takes no queries of bodies that turn; {} do, and programs (cmd:)",
+                        takers.join(", ")
+                    ),
+                });
+            }
+        }
         let mut programs = answering.iter().filter_map(Answering::program);
         let refused = programs.find_map(|program| {
             let name = program.name();

@@ -3,15 +3,17 @@
 
 use std::fmt::Write as _;
 
+use tunnelproof::contact::Case;
 use tunnelproof::rigid::{RigidMotion, Side};
 use tunnelproof_reference::answer::ExactAnswer;
-use tunnelproof_reference::certify::verdict::{Judgement, Verdict, judge};
+use tunnelproof_reference::certify::judged::Judged;
+use tunnelproof_reference::certify::query::AnyQuery;
 use tunnelproof_reference::corpus::turning::TurningEntry;
-use tunnelproof_reference::report::{answer, number};
-use tunnelproof_reference::subject::{Answer, Subject};
+use tunnelproof_reference::report::explanation::{self, Statement};
+use tunnelproof_reference::report::number;
 
 /// The text for a query, its exact answer, and what these subjects say.
-pub fn explain(entry: &TurningEntry, truth: &ExactAnswer, subjects: &[&dyn Subject]) -> String {
+pub fn explain(entry: &TurningEntry, truth: &ExactAnswer, subjects: &[Judged]) -> String {
     let query = &entry.query;
     let mut text = format!("{}\n\n  {}\n", entry.id, query.kind());
     let mut names = NAMES.iter();
@@ -45,35 +47,32 @@ pub fn explain(entry: &TurningEntry, truth: &ExactAnswer, subjects: &[&dyn Subje
     if !query.radius().is_zero() {
         let _ = writeln!(text, "  radius  {}", query.radius());
     }
-    text.push('\n');
-    let _ = writeln!(text, "Case: {}\n", truth.case);
-    for subject in subjects {
-        let line = match subject.turning_answer(query) {
-            Ok(answer) => said(subject.name(), truth, &answer),
-            Err(reason) => format!("{}: {reason}", subject.name()),
-        };
-        let _ = writeln!(text, "{line}");
+    let _ = writeln!(text, "\nCase: {}: {}", truth.case, words_of(truth.case));
+    match &truth.hit {
+        Some(hit) => {
+            let lines = explanation::contact(hit, !query.radius().is_zero());
+            let _ = write!(text, "\nTime of impact\n{lines}");
+        }
+        None => text.push_str("\nNo contact.\n"),
     }
-    text
+    let query = AnyQuery::from(*query);
+    let said: Vec<_> = subjects
+        .iter()
+        .map(|subject| Statement::new(subject, &query, truth))
+        .collect();
+    text + "\n" + &explanation::statements(&said)
 }
 
-/// What a subject says, and what is wrong with it.
-fn said(name: &str, truth: &ExactAnswer, answer: &Answer) -> String {
-    let judgement = judge(truth, Some(answer), || false);
-    let verdict = match judgement {
-        _ if judgement.differs => "  differs from the oracle".to_owned(),
-        Judgement {
-            verdict: Verdict::Right,
-            late,
-            ..
-        } if late > 0.0 => format!("  late by {late:e}"),
-        Judgement {
-            verdict: Verdict::Right,
-            ..
-        } => String::new(),
-        Judgement { verdict, .. } => format!("  {}", verdict.name()),
-    };
-    answer::turning_line(name, answer) + &verdict
+/// What a case means where sides turn.
+fn words_of(case: Case) -> &'static str {
+    match case {
+        Case::General => "none of the special cases",
+        Case::Parallel => "directions are parallel for the whole step, on two lines",
+        Case::Coplanar => "the four points share a plane for the whole step",
+        Case::Collinear => "the four points share a line for the whole step",
+        Case::SharedStart => "A and C are the same point for the whole step",
+        Case::Degenerate => "an edge is a point, or the face has no area",
+    }
 }
 
 const NAMES: [char; 4] = ['A', 'B', 'C', 'D'];

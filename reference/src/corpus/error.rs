@@ -49,6 +49,9 @@ pub enum Problem {
     /// The kind has another name than the two there are.
     #[error("kind is {}, neither edge-edge nor vertex-face", quoted(.0))]
     KindUnknown(String),
+    /// The line has fields that queries of bodies that turn have, and others do not.
+    #[error("is a query of bodies that turn, which are read with --turning")]
+    Turning,
     /// The kind is none of bodies that turn.
     #[error("kind is {}, not {}", quoted(.0), RigidQueryKind::ALL.map(RigidQueryKind::name).join(", "))]
     TurningKindUnknown(String),

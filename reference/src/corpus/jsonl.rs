@@ -162,11 +162,21 @@ impl Record {
             return Err(Problem::NotObject);
         }
         let mut json = serde_json::Deserializer::from_str(text);
-        let record = serde_path_to_error::deserialize(&mut json)
-            .map_err(|error| problem(place(error.path()), error.inner()))?;
+        let record = serde_path_to_error::deserialize(&mut json).map_err(|error| {
+            match is_of_turning(error.path()) {
+                true => Problem::Turning,
+                false => problem(place(error.path()), error.inner()),
+            }
+        })?;
         json.end().map_err(|error| problem(String::new(), &error))?;
         Ok(record)
     }
+}
+
+/// Whether a field is one of a query of bodies that turn, which no other query has.
+fn is_of_turning(path: &Path) -> bool {
+    let first = path.iter().next();
+    matches!(first, Some(Segment::Map { key }) if key == "local" || key == "poses")
 }
 
 pub(super) fn problem(place: String, error: &serde_json::Error) -> Problem {

@@ -22,6 +22,7 @@ use nalgebra::Quaternion;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::json;
+use serde_path_to_error::Segment;
 use tunnelproof::query::{Point, Radius};
 use tunnelproof::rigid::{Pose, RigidQuery, RigidQueryKind, Side};
 
@@ -249,9 +250,10 @@ fn entry(line: &Line) -> Result<TurningEntry, Problem> {
     }
     let mut json = serde_json::Deserializer::from_str(&line.text);
     let record: Record = serde_path_to_error::deserialize(&mut json).map_err(|error| {
-        let place = match error.path().iter().next() {
-            Some(_) => shortened(&error.path().to_string(), 60),
-            None => String::new(),
+        let is_known = |segment: &Segment| !matches!(segment, Segment::Unknown);
+        let place = match error.path().iter().any(is_known) {
+            true => shortened(&error.path().to_string(), 60),
+            false => String::new(),
         };
         jsonl::problem(place, error.inner())
     })?;

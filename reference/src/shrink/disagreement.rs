@@ -55,6 +55,16 @@ impl<'a> Disagreement<'a> {
             .min())
     }
 
+    /// Whether the subject takes such queries.
+    pub fn is_asked<Q: Copy + Into<AnyQuery>>(&self, query: &Q) -> bool {
+        let query = (*query).into();
+        let judged = Judged {
+            subject: self.subject,
+            explain: None,
+        };
+        (self.truth)(&query).is_ok_and(|truth| judged.judge(query, &truth).is_asked)
+    }
+
     /// The smallest query on which the subject does wrong what it does on this one.
     pub fn shrink<Q: Shrinkable>(&self, query: &Q, fault: Fault, most_calls: u64) -> Shrunk<Q> {
         shrink(query, most_calls, |query: &Q| {

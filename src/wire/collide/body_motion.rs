@@ -6,16 +6,20 @@
 //! parts in which the body turns by at most [`FINE`]; at the ends of parts the node is where the
 //! body has it, rounded. Two bodies that may come near each other have pieces of the same times.
 
+use std::f64::consts::TAU;
+
 use nalgebra::Quaternion;
 
 use super::segment::direction;
 use crate::query::Point;
 use crate::rigid::{Pose, RigidError, RigidMotion};
 use crate::wire::Vector;
+use crate::wire::error::CollisionError;
 use crate::wire::model::BodyId;
 use crate::wire::record;
 use crate::wire::site::SegmentId;
 use crate::wire::step::motion::ProposedMotion;
+use crate::wire::step::stages::MOST_TURNS;
 use crate::wire::world::World;
 
 /// The largest turn of a part for a segment that is fixed to the body, in radians: a degree.
@@ -57,19 +61,22 @@ impl BodyWay {
         world: &World,
         motion: &ProposedMotion,
         body: BodyId,
-    ) -> Result<Self, RigidError> {
+    ) -> Result<Self, CollisionError> {
         let ended = motion.body(body);
         if !ended.is_followed {
-            let turn = ended.angular_velocity.norm() * world.settings.step;
-            let degrees = turn.to_degrees();
-            return Err(RigidError::TurnsTooFar { degrees });
+            let angle = ended.angular_velocity.norm() * world.settings.step;
+            return Err(CollisionError::TurnsTooFar {
+                body,
+                turns: angle / TAU,
+                most: MOST_TURNS,
+            });
         }
         let poses = motion.poses(world, body);
         let rests = poses.windows(2).all(|two| two[0] == two[1]);
         let pieces = poses.windows(2);
         let pieces = pieces.map(|two| RigidMotion::new(two[0].into(), two[1].into()));
         Ok(BodyWay {
-            pieces: pieces.collect::<Result<_, _>>()?,
+            pieces: pieces.collect::<Result<_, RigidError>>()?,
             rests,
         })
     }

@@ -30,6 +30,15 @@ pub enum CollisionError {
         /// The bodies.
         bodies: [BodyId; 2],
     },
+    /// A scripted body turns too often in the step for its way to be tested.
+    TurnsTooFar {
+        /// The body.
+        body: BodyId,
+        /// How many turns it makes in the step.
+        turns: f64,
+        /// How many it may make.
+        most: f64,
+    },
     /// A body's motion or a segment beside it is no query.
     Rigid(RigidError),
     /// The collision library does not take the mesh of a body.
@@ -61,7 +70,13 @@ impl fmt::Display for CollisionError {
             CollisionError::TouchingBodies { bodies: [a, b] } => {
                 write!(f, "bodies {} and {} touch before the step", a.0, b.0)
             }
-            CollisionError::Rigid(error) => write!(f, "body: {error}"),
+            CollisionError::TurnsTooFar { body, turns, most } => write!(
+                f,
+                "body {} makes {turns:.1} turns in the step, and at most {most} can be tested; \
+                 script it slower or take a shorter step",
+                body.0
+            ),
+            CollisionError::Rigid(error) => write!(f, "the motion of a body: {error}"),
             CollisionError::Mesh { body } => {
                 write!(
                     f,

@@ -71,6 +71,7 @@ impl fmt::Display for StepError {
             Reason::NotFinite => f.write_str(
                 "something would end at a position or velocity that is not a finite number",
             ),
+            Reason::Collision(error @ CollisionError::TurnsTooFar { .. }) => error.fmt(f),
             Reason::Collision(error) => write!(f, "wires cannot be kept apart: {error}"),
         }
     }

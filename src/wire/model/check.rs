@@ -45,9 +45,14 @@ pub(crate) fn unit(field: &'static str, length: f64) -> Result<(), ModelError> {
 /// A vector of any length above 0, made a unit vector.
 pub(crate) fn direction(field: &'static str, vector: &Vector) -> Result<Vector, ModelError> {
     finite_vector(field, vector)?;
+    let largest = vector.amax();
+    positive(field, largest)?;
     let length = vector.norm();
-    positive(field, length)?;
-    Ok(vector / length)
+    // Squares of huge and tiny coordinates leave the range of `f64`.
+    match (length * length).is_normal() {
+        true => Ok(vector / length),
+        false => Ok((vector / largest).normalize()),
+    }
 }
 
 /// A matrix is symmetric and positive definite (Sylvester: its leading minors are above 0).

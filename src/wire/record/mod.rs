@@ -90,9 +90,9 @@ pub struct WireRecord {
 pub struct BodyRecord {
     /// Before the motion.
     pub before: Pose,
-    /// On the way, at equal times, where some body turns by more than 45 degrees: from one pose to
-    /// the next each turns by at most that. As many of each body that moves, none of one that stays
-    /// where it is.
+    /// On the way, at equal times, where this body, or one that may come near it, turns by more than
+    /// 45 degrees: from one pose to the next each turns by at most that. As many of all that may come
+    /// near each other, none of a body that stays where it is.
     pub between: Vec<Pose>,
     /// After it.
     pub after: Pose,

@@ -24,7 +24,7 @@ mod rows;
 mod softness;
 mod solve_step;
 mod spin;
-mod stages;
+pub(in crate::wire) mod stages;
 mod start;
 mod system;
 pub(super) mod transverse;

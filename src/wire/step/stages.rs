@@ -15,6 +15,9 @@ const TURN: f64 = std::f64::consts::FRAC_PI_4;
 /// that rolls on what is fast; its way could not be tested.
 const MOST_STAGES: u32 = 512;
 
+/// How often a body may turn in a step.
+pub(in crate::wire) const MOST_TURNS: f64 = MOST_STAGES as f64 * TURN / std::f64::consts::TAU;
+
 /// A body that moves in a step.
 pub(super) struct Mover {
     pub(super) body: usize,

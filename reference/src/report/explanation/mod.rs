@@ -8,6 +8,7 @@ use tunnelproof::query::{Query, QueryKind};
 use crate::algebraic::Algebraic;
 use crate::answer::{ExactHit, Parameters};
 use crate::certify::judged::Judged;
+use crate::certify::query::AnyQuery;
 use crate::field::{self, Integer};
 use crate::oracle::{Decision, Event, Step, decide};
 use crate::scaled::Scaled;
@@ -17,7 +18,8 @@ use super::number;
 mod subjects;
 mod text;
 
-pub use subjects::Statement;
+pub use subjects::{Statement, statements};
+pub use text::contact;
 
 /// Everything that is said of a query.
 #[derive(Clone, Debug, Serialize)]
@@ -113,7 +115,8 @@ impl Explanation {
     pub fn new(query: &Query, subjects: &[Judged]) -> Self {
         let decision = decide::<field::Default>(query);
         let answer = decision.written();
-        let statement = |judged| Statement::new(judged, query, &answer);
+        let asked = AnyQuery::from(*query);
+        let statement = |judged| Statement::new(judged, &asked, &answer);
         Explanation {
             query: *query,
             case: CaseWords::new(&decision, query.kind()),

@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 use tunnelproof::contact::Case;
-use tunnelproof::query::Query;
 
 use crate::answer::{Enclosure, ExactAnswer};
 use crate::certify::judged::{Found, Judged};
@@ -32,7 +31,8 @@ pub struct Statement {
 }
 
 impl Statement {
-    pub(super) fn new(judged: &Judged, query: &Query, truth: &ExactAnswer) -> Self {
+    /// What a subject says of a query with this exact answer.
+    pub fn new(judged: &Judged, query: &AnyQuery, truth: &ExactAnswer) -> Self {
         let found = judged.judge(*query, truth);
         let (toi, case) = said(found.answer.as_ref());
         Statement {
@@ -45,6 +45,19 @@ impl Statement {
             worth: worth(query, &found),
         }
     }
+}
+
+/// What they all say, a line each, below a heading.
+pub fn statements(all: &[Statement]) -> String {
+    let width = all.iter().map(|said| said.claim.len()).max().unwrap_or(0);
+    let line = |said: &Statement| {
+        let Statement {
+            name, claim, worth, ..
+        } = said;
+        format!("  {name:<17} {claim:<width$}  {worth}\n")
+    };
+    let lines: String = all.iter().map(line).collect();
+    format!("What the subjects say\n{lines}")
 }
 
 /// The time of impact and the case of an answer.
@@ -103,7 +116,7 @@ fn in_words(toi: Option<String>, case: Option<Case>) -> String {
 }
 
 /// The verdict, and what else is wrong.
-fn worth(query: &Query, found: &Found) -> String {
+fn worth(query: &AnyQuery, found: &Found) -> String {
     if !found.is_asked {
         return "does not take such queries".to_owned();
     }
@@ -115,10 +128,10 @@ fn worth(query: &Query, found: &Found) -> String {
     };
     let is_right = !found.faults.iter().any(|&(fault, _)| is_verdict(fault));
     let faults = found.faults.iter().map(|&(fault, severity)| match fault {
-        Fault::FalseHit => format!(
-            "false hit (gap {} m)",
-            table::short(AnyQuery::from(*query).exact_gap())
-        ),
+        // Of bodies that turn no gap is measured.
+        Fault::FalseHit if matches!(query, AnyQuery::Linear(_)) => {
+            format!("false hit (gap {} m)", table::short(query.exact_gap()))
+        }
         Fault::Late | Fault::Early => format!("{} by {}", fault.name(), table::short(severity)),
         _ => fault.name().to_owned(),
     });

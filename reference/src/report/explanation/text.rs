@@ -6,7 +6,7 @@ use tunnelproof::contact::ContactKind;
 
 use crate::answer::ExactHit;
 
-use super::{Explanation, Impact, TripleProduct, number};
+use super::{Explanation, Impact, TripleProduct, number, place, statements};
 
 impl fmt::Display for Explanation {
     /// What `explain` prints, but for the title.
@@ -24,7 +24,7 @@ impl fmt::Display for Explanation {
             Some(impact) => impact.write(f)?,
             None => f.write_str("\nNo contact.\n")?,
         }
-        self.statements(f)
+        write!(f, "\n{}", statements(&self.subjects))
     }
 }
 
@@ -56,17 +56,6 @@ impl Explanation {
         let (zero, other) = (listed(&case.vanishing), listed(&case.not_vanishing));
         writeln!(f, "  identically 0: {zero}; not: {other}")
     }
-
-    fn statements(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let widths = self.subjects.iter().map(|said| said.claim.len());
-        let width = widths.max().unwrap_or(0);
-        f.write_str("\nWhat the subjects say\n")?;
-        for said in &self.subjects {
-            let (name, claim, worth) = (&said.name, &said.claim, &said.worth);
-            writeln!(f, "  {name:<17} {claim:<width$}  {worth}")?;
-        }
-        Ok(())
-    }
 }
 
 impl TripleProduct {
@@ -92,12 +81,24 @@ impl Impact {
             writeln!(f, "  exactly   irrational, a root of {root_of}")?;
         }
         writeln!(f, "  decimals  {}", self.decimals)?;
-        writeln!(f, "  in f64    {}", self.in_f64)?;
-        writeln!(f, "  contact   {}", self.place)?;
-        let [first, second] = &self.features;
-        writeln!(f, "  features  {first} and {second}")?;
-        writeln!(f, "  kind      {}", self.kind_words)
+        let words = [&self.in_f64, &self.place, &self.kind_words];
+        f.write_str(&rounded(words.map(String::as_str), &self.features))
     }
+}
+
+/// The first contact as far as the answer has it: its time and place in `f64`, what touches, and the
+/// kind. Lines of text.
+pub fn contact(hit: &ExactHit, is_thick: bool) -> String {
+    let place = place(&hit.first, hit.second.as_ref());
+    let words = [&hit.toi.to_string(), &place, &kind(hit, is_thick)];
+    let features = hit.features.map(|feature| feature.to_string());
+    rounded(words.map(String::as_str), &features)
+}
+
+fn rounded([time, place, kind]: [&str; 3], [first, second]: &[String; 2]) -> String {
+    format!(
+        "  in f64    {time}\n  contact   {place}\n  features  {first} and {second}\n  kind      {kind}\n"
+    )
 }
 
 /// The kind of a contact, the side they come from and the configuration.
