@@ -92,7 +92,7 @@ struct Reading {
     /// The kind of the queries, where neither the file's path nor the query says it
     #[arg(long, value_parser = kind())]
     kind: Option<QueryKind>,
-    /// Ask for a distance of at most R metres, whatever the queries of files say
+    /// Ask for a distance of at most R metres, whatever the queries of files say; not of bodies that turn
     ///
     /// A number, or two whose exact sum is meant: 0.01+0.02
     #[arg(long, value_name = "R", value_parser = radius, allow_negative_numbers = true)]
@@ -248,6 +248,14 @@ fn not_negative(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
         _ => Err("it has to be a finite number, 0 or more".to_owned()),
+    }
+}
+
+/// A share of something, from 0 and below 1.
+fn share(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (0.0..1.0).contains(&value) => Ok(value),
+        _ => Err("it has to be a number from 0 and below 1".to_owned()),
     }
 }
 

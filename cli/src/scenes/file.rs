@@ -34,6 +34,7 @@ pub struct Scene {
     #[serde(default)]
     pub bodies: Vec<Body>,
     /// Wires, ropes and chains.
+    #[serde(default)]
     pub wires: Vec<Wire>,
 }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::Matrix3;
 
 use super::ModelError;
-use super::check::{finite_point, positive};
+use super::check::finite_point;
 use super::shape::MassProperties;
 use crate::query::Point;
 use crate::wire::Vector;
@@ -50,7 +50,10 @@ impl Mesh {
         check_corners(&self.triangles, self.vertices.len())?;
         check_closed(&self.triangles)?;
         let (volume, moment) = self.volume_and_moment();
-        positive("volume of the mesh", volume)?;
+        let accepted = "finite and above 0: triangles are counterclockwise seen from outside";
+        if !(volume.is_finite() && volume > 0.0) {
+            return Err(ModelError::value("volume of the mesh", volume, accepted));
+        }
         Ok((volume, moment))
     }
 

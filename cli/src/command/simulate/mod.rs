@@ -24,7 +24,7 @@ use self::saving::Saving;
 use self::watch::Watch;
 use super::keeping::{interrupted, interruption};
 use super::output::{JsonOutput, OutputFile, print, shell, unwritable};
-use super::{Failure, progress};
+use super::{Failure, progress, share};
 
 /// Run a scene, and check every step of it for missed tunnels
 #[derive(Args)]
@@ -40,8 +40,8 @@ Examples:
   tunnelproof simulate --schema > scene.schema.json
 
 Scenes of the thesis (4.2): basic-collision, pulling-anchor, twisting-under-load, chains-on-deck. Exit code 1 if
-a step cannot be done, or the audit finds that something passed unnoticed, or stands or may stand on the wrong side;
-130 if Ctrl-C ended a run that is saved.")]
+a step cannot be done, or the audit finds that something passed unnoticed, or stands or may stand on the wrong side.
+What thesis mode lets pass and reports, as through bodies, is no fault of the run; 130 if Ctrl-C ended a run that is saved.")]
 pub(super) struct Simulate {
     /// The name of a scene of the thesis, or the path of a scene file
     #[arg(required_unless_present = "schema")]
@@ -59,8 +59,9 @@ pub(super) struct Simulate {
     /// The time step in s, in place of the scene's
     #[arg(long, value_name = "S")]
     step: Option<f64>,
-    /// The share of the thickness of wires that guard mode keeps, in place of the scene's
-    #[arg(long, value_name = "SHARE")]
+    /// The share of the thickness of wires that guard mode keeps, from 0 and below 1, in place of the
+    /// scene's
+    #[arg(long, value_name = "SHARE", value_parser = share)]
     guarded_thickness: Option<f64>,
     /// The duration in s, in place of the scene's; with --from too it counts from the start of the
     /// scene

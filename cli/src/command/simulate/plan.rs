@@ -27,6 +27,17 @@ pub(super) struct Plan {
 impl Simulate {
     /// What is run, from where. Says what is set otherwise than until the state.
     pub(super) fn plan(&self) -> Result<Plan, Failure> {
+        let plan = self.unchecked_plan()?;
+        if matches!(plan.mode, Mode::Thesis)
+            && self.guarded_thickness.is_some_and(|share| share > 0.0)
+        {
+            let problem = "thesis mode guards no thickness";
+            return Err(Failure::file("--guarded-thickness", problem));
+        }
+        Ok(plan)
+    }
+
+    fn unchecked_plan(&self) -> Result<Plan, Failure> {
         let scene = self.scene()?;
         let wrong = |error| self.wrong(error);
         let Some(path) = &self.from else {

@@ -228,7 +228,7 @@ fn said(kind: QueryKind, answer: &Statement) -> String {
 fn conduct_of(conduct: &Conduct) -> Markup {
     html! {
         p.pale {
-            "Started " (grouped(conduct.starts)) " times."
+            "Started " (grouped(conduct.starts)) @if conduct.starts == 1 { " time." } @else { " times." }
             @if conduct.surplus > 0 { " It wrote " (grouped(conduct.surplus)) " answers too many." }
         }
         @if !conduct.stderr.is_empty() {
