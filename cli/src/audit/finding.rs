@@ -2,13 +2,14 @@
 
 use std::fmt;
 
+use nalgebra::center;
 use serde::{Serialize, Serializer};
-use tunnelproof::query::{EdgeEdge, Query};
+use tunnelproof::query::{Point, Query};
 use tunnelproof::wire::SegmentId;
 
 use tunnelproof_reference::certify::caller::Caller;
-use tunnelproof_reference::corpus::Entry;
-use tunnelproof_reference::corpus::jsonl::{self, Numbers};
+use tunnelproof_reference::certify::query::AnyQuery;
+use tunnelproof_reference::corpus::jsonl::Numbers;
 
 /// Something that is not as it has to be.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -18,12 +19,15 @@ pub struct Finding {
     /// What is wrong.
     #[serde(flatten)]
     pub what: What,
-    /// The segments, numbered as before the motion; of a change of resolution, the one that is met.
+    /// The segments, numbered as before the motion; of a change of resolution, numbered as before the
+    /// change, the first that it takes out or divides, and the one that is met.
     #[serde(serialize_with = "as_text")]
     pub segments: Vec<SegmentId>,
-    /// The witness, as a line that every command reads.
+    /// The bodies of a contact that was reported, with these segments or with each other.
+    pub of_bodies: Vec<usize>,
+    /// The witness, as a line that `explain` reads: of a body, the part of its way that decides.
     #[serde(serialize_with = "as_line")]
-    pub query: Option<EdgeEdge>,
+    pub query: Option<AnyQuery>,
 }
 
 /// What is wrong.
@@ -87,6 +91,8 @@ pub enum What {
     BodyRemesh {
         /// The body.
         body: usize,
+        /// Where on the wire: arc length of the node that is taken out or put in, in m.
+        arc: f64,
     },
     /// Two cores come to touch, and it was not reported.
     CoreMissed {
@@ -131,16 +137,21 @@ impl Finding {
         )
     }
 
-    fn entry(&self) -> Option<Entry> {
-        let id = format!("step-{}", self.step);
-        self.query
-            .map(|query| Entry::unlabelled(id, Query::EdgeEdge(query)))
-    }
-
     /// The command that explains the witness to whoever asked, ready to paste.
     pub fn command(&self, caller: &Caller) -> Option<String> {
-        self.entry()
-            .map(|entry| caller.explain_query(&entry.id, &entry.query.into()))
+        let id = format!("step-{}", self.step);
+        let query = self.query.as_ref();
+        query.map(|query| caller.explain_query(&id, query))
+    }
+
+    /// Where the witness is: the middle of its first two points where it ends.
+    pub fn place(&self) -> Option<Point> {
+        let [a, b, ..] = match self.query.as_ref()? {
+            AnyQuery::Linear(Query::EdgeEdge(query)) => *query.end(),
+            AnyQuery::Linear(_) => return None,
+            AnyQuery::Turning(query) => query.positions(1.0),
+        };
+        Some(center(&a, &b))
     }
 }
 
@@ -148,21 +159,21 @@ fn as_text<S: Serializer>(segments: &[SegmentId], serializer: S) -> Result<S::Ok
     serializer.collect_seq(segments.iter().map(|id| [id.wire.0, id.segment]))
 }
 
-fn as_line<S: Serializer>(query: &Option<EdgeEdge>, serializer: S) -> Result<S::Ok, S::Error> {
-    let entry = query.map(|query| Entry::unlabelled("witness", Query::EdgeEdge(query)));
-    entry
-        .map(|entry| jsonl::write(&entry, Numbers::Decimal))
-        .serialize(serializer)
+fn as_line<S: Serializer>(query: &Option<AnyQuery>, serializer: S) -> Result<S::Ok, S::Error> {
+    let line = |query: &AnyQuery| query.line("witness", Numbers::Decimal);
+    query.as_ref().map(line).serialize(serializer)
 }
 
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "step {}: {}", self.step, self.what)?;
-        for (k, SegmentId { wire, segment }) in self.segments.iter().enumerate() {
-            let word = if k == 0 { ":" } else { " and" };
-            write!(f, "{word} wire {} segment {segment}", wire.0)?;
+        let segment = |id: &SegmentId| format!("wire {} segment {}", id.wire.0, id.segment);
+        let bodies = self.of_bodies.iter().map(|body| format!("body {body}"));
+        let things: Vec<String> = self.segments.iter().map(segment).chain(bodies).collect();
+        match things.is_empty() {
+            true => Ok(()),
+            false => write!(f, ": {}", things.join(" and ")),
         }
-        Ok(())
     }
 }
 
@@ -208,8 +219,11 @@ impl fmt::Display for What {
                     "{what} of bodies {a} and {b} missed, at {toi} of the step"
                 )
             }
-            What::BodyRemesh { body } => {
-                write!(f, "a change of resolution passes through body {body}")
+            What::BodyRemesh { body, arc } => {
+                write!(
+                    f,
+                    "a change of resolution at {arc} m passes through body {body}"
+                )
             }
             What::BodyJump { body } => {
                 write!(

@@ -42,7 +42,9 @@ use serde::Serialize;
 use tunnelproof::contact::ContactKind;
 use tunnelproof::query::{EdgeEdge, Point, Query};
 use tunnelproof::wire::recording::{BodySummary, Header};
-use tunnelproof::wire::{CrossingOutcome, PairAnswer, Pose, SegmentId, StepRecord, World};
+use tunnelproof::wire::{
+    Crossing, CrossingOutcome, PairAnswer, Pose, SegmentId, StepRecord, World,
+};
 
 use self::core::Core;
 use aside::passages;
@@ -51,6 +53,7 @@ use remesh::{Meeting, Wires};
 use segments::{Segment, candidates, four, moving, query};
 use thickness::Thickness;
 use tunnelproof_reference::answer::ExactHit;
+use tunnelproof_reference::certify::query::AnyQuery;
 use tunnelproof_reference::oracle::decide_query;
 
 pub use finding::{Culprit, Finding, What};
@@ -267,12 +270,13 @@ impl Audit {
         record: &StepRecord,
         what: What,
         segments: &[SegmentId],
-        query: Option<EdgeEdge>,
+        query: Option<AnyQuery>,
     ) {
         self.report.add(Finding {
             step: record.step,
             what,
             segments: segments.to_vec(),
+            of_bodies: Vec::new(),
             query,
         });
     }
@@ -311,7 +315,7 @@ impl Audit {
                 None => missed(Culprit::Broad),
             };
             if let Some(what) = what {
-                self.find(record, what, &pair, Some(query));
+                self.find(record, what, &pair, Some(asked_of(query)));
             }
         }
         // Those that meet are taken out.
@@ -320,7 +324,7 @@ impl Audit {
                 let of = |id: &SegmentId| segments.iter().find(|segment| segment.id == *id);
                 let two = of(&pair[0]).zip(of(&pair[1]));
                 let query = two.and_then(|(a, b)| query(a, b).ok());
-                self.find(record, What::False, &pair, query);
+                self.find(record, What::False, &pair, query.map(asked_of));
             }
         }
     }
@@ -363,7 +367,8 @@ impl Audit {
                 Some(PairAnswer::Excluded) => Culprit::Exclusion,
                 Some(_) => Culprit::Narrow,
             };
-            self.find(record, What::Nearer { by, were_near }, &pair, Some(query));
+            let what = What::Nearer { by, were_near };
+            self.find(record, what, &pair, Some(asked_of(query)));
         }
     }
 
@@ -380,7 +385,8 @@ impl Audit {
                 None => Some(What::False),
             };
             if let Some(what) = what {
-                self.find(record, what, &[], query);
+                let segments = segments_of(record, crossing);
+                self.find(record, what, &segments, query.map(asked_of));
             }
         }
     }
@@ -400,8 +406,11 @@ impl Audit {
                     None,
                 ),
                 Some(met) => {
-                    for body in self.swept_bodies(record, change) {
-                        self.find(record, What::BodyRemesh { body }, &[], None);
+                    let own: Vec<SegmentId> = wires.segment(change).into_iter().collect();
+                    for (body, query) in self.swept_bodies(record, change) {
+                        let arc = change.arcs[1];
+                        let what = What::BodyRemesh { body, arc };
+                        self.find(record, what, &own, query.map(AnyQuery::from));
                     }
                     let share = record.collisions.guarded_thickness;
                     let near = match share > 0.0 {
@@ -409,7 +418,9 @@ impl Audit {
                         false => Vec::new(),
                     };
                     for (id, query, were_near) in near {
-                        self.find(record, What::RemeshNearer { were_near }, &[id], Some(query));
+                        let what = What::RemeshNearer { were_near };
+                        let pair = [&own[..], &[id]].concat();
+                        self.find(record, what, &pair, Some(asked_of(query)));
                     }
                     for Meeting {
                         id,
@@ -417,7 +428,8 @@ impl Audit {
                         passages,
                     } in met
                     {
-                        self.find(record, What::Remesh, &[id], Some(query));
+                        let pair = [&own[..], &[id]].concat();
+                        self.find(record, What::Remesh, &pair, Some(asked_of(query)));
                         self.ledger.enter([change.wire.0, id.wire.0], &passages);
                     }
                     wires.make(change);
@@ -442,6 +454,23 @@ fn unsound(record: &StepRecord) -> Vec<usize> {
     };
     let wires = record.wires.iter().enumerate();
     wires.filter(|wire| !sound(wire)).map(|(w, _)| w).collect()
+}
+
+/// The segments of a motion that was tried, as far as they start where wires do.
+fn segments_of(record: &StepRecord, crossing: &Crossing) -> Vec<SegmentId> {
+    let [a, b, c, d] = crossing.start;
+    let places = crossing.sites.iter().zip([[a, b], [c, d]]);
+    let found = places.filter_map(|(site, ends)| {
+        let mut segments = record.wires.get(site.wire.0)?.before.windows(2);
+        let segment = segments.position(|two| two == ends)?;
+        let wire = site.wire;
+        Some(SegmentId { wire, segment })
+    });
+    found.collect()
+}
+
+fn asked_of(query: EdgeEdge) -> AnyQuery {
+    Query::EdgeEdge(query).into()
 }
 
 fn ordered([a, b]: [SegmentId; 2]) -> [SegmentId; 2] {

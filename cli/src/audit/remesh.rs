@@ -73,6 +73,13 @@ impl Wires {
         windows.position(|nodes| nodes.iter().map(|node| node.at).eq(corners.iter().copied()))
     }
 
+    /// The first segment that a change takes out or divides.
+    pub(super) fn segment(&self, change: &Remesh) -> Option<SegmentId> {
+        let segment = self.place(change)?;
+        let wire = change.wire;
+        Some(SegmentId { wire, segment })
+    }
+
     /// The segments that are no neighbours of a change.
     fn apart<'a>(
         &'a self,

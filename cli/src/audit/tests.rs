@@ -10,8 +10,8 @@ use tunnelproof::contact::{Contact, Verdict};
 use tunnelproof::narrow::{self, NarrowPhase, Unsupported};
 use tunnelproof::wire::recording::BodySummary;
 use tunnelproof::wire::{
-    BodyRecord, Collisions, Material, Mode, NodeKind, Pose, Remesh, RemeshKind, Shape, Stop,
-    Vector, WireId, WirePlan, WireRecord, World,
+    BodyCrossing, BodyCrossingOutcome, BodyId, BodyRecord, Collisions, Material, Mode, NodeKind,
+    Pose, Remesh, RemeshKind, Shape, Stop, Vector, WireId, WirePlan, WireRecord, World,
 };
 
 use super::*;
@@ -584,5 +584,88 @@ fn audit_finds_a_change_of_resolution_that_comes_near() {
         assert_eq!(report.remeshes_nearer, expected, "{report:?}");
         assert_eq!(report.remeshes_through, 0);
         assert_eq!(report.is_clean(), expected == [0, 0]);
+    }
+}
+
+/// A box at rest above a wire that is pinned at both ends.
+const BOX: &str = r#"
+title = "box"
+duration = 0.1
+settings = { gravity = [0, 0, 0] }
+[[bodies]]
+name = "box"
+shape = { box = { half = [0.05, 0.05, 0.05] } }
+position = [0, 0, 1]
+drive = { kinematic = [{ from = 0, velocity = [0, 0, 0] }] }
+[[wires]]
+name = "wire"
+material = { radius = 0.005, bend_modulus = 0 }
+resolution = 1
+adaptive = false
+route = [{ pinned = [-1, 0, 0] }, { free = [0.3, 0, 0] }, { pinned = [1, 0, 0] }]
+"#;
+
+/// A run of a scene, with a fault.
+fn tampered(scene: &str, fault: impl FnOnce(&mut Vec<StepRecord>)) -> Report {
+    let scene = Scene::from_toml(scene).unwrap();
+    let world = scene.world().unwrap();
+    let mut audit = Audit::of_world(&world);
+    let collisions = scene.collisions(Mode::Guard, &Certified).unwrap();
+    let mut records = records(world, collisions, scene.steps() as usize);
+    fault(&mut records);
+    records.iter().for_each(|record| audit.step(record));
+    audit.finish()
+}
+
+/// The box goes through the wire in step 2.
+fn go_through(records: &mut [StepRecord]) {
+    for (step, record) in records.iter_mut().enumerate().skip(2) {
+        record.bodies[0].after.position.z = -1.0;
+        if step > 2 {
+            record.bodies[0].before.position.z = -1.0;
+        }
+    }
+}
+
+#[test]
+fn findings_of_bodies_say_where_and_are_explained() {
+    let report = tampered(BOX, |records| go_through(records));
+    let missed = &report.findings[0];
+    assert!(matches!(missed.what, What::BodyMissed { .. }));
+    assert_eq!(missed.segments.len(), 1);
+    let command = missed.command(&Caller::Test).unwrap();
+    assert!(command.contains("explain --turning -"), "{command}");
+    assert!(missed.place().is_some());
+    let segment = SegmentId {
+        wire: WireId(0),
+        segment: 1,
+    };
+    let made_up = tampered(BOX, |records| {
+        let crossings = &mut records[1].collisions.body_crossings;
+        crossings.push(BodyCrossing {
+            body: BodyId(0),
+            segment,
+            arc: 1.5,
+            toi: 0.5,
+            outcome: BodyCrossingOutcome::Passed,
+        });
+    });
+    assert_eq!(made_up.false_hits, 1);
+    assert_eq!(
+        made_up.findings[0].to_string(),
+        "step 1: reported to meet, and do not: wire 0 segment 1 and body 0"
+    );
+    for kind in [RemeshKind::Merge, RemeshKind::Split] {
+        let report = remeshed_beside_a_body(1.0, kind);
+        let finding = &report.findings[0];
+        assert_eq!(finding.what, What::BodyRemesh { body: 0, arc: 1.0 });
+        assert_eq!(
+            finding.to_string(),
+            "step 0: a change of resolution at 1 m passes through body 0: wire 0 segment 0"
+        );
+        let command = finding.command(&Caller::Test).unwrap();
+        assert!(command.contains("explain --turning -"), "{command}");
+        let between_wires = remeshed(1.0, kind);
+        assert_eq!(between_wires.findings[0].segments.len(), 2);
     }
 }

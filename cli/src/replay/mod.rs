@@ -161,11 +161,7 @@ impl Replay {
     fn mark(&mut self, finding: &Finding) {
         let shows = |frame: &&mut Frame| frame.step > finding.step;
         if let Some(frame) = self.frames.iter_mut().find(shows) {
-            // In the middle of the first segment at the end of the step.
-            let at = finding.query.as_ref().map(|query| {
-                let [a, b] = [query.end()[0], query.end()[1]];
-                frame::triple(&nalgebra::center(&a, &b))
-            });
+            let at = finding.place().as_ref().map(frame::triple);
             let what = "missed";
             frame.marks.push(Mark { what, at });
         }
