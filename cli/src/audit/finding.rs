@@ -73,10 +73,40 @@ pub enum What {
         /// The wire.
         wire: usize,
     },
-    /// Numbers that are no motion: not finite, or too few.
+    /// A wire does not start with the radius, the arc lengths or the kinds of nodes with which the
+    /// step before left it.
+    Altered {
+        /// The wire.
+        wire: usize,
+        /// What differs.
+        field: Field,
+        /// The first node that differs.
+        at: Option<usize>,
+    },
+    /// A node is not where what it is fixed to has it, by more than is rounded.
+    Astray {
+        /// The wire.
+        wire: usize,
+        /// The node.
+        node: usize,
+        /// The body that it is fixed to; none if it is pinned, and moved.
+        body: Option<usize>,
+        /// Whether it is so where the step ends. Otherwise where it starts.
+        at_end: bool,
+    },
+    /// Numbers that are no motion: not finite, not in order, too few or too many.
     Unsound {
         /// The wire.
         wire: usize,
+        /// Which numbers.
+        field: Field,
+        /// The first that is not, in its list.
+        at: Option<usize>,
+    },
+    /// A step that does not follow the one before, or has a number that is none of a step.
+    StepUnsound {
+        /// Which.
+        field: StepField,
     },
     /// A midline comes to touch the core of a body, and it was not reported.
     BodyMissed {
@@ -108,12 +138,42 @@ pub enum What {
         /// The body.
         body: usize,
     },
-    /// Poses that are no motion of a body or are not at the times of those of another one, or a body
+    /// Poses that are no motion of a body, or not of length 1, or are not at the times of those of another one, or a body
     /// whose shape is not known.
     BodyUnsound {
         /// The body.
         body: usize,
     },
+}
+
+/// A list of numbers of a wire, as its record calls it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Field {
+    /// The radius.
+    Radius,
+    /// Arc lengths of nodes.
+    Arcs,
+    /// What carries nodes.
+    Kinds,
+    /// Where nodes start.
+    Before,
+    /// Where nodes end.
+    After,
+    /// Tensions of segments.
+    Tensions,
+}
+
+/// A number of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StepField {
+    /// Its number.
+    Number,
+    /// The time at its end.
+    Time,
+    /// The share of the thickness that is guarded.
+    GuardedThickness,
 }
 
 /// Who missed a contact.
@@ -134,6 +194,20 @@ impl Finding {
         !matches!(
             self.what,
             What::Late { .. } | What::Early { .. } | What::False
+        )
+    }
+
+    /// Whether nobody has looked at how something got where it is.
+    pub fn is_jump(&self) -> bool {
+        matches!(
+            self.what,
+            What::Jump { .. }
+                | What::Altered { .. }
+                | What::Astray { .. }
+                | What::Unsound { .. }
+                | What::StepUnsound { .. }
+                | What::BodyJump { .. }
+                | What::BodyUnsound { .. }
         )
     }
 
@@ -237,15 +311,67 @@ impl fmt::Display for What {
                     "body {body} has poses that are no motion, or no known shape"
                 )
             }
-            What::Unsound { wire } => write!(f, "wire {wire} has numbers that are no motion"),
+            What::Altered { wire, field, at } => {
+                write!(
+                    f,
+                    "wire {wire} does not start as the step before left it: {}",
+                    entry(*field, *at)
+                )
+            }
+            What::Astray {
+                wire,
+                node,
+                body,
+                at_end,
+            } => {
+                let when = if *at_end { "ends" } else { "starts" };
+                match body {
+                    Some(body) => write!(
+                        f,
+                        "node {node} of wire {wire} is fixed to body {body}, and not there where \
+                         the step {when}"
+                    ),
+                    None => write!(f, "node {node} of wire {wire} is pinned, and moves"),
+                }
+            }
+            What::Unsound { wire, field, at } => {
+                write!(
+                    f,
+                    "wire {wire} has numbers that are no motion: {}",
+                    entry(*field, *at)
+                )
+            }
+            What::StepUnsound { field } => f.write_str(match field {
+                StepField::Number => "its number does not follow that of the step before",
+                StepField::Time => "its time is not after that of the step before, or not finite",
+                StepField::GuardedThickness => "its guarded thickness is no share",
+            }),
         }
     }
+}
+
+/// A number of a list, or the list.
+fn entry(field: Field, at: Option<usize>) -> String {
+    at.map_or(field.to_string(), |at| format!("{field}[{at}]"))
 }
 
 fn nearer(were_near: bool) -> &'static str {
     match were_near {
         true => "nearer than they were, inside the guarded thickness",
         false => "inside the guarded thickness",
+    }
+}
+
+impl fmt::Display for Field {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Field::Radius => "radius",
+            Field::Arcs => "arcs",
+            Field::Kinds => "kinds",
+            Field::Before => "before",
+            Field::After => "after",
+            Field::Tensions => "tensions",
+        })
     }
 }
 

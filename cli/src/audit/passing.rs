@@ -12,6 +12,7 @@ use tunnelproof::wire::{
 use super::Audit;
 use super::aside::Node;
 use super::bodies::{BodyWay, SegmentWay, Touch, fixed_to, is_in, pose, swept};
+use super::carried::is_unit;
 use super::finding::{Finding, What};
 use super::overlap::overlap;
 use super::pairs;
@@ -73,7 +74,12 @@ impl Audit {
     /// `None` if the numbers are no motion, or the shape is not known.
     fn beside_body(&self, record: &StepRecord, segments: &[Segment], body: usize) -> Option<Found> {
         let core = self.cores.get(body)?;
-        let way = BodyWay::new(record.bodies.get(body)?).ok()?;
+        let record = record.bodies.get(body)?;
+        let mut poses = record.between.iter().chain([&record.before, &record.after]);
+        if !poses.all(is_unit) {
+            return None;
+        }
+        let way = BodyWay::new(record).ok()?;
         let asked = |segment: &Segment| {
             let of = SegmentWay {
                 start: segment.start,
