@@ -49,7 +49,12 @@ pub(super) struct Touch {
     /// As a part of the step, rounded down.
     pub(super) toi: f64,
     pub(super) crossing: bool,
+    /// The features that touch, in a part of the way.
+    pub(super) query: RigidQuery,
 }
+
+/// A contact and what it is of.
+pub(super) type Hit = (ExactHit, RigidQuery);
 
 /// A part of a way in which nodes go straight.
 struct Part {
@@ -139,7 +144,7 @@ impl BodyWay {
                         return Ok((None, asked));
                     }
                 }
-                let Some(hit) = part.touch(core, &mut asked)? else {
+                let Some((hit, query)) = part.touch(core, &mut asked)? else {
                     continue;
                 };
                 let at = |k: usize| (piece as f64 + k as f64 / parts as f64) / pieces;
@@ -147,6 +152,7 @@ impl BodyWay {
                 let touch = Touch {
                     toi: from + (to - from) * hit.toi.below,
                     crossing: hit.kind == ContactKind::Crossing || hit.crosses,
+                    query,
                 };
                 return Ok((Some(touch), asked));
             }
@@ -278,7 +284,7 @@ impl Part {
     }
 
     /// The first contact, by the oracle.
-    fn touch(&self, core: &Core, asked: &mut u64) -> Result<Option<ExactHit>, RigidError> {
+    fn touch(&self, core: &Core, asked: &mut u64) -> Result<Option<Hit>, RigidError> {
         let (looks, stray) = self.looks();
         match core {
             Core::Plane => {
@@ -307,7 +313,7 @@ impl Part {
         surface: &Surface,
         near: &[[Vector; 4]],
         stray: f64,
-    ) -> Result<Option<ExactHit>, RigidError> {
+    ) -> Result<Option<Hit>, RigidError> {
         let mut hits = Vec::new();
         for face in &surface.faces {
             let corners = face.map(|corner| corner.coords);
@@ -323,17 +329,23 @@ impl Part {
             let corners = edge.map(|corner| corner.coords);
             if !near.iter().all(|p| is_segment_apart(p, &corners, stray)) {
                 let query = EdgeTurningEdge::new(self.start, self.end, *edge, self.motion)?;
-                hits.push(decide_rigid_query(&RigidQuery::EdgeTurningEdge(query)).hit);
+                hits.push(hit(query));
             }
         }
         Ok(first(hits))
     }
 
-    fn against_face(&self, node: usize, face: &[Point; 3]) -> Result<Option<ExactHit>, RigidError> {
+    fn against_face(&self, node: usize, face: &[Point; 3]) -> Result<Option<Hit>, RigidError> {
         let (start, end) = ([self.start[node]], [self.end[node]]);
         let query = VertexTurningFace::new(start, end, *face, self.motion)?;
-        Ok(decide_rigid_query(&RigidQuery::VertexTurningFace(query)).hit)
+        Ok(hit(query))
     }
+}
+
+/// The first contact of a query, by the oracle.
+pub(super) fn hit(query: impl Into<RigidQuery>) -> Option<Hit> {
+    let query = query.into();
+    Some((decide_rigid_query(&query).hit?, query))
 }
 
 /// Where the segment is, from look to look, when it may be near a surface, and how far it may be from
@@ -349,8 +361,8 @@ fn near(looks: &[[Vector; 2]], stray: f64, surface: &Surface) -> (Vec<[Vector; 4
     (between.filter(is_near).collect(), stray)
 }
 
-pub(super) fn first(hits: impl IntoIterator<Item = Option<ExactHit>>) -> Option<ExactHit> {
-    let earlier = |a: &ExactHit, b: &ExactHit| {
+pub(super) fn first(hits: impl IntoIterator<Item = Option<Hit>>) -> Option<Hit> {
+    let earlier = |(a, _): &Hit, (b, _): &Hit| {
         let below = a.toi.below.total_cmp(&b.toi.below);
         below.then(a.toi.above.total_cmp(&b.toi.above))
     };
@@ -372,22 +384,22 @@ pub(super) fn is_in(core: &Core, pose: &Pose, ends: &[Point; 2]) -> Result<bool,
         Core::Plane => {
             let size = ends[0].coords.amax() + ends[1].coords.amax() + pose.centre.coords.amax();
             let below = local.iter().any(|end| end.z < -1e-9 * size);
-            Ok(below || is_swept(core, &motion, &[ends[0], ends[1], ends[1]])?)
+            Ok(below || swept(core, &motion, &[ends[0], ends[1], ends[1]])?.is_some())
         }
         Core::Surface(surface) => {
             let inside = local.iter().any(|end| surface.holds(end));
-            Ok(inside || is_swept(core, &motion, &[ends[0], ends[1], ends[1]])?)
+            Ok(inside || swept(core, &motion, &[ends[0], ends[1], ends[1]])?.is_some())
         }
     }
 }
 
-/// Whether a triangle touches the surface of a core of a body at rest: one of its sides a face, or
+/// What of a triangle touches the surface of a core of a body at rest: one of its sides a face, or
 /// an edge the triangle.
-pub(super) fn is_swept(
+pub(super) fn swept(
     core: &Core,
     motion: &RigidMotion,
     triangle: &[Point; 3],
-) -> Result<bool, RigidError> {
+) -> Result<Option<RigidQuery>, RigidError> {
     let centre = motion.start().centre;
     let local = triangle.map(|point| seen(motion, 0.0, &(point - centre)));
     let size = triangle
@@ -397,9 +409,7 @@ pub(super) fn is_swept(
     let sides = [[a, b], [b, c], [c, a]];
     let touches = |from: Point, to: Point, face: &[Point; 3]| {
         let query = VertexTurningFace::new([from], [to], *face, *motion)?;
-        Ok(decide_rigid_query(&RigidQuery::VertexTurningFace(query))
-            .hit
-            .is_some())
+        Ok(hit(query).map(|(_, query)| query))
     };
     let surface = match core {
         Core::Plane => {
@@ -411,7 +421,7 @@ pub(super) fn is_swept(
     let size = size + surface.low.amax().max(surface.high.amax());
     let apart = |low: &Vector, high: &Vector| are_boxes_apart(&local, ROUNDING * size, low, high);
     if apart(&surface.low, &surface.high) || surface.is_beyond(&local, ROUNDING * size) {
-        return Ok(false);
+        return Ok(None);
     }
     let near = surface.faces.iter().filter(|face| {
         let [a, b, c] = face.map(|corner| corner.coords);
@@ -420,32 +430,34 @@ pub(super) fn is_swept(
     let pierces = any(near, |face| {
         any(sides, |[from, to]| touches(from, to, face))
     })?;
+    if pierces.is_some() {
+        return Ok(pierces);
+    }
     // The segment from `b` to `a`, whose end `a` goes to `c`.
     let crossed = |edge: &[Point; 2]| {
         let query = EdgeTurningEdge::new([a, b], [c, b], *edge, *motion)?;
-        Ok(decide_rigid_query(&RigidQuery::EdgeTurningEdge(query))
-            .hit
-            .is_some())
+        Ok(hit(query).map(|(_, query)| query))
     };
     let near = surface.edges.iter().filter(|edge| {
         let way = [local[0], local[1], local[2], local[1]];
         let corners = edge.map(|corner| corner.coords);
         !is_segment_apart(&way, &corners, ROUNDING * size)
     });
-    Ok(pierces || any(near, crossed)?)
+    any(near, crossed)
 }
 
-/// Whether one of some things is so.
+/// What the first of some things that touches does it by.
 fn any<T>(
     of: impl IntoIterator<Item = T>,
-    mut is: impl FnMut(T) -> Result<bool, RigidError>,
-) -> Result<bool, RigidError> {
+    mut touches: impl FnMut(T) -> Result<Option<RigidQuery>, RigidError>,
+) -> Result<Option<RigidQuery>, RigidError> {
     for one in of {
-        if is(one)? {
-            return Ok(true);
+        let touched = touches(one)?;
+        if touched.is_some() {
+            return Ok(touched);
         }
     }
-    Ok(false)
+    Ok(None)
 }
 
 /// Where a node is fixed to a body, if it is.

@@ -2,13 +2,14 @@
 
 use std::fmt;
 
+use nalgebra::center;
 use serde::{Serialize, Serializer};
-use tunnelproof::query::{EdgeEdge, Query};
+use tunnelproof::query::{Point, Query};
 use tunnelproof::wire::SegmentId;
 
 use tunnelproof_reference::certify::caller::Caller;
-use tunnelproof_reference::corpus::Entry;
-use tunnelproof_reference::corpus::jsonl::{self, Numbers};
+use tunnelproof_reference::certify::query::AnyQuery;
+use tunnelproof_reference::corpus::jsonl::Numbers;
 
 /// Something that is not as it has to be.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -18,12 +19,15 @@ pub struct Finding {
     /// What is wrong.
     #[serde(flatten)]
     pub what: What,
-    /// The segments, numbered as before the motion; of a change of resolution, the one that is met.
+    /// The segments, numbered as before the motion; of a change of resolution, numbered as before the
+    /// change, the first that it takes out or divides, and the one that is met.
     #[serde(serialize_with = "as_text")]
     pub segments: Vec<SegmentId>,
-    /// The witness, as a line that every command reads.
+    /// The bodies of a contact that was reported, with these segments or with each other.
+    pub of_bodies: Vec<usize>,
+    /// The witness, as a line that `explain` reads: of a body, the part of its way that decides.
     #[serde(serialize_with = "as_line")]
-    pub query: Option<EdgeEdge>,
+    pub query: Option<AnyQuery>,
 }
 
 /// What is wrong.
@@ -69,10 +73,40 @@ pub enum What {
         /// The wire.
         wire: usize,
     },
-    /// Numbers that are no motion: not finite, or too few.
+    /// A wire does not start with the radius, the arc lengths or the kinds of nodes with which the
+    /// step before left it.
+    Altered {
+        /// The wire.
+        wire: usize,
+        /// What differs.
+        field: Field,
+        /// The first node that differs.
+        at: Option<usize>,
+    },
+    /// A node is not where what it is fixed to has it, by more than is rounded.
+    Astray {
+        /// The wire.
+        wire: usize,
+        /// The node.
+        node: usize,
+        /// The body that it is fixed to; none if it is pinned, and moved.
+        body: Option<usize>,
+        /// Whether it is so where the step ends. Otherwise where it starts.
+        at_end: bool,
+    },
+    /// Numbers that are no motion: not finite, not in order, too few or too many.
     Unsound {
         /// The wire.
         wire: usize,
+        /// Which numbers.
+        field: Field,
+        /// The first that is not, in its list.
+        at: Option<usize>,
+    },
+    /// A step that does not follow the one before, or has a number that is none of a step.
+    StepUnsound {
+        /// Which.
+        field: StepField,
     },
     /// A midline comes to touch the core of a body, and it was not reported.
     BodyMissed {
@@ -87,6 +121,8 @@ pub enum What {
     BodyRemesh {
         /// The body.
         body: usize,
+        /// Where on the wire: arc length of the node that is taken out or put in, in m.
+        arc: f64,
     },
     /// Two cores come to touch, and it was not reported.
     CoreMissed {
@@ -102,12 +138,42 @@ pub enum What {
         /// The body.
         body: usize,
     },
-    /// Poses that are no motion of a body or are not at the times of those of another one, or a body
+    /// Poses that are no motion of a body, or not of length 1, or are not at the times of those of another one, or a body
     /// whose shape is not known.
     BodyUnsound {
         /// The body.
         body: usize,
     },
+}
+
+/// A list of numbers of a wire, as its record calls it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Field {
+    /// The radius.
+    Radius,
+    /// Arc lengths of nodes.
+    Arcs,
+    /// What carries nodes.
+    Kinds,
+    /// Where nodes start.
+    Before,
+    /// Where nodes end.
+    After,
+    /// Tensions of segments.
+    Tensions,
+}
+
+/// A number of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StepField {
+    /// Its number.
+    Number,
+    /// The time at its end.
+    Time,
+    /// The share of the thickness that is guarded.
+    GuardedThickness,
 }
 
 /// Who missed a contact.
@@ -131,16 +197,35 @@ impl Finding {
         )
     }
 
-    fn entry(&self) -> Option<Entry> {
-        let id = format!("step-{}", self.step);
-        self.query
-            .map(|query| Entry::unlabelled(id, Query::EdgeEdge(query)))
+    /// Whether nobody has looked at how something got where it is.
+    pub fn is_jump(&self) -> bool {
+        matches!(
+            self.what,
+            What::Jump { .. }
+                | What::Altered { .. }
+                | What::Astray { .. }
+                | What::Unsound { .. }
+                | What::StepUnsound { .. }
+                | What::BodyJump { .. }
+                | What::BodyUnsound { .. }
+        )
     }
 
     /// The command that explains the witness to whoever asked, ready to paste.
     pub fn command(&self, caller: &Caller) -> Option<String> {
-        self.entry()
-            .map(|entry| caller.explain_query(&entry.id, &entry.query.into()))
+        let id = format!("step-{}", self.step);
+        let query = self.query.as_ref();
+        query.map(|query| caller.explain_query(&id, query))
+    }
+
+    /// Where the witness is: the middle of its first two points where it ends.
+    pub fn place(&self) -> Option<Point> {
+        let [a, b, ..] = match self.query.as_ref()? {
+            AnyQuery::Linear(Query::EdgeEdge(query)) => *query.end(),
+            AnyQuery::Linear(_) => return None,
+            AnyQuery::Turning(query) => query.positions(1.0),
+        };
+        Some(center(&a, &b))
     }
 }
 
@@ -148,21 +233,21 @@ fn as_text<S: Serializer>(segments: &[SegmentId], serializer: S) -> Result<S::Ok
     serializer.collect_seq(segments.iter().map(|id| [id.wire.0, id.segment]))
 }
 
-fn as_line<S: Serializer>(query: &Option<EdgeEdge>, serializer: S) -> Result<S::Ok, S::Error> {
-    let entry = query.map(|query| Entry::unlabelled("witness", Query::EdgeEdge(query)));
-    entry
-        .map(|entry| jsonl::write(&entry, Numbers::Decimal))
-        .serialize(serializer)
+fn as_line<S: Serializer>(query: &Option<AnyQuery>, serializer: S) -> Result<S::Ok, S::Error> {
+    let line = |query: &AnyQuery| query.line("witness", Numbers::Decimal);
+    query.as_ref().map(line).serialize(serializer)
 }
 
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "step {}: {}", self.step, self.what)?;
-        for (k, SegmentId { wire, segment }) in self.segments.iter().enumerate() {
-            let word = if k == 0 { ":" } else { " and" };
-            write!(f, "{word} wire {} segment {segment}", wire.0)?;
+        let segment = |id: &SegmentId| format!("wire {} segment {}", id.wire.0, id.segment);
+        let bodies = self.of_bodies.iter().map(|body| format!("body {body}"));
+        let things: Vec<String> = self.segments.iter().map(segment).chain(bodies).collect();
+        match things.is_empty() {
+            true => Ok(()),
+            false => write!(f, ": {}", things.join(" and ")),
         }
-        Ok(())
     }
 }
 
@@ -208,8 +293,11 @@ impl fmt::Display for What {
                     "{what} of bodies {a} and {b} missed, at {toi} of the step"
                 )
             }
-            What::BodyRemesh { body } => {
-                write!(f, "a change of resolution passes through body {body}")
+            What::BodyRemesh { body, arc } => {
+                write!(
+                    f,
+                    "a change of resolution at {arc} m passes through body {body}"
+                )
             }
             What::BodyJump { body } => {
                 write!(
@@ -223,15 +311,67 @@ impl fmt::Display for What {
                     "body {body} has poses that are no motion, or no known shape"
                 )
             }
-            What::Unsound { wire } => write!(f, "wire {wire} has numbers that are no motion"),
+            What::Altered { wire, field, at } => {
+                write!(
+                    f,
+                    "wire {wire} does not start as the step before left it: {}",
+                    entry(*field, *at)
+                )
+            }
+            What::Astray {
+                wire,
+                node,
+                body,
+                at_end,
+            } => {
+                let when = if *at_end { "ends" } else { "starts" };
+                match body {
+                    Some(body) => write!(
+                        f,
+                        "node {node} of wire {wire} is fixed to body {body}, and not there where \
+                         the step {when}"
+                    ),
+                    None => write!(f, "node {node} of wire {wire} is pinned, and moves"),
+                }
+            }
+            What::Unsound { wire, field, at } => {
+                write!(
+                    f,
+                    "wire {wire} has numbers that are no motion: {}",
+                    entry(*field, *at)
+                )
+            }
+            What::StepUnsound { field } => f.write_str(match field {
+                StepField::Number => "its number does not follow that of the step before",
+                StepField::Time => "its time is not after that of the step before, or not finite",
+                StepField::GuardedThickness => "its guarded thickness is no share",
+            }),
         }
     }
+}
+
+/// A number of a list, or the list.
+fn entry(field: Field, at: Option<usize>) -> String {
+    at.map_or(field.to_string(), |at| format!("{field}[{at}]"))
 }
 
 fn nearer(were_near: bool) -> &'static str {
     match were_near {
         true => "nearer than they were, inside the guarded thickness",
         false => "inside the guarded thickness",
+    }
+}
+
+impl fmt::Display for Field {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Field::Radius => "radius",
+            Field::Arcs => "arcs",
+            Field::Kinds => "kinds",
+            Field::Before => "before",
+            Field::After => "after",
+            Field::Tensions => "tensions",
+        })
     }
 }
 

@@ -7,7 +7,11 @@
 //! - a contact in the motion that was made and that was not reported is *missed*: by the broad phase, which did not name
 //!   the pair, by the exclusion of slow pairs, or by the narrow phase;
 //! - a time of impact that was reported, also in a motion that was tried and not made, is right, early or late;
-//! - a wire that does not start where the step before left it *jumped*: nobody has looked at how it got there;
+//! - a wire that does not start where the step before left it *jumped*: nobody has looked at how it got there. Nor may
+//!   its radius, its arc lengths or what its nodes are fixed to be other ones, but for what the step recorded;
+//! - a node that is not where the body has it that it is fixed to, and a pinned one that moves, are *astray*; they are
+//!   taken for free ones then;
+//! - steps follow each other in number and time, and numbers are finite;
 //! - a midline that comes to touch the core of a body, in the motion or in a change of resolution, and that was not
 //!   reported; a midline that is inside a core at the end, but for the end of a wire that is fixed to the body;
 //! - two bodies whose cores come to touch, and that was not reported, unless neither is moved by forces; cores that
@@ -21,6 +25,7 @@
 
 mod aside;
 mod bodies;
+mod carried;
 mod core;
 mod finding;
 mod ledger;
@@ -31,6 +36,7 @@ mod penetration;
 mod remesh;
 mod segments;
 mod separate;
+mod sound;
 #[cfg(test)]
 mod tests;
 mod thickness;
@@ -42,18 +48,23 @@ use serde::Serialize;
 use tunnelproof::contact::ContactKind;
 use tunnelproof::query::{EdgeEdge, Point, Query};
 use tunnelproof::wire::recording::{BodySummary, Header};
-use tunnelproof::wire::{CrossingOutcome, PairAnswer, Pose, SegmentId, StepRecord, World};
+use tunnelproof::wire::{
+    Crossing, CrossingOutcome, PairAnswer, Pose, SegmentId, StepRecord, World,
+};
 
 use self::core::Core;
 use aside::passages;
+use carried::{astray, freed};
 use ledger::Ledger;
 use remesh::{Meeting, Wires};
 use segments::{Segment, candidates, four, moving, query};
+use sound::{Clock, hides_motion, out_of_order, unsound};
 use thickness::Thickness;
 use tunnelproof_reference::answer::ExactHit;
+use tunnelproof_reference::certify::query::AnyQuery;
 use tunnelproof_reference::oracle::decide_query;
 
-pub use finding::{Culprit, Finding, What};
+pub use finding::{Culprit, Field, Finding, StepField, What};
 pub use ledger::Ambiguous;
 pub use penetration::Penetration;
 
@@ -65,7 +76,10 @@ pub struct Audit {
     cores: Vec<Core>,
     /// Whether forces move a body.
     dynamic: Vec<bool>,
+    /// Of all wires.
+    radii: Vec<f64>,
     ledger: Ledger,
+    clock: Option<Clock>,
     left: Option<Wires>,
     /// The wires of contacts in the last step, and where the two segments end.
     last: Vec<([usize; 2], [Point; 4])>,
@@ -125,8 +139,11 @@ pub struct Report {
     pub deepest: Option<Penetration>,
     /// How far they stand inside each other at the end of the run.
     pub standing_penetration: Option<Penetration>,
-    /// Wires and bodies that jumped, or had numbers that are no motion.
+    /// Wires and bodies that jumped, became other ones or had numbers that are no motion, and steps that
+    /// do not follow each other.
     pub jumps: u64,
+    /// Nodes that were not where what they are fixed to has them.
+    pub astray: u64,
     /// Times of impact that were late, and the worst.
     pub late: (u64, f64),
     /// Times of impact that were early, and the worst.
@@ -163,7 +180,7 @@ impl Report {
         let bodies = self.body_missed + self.core_missed + self.body_remeshes_through;
         let nearer = self.nearer.iter().chain(&self.remeshes_nearer);
         let missed = self.missed.iter().chain(nearer).sum::<u64>();
-        missed + self.remeshes_through + bodies + self.jumps
+        missed + self.remeshes_through + bodies + self.jumps + self.astray
     }
 
     /// How often what was reported is not exact: late, early or no contact.
@@ -189,8 +206,11 @@ impl Report {
             What::RemeshNearer { were_near } => {
                 self.remeshes_nearer[usize::from(were_near)] += 1;
             }
+            What::Astray { .. } => self.astray += 1,
             What::Jump { .. }
+            | What::Altered { .. }
             | What::Unsound { .. }
+            | What::StepUnsound { .. }
             | What::BodyJump { .. }
             | What::BodyUnsound { .. } => self.jumps += 1,
         }
@@ -206,7 +226,9 @@ impl Audit {
         Audit {
             cores: bodies.iter().map(|body| Core::of(&body.shape)).collect(),
             dynamic: bodies.iter().map(|body| body.dynamic).collect(),
+            radii: Vec::new(),
             ledger: Ledger::default(),
+            clock: None,
             left: None,
             last: Vec::new(),
             poses: None,
@@ -216,34 +238,60 @@ impl Audit {
 
     /// An audit of a recording.
     pub fn of_recording(header: &Header) -> Self {
-        Audit::new(&header.bodies)
+        let radii = header.wires.iter().map(|wire| wire.material.radius);
+        Audit {
+            radii: radii.collect(),
+            ..Audit::new(&header.bodies)
+        }
     }
 
     /// An audit of the steps of a world.
     pub fn of_world(world: &World) -> Self {
-        let bodies: Vec<_> = world.bodies().iter().map(BodySummary::from).collect();
-        Audit::new(&bodies)
+        Audit::of_recording(&Header::from(world))
     }
 
     /// Looks at the next step.
     pub fn step(&mut self, record: &StepRecord) {
         self.report.steps += 1;
+        let clock = self.clock.replace((record.step, record.time));
+        self.find_all(record, &out_of_order(record, clock));
         let unsound = unsound(record);
-        for &wire in &unsound {
-            self.find(record, What::Unsound { wire }, &[], None);
-        }
+        self.find_all(record, &unsound);
         if let Some(left) = self.left.take() {
             for wire in left.jumped(record) {
                 self.find(record, What::Jump { wire }, &[], None);
             }
+            self.find_all(record, &left.altered(record));
         }
-        if unsound.is_empty() {
-            self.motion(record);
+        if !unsound.iter().any(hides_motion) {
+            self.same_wires(record);
+            let astray = astray(record);
+            self.find_all(record, &astray);
+            let freed = freed(record, &astray);
+            self.motion(&freed);
             self.prevented(record);
-            self.beside_bodies(record);
+            self.beside_bodies(&freed);
             self.between_bodies(record);
-            self.thickness(record);
+            self.thickness(&freed);
             self.left = Some(self.remeshes(record));
+        }
+    }
+
+    /// Whether all wires are there, and as thick as they were, or as the header says.
+    fn same_wires(&mut self, record: &StepRecord) {
+        for (wire, of) in record.wires.iter().enumerate() {
+            match self.radii.get(wire) {
+                None => self.radii.push(of.radius),
+                Some(&radius) if radius != of.radius => {
+                    let (field, at) = (Field::Radius, None);
+                    self.find(record, What::Altered { wire, field, at }, &[], None);
+                }
+                Some(_) => {}
+            }
+        }
+        for wire in record.wires.len()..self.radii.len() {
+            let (field, at) = (Field::Before, None);
+            self.find(record, What::Unsound { wire, field, at }, &[], None);
         }
     }
 
@@ -267,14 +315,21 @@ impl Audit {
         record: &StepRecord,
         what: What,
         segments: &[SegmentId],
-        query: Option<EdgeEdge>,
+        query: Option<AnyQuery>,
     ) {
         self.report.add(Finding {
             step: record.step,
             what,
             segments: segments.to_vec(),
+            of_bodies: Vec::new(),
             query,
         });
+    }
+
+    fn find_all(&mut self, record: &StepRecord, all: &[What]) {
+        for what in all {
+            self.find(record, *what, &[], None);
+        }
     }
 
     /// The motion that was made, pair by pair.
@@ -311,7 +366,7 @@ impl Audit {
                 None => missed(Culprit::Broad),
             };
             if let Some(what) = what {
-                self.find(record, what, &pair, Some(query));
+                self.find(record, what, &pair, Some(asked_of(query)));
             }
         }
         // Those that meet are taken out.
@@ -320,7 +375,7 @@ impl Audit {
                 let of = |id: &SegmentId| segments.iter().find(|segment| segment.id == *id);
                 let two = of(&pair[0]).zip(of(&pair[1]));
                 let query = two.and_then(|(a, b)| query(a, b).ok());
-                self.find(record, What::False, &pair, query);
+                self.find(record, What::False, &pair, query.map(asked_of));
             }
         }
     }
@@ -363,7 +418,8 @@ impl Audit {
                 Some(PairAnswer::Excluded) => Culprit::Exclusion,
                 Some(_) => Culprit::Narrow,
             };
-            self.find(record, What::Nearer { by, were_near }, &pair, Some(query));
+            let what = What::Nearer { by, were_near };
+            self.find(record, what, &pair, Some(asked_of(query)));
         }
     }
 
@@ -380,7 +436,8 @@ impl Audit {
                 None => Some(What::False),
             };
             if let Some(what) = what {
-                self.find(record, what, &[], query);
+                let segments = segments_of(record, crossing);
+                self.find(record, what, &segments, query.map(asked_of));
             }
         }
     }
@@ -400,8 +457,11 @@ impl Audit {
                     None,
                 ),
                 Some(met) => {
-                    for body in self.swept_bodies(record, change) {
-                        self.find(record, What::BodyRemesh { body }, &[], None);
+                    let own: Vec<SegmentId> = wires.segment(change).into_iter().collect();
+                    for (body, query) in self.swept_bodies(record, change) {
+                        let arc = change.arcs[1];
+                        let what = What::BodyRemesh { body, arc };
+                        self.find(record, what, &own, query.map(AnyQuery::from));
                     }
                     let share = record.collisions.guarded_thickness;
                     let near = match share > 0.0 {
@@ -409,7 +469,9 @@ impl Audit {
                         false => Vec::new(),
                     };
                     for (id, query, were_near) in near {
-                        self.find(record, What::RemeshNearer { were_near }, &[id], Some(query));
+                        let what = What::RemeshNearer { were_near };
+                        let pair = [&own[..], &[id]].concat();
+                        self.find(record, what, &pair, Some(asked_of(query)));
                     }
                     for Meeting {
                         id,
@@ -417,7 +479,8 @@ impl Audit {
                         passages,
                     } in met
                     {
-                        self.find(record, What::Remesh, &[id], Some(query));
+                        let pair = [&own[..], &[id]].concat();
+                        self.find(record, What::Remesh, &pair, Some(asked_of(query)));
                         self.ledger.enter([change.wire.0, id.wire.0], &passages);
                     }
                     wires.make(change);
@@ -428,20 +491,21 @@ impl Audit {
     }
 }
 
-/// Wires with numbers that are no motion.
-fn unsound(record: &StepRecord) -> Vec<usize> {
-    let sound = |(_, wire): &(usize, &tunnelproof::wire::WireRecord)| {
-        let finite = |points: &[Point]| {
-            points
-                .iter()
-                .all(|point| point.iter().all(|x| x.is_finite()))
-        };
-        let nodes = wire.before.len();
-        let even = [wire.after.len(), wire.arcs.len(), wire.kinds.len()] == [nodes; 3];
-        even && nodes >= 2 && finite(&wire.before) && finite(&wire.after)
-    };
-    let wires = record.wires.iter().enumerate();
-    wires.filter(|wire| !sound(wire)).map(|(w, _)| w).collect()
+/// The segments of a motion that was tried, as far as they start where wires do.
+fn segments_of(record: &StepRecord, crossing: &Crossing) -> Vec<SegmentId> {
+    let [a, b, c, d] = crossing.start;
+    let places = crossing.sites.iter().zip([[a, b], [c, d]]);
+    let found = places.filter_map(|(site, ends)| {
+        let mut segments = record.wires.get(site.wire.0)?.before.windows(2);
+        let segment = segments.position(|two| two == ends)?;
+        let wire = site.wire;
+        Some(SegmentId { wire, segment })
+    });
+    found.collect()
+}
+
+fn asked_of(query: EdgeEdge) -> AnyQuery {
+    Query::EdgeEdge(query).into()
 }
 
 fn ordered([a, b]: [SegmentId; 2]) -> [SegmentId; 2] {

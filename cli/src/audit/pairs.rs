@@ -15,10 +15,8 @@ use tunnelproof::query::Point;
 use tunnelproof::rigid::{
     RigidError, RigidMotion, RigidQuery, TurningEdgeTurningEdge, TurningVertexTurningFace,
 };
-use tunnelproof_reference::answer::ExactHit;
-use tunnelproof_reference::oracle::decide_rigid_query;
 
-use super::bodies::{BodyWay, Touch, first, quarter_tangent};
+use super::bodies::{BodyWay, Hit, Touch, first, hit, quarter_tangent};
 use super::core::{Core, ROUNDING};
 use super::overlap::overlap;
 use super::separate::gap;
@@ -71,7 +69,7 @@ pub(super) fn first_touch(
                 return Ok(Some(found));
             }
         }
-        let Some(hit) = stage_of.touch(cores)? else {
+        let Some((hit, query)) = stage_of.touch(cores)? else {
             continue;
         };
         if stage > 0 || !hit.is_initial() {
@@ -80,6 +78,7 @@ pub(super) fn first_touch(
             found.touch = Some(Touch {
                 toi: from + (to - from) * hit.toi.below,
                 crossing: hit.kind == ContactKind::Crossing || hit.crosses,
+                query,
             });
         }
         return Ok(Some(found));
@@ -205,7 +204,7 @@ impl Stage {
     }
 
     /// The first contact, by the oracle.
-    fn touch(&self, cores: [&Core; 2]) -> Result<Option<ExactHit>, RigidError> {
+    fn touch(&self, cores: [&Core; 2]) -> Result<Option<Hit>, RigidError> {
         let faces = [0, 1].map(|body| match cores[body] {
             Core::Plane => vec![[
                 self.vertices[body][0],
@@ -216,7 +215,7 @@ impl Stage {
         });
         let [m, n] = self.motions;
         let mut hits = Vec::new();
-        let mut ask = |query: RigidQuery| hits.push(decide_rigid_query(&query).hit);
+        let mut ask = |query: RigidQuery| hits.push(hit(query));
         let vertices = |body: usize| match cores[body] {
             Core::Plane => Vec::new(),
             Core::Surface(_) => self.vertices[body].iter().map(|vertex| [*vertex]).collect(),

@@ -4,17 +4,20 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
+use tunnelproof::rigid::RigidQuery;
 use tunnelproof::wire::{
     BodyCrossingOutcome, BodyRecord, NodeKind, Remesh, RemeshKind, SegmentId, StepRecord,
 };
 
 use super::Audit;
 use super::aside::Node;
-use super::bodies::{BodyWay, SegmentWay, Touch, fixed_to, is_in, is_swept, pose};
-use super::finding::What;
+use super::bodies::{BodyWay, SegmentWay, Touch, fixed_to, is_in, pose, swept};
+use super::carried::is_unit;
+use super::finding::{Finding, What};
 use super::overlap::overlap;
 use super::pairs;
 use super::segments::{Segment, moving};
+use tunnelproof_reference::certify::query::AnyQuery;
 
 /// What was found of one body in a motion.
 struct Found {
@@ -44,30 +47,39 @@ impl Audit {
             self.report.body_pairs += found.asked;
             for (id, touch) in found.touches {
                 self.report.body_contacts += 1;
-                let Touch { toi, crossing } = touch;
+                let Touch {
+                    toi,
+                    crossing,
+                    query,
+                } = touch;
                 let missed = What::BodyMissed {
                     body,
                     toi,
                     crossing,
                 };
-                let what = match said.remove(&(body, id)) {
-                    Some(reported) => timed(reported, toi),
-                    None => Some(missed),
-                };
-                if let Some(what) = what {
-                    self.find(record, what, &[id], None);
+                match said.remove(&(body, id)) {
+                    Some(reported) => {
+                        let what = timed(reported, toi);
+                        self.find_reported(record, what, &[id], &[body], Some(query));
+                    }
+                    None => self.find(record, missed, &[id], Some(query.into())),
                 }
             }
         }
-        for (_, id) in said.into_keys() {
-            self.find(record, What::False, &[id], None);
+        for (body, id) in said.into_keys() {
+            self.find_reported(record, Some(What::False), &[id], &[body], None);
         }
     }
 
     /// `None` if the numbers are no motion, or the shape is not known.
     fn beside_body(&self, record: &StepRecord, segments: &[Segment], body: usize) -> Option<Found> {
         let core = self.cores.get(body)?;
-        let way = BodyWay::new(record.bodies.get(body)?).ok()?;
+        let record = record.bodies.get(body)?;
+        let mut poses = record.between.iter().chain([&record.before, &record.after]);
+        if !poses.all(is_unit) {
+            return None;
+        }
+        let way = BodyWay::new(record).ok()?;
         let asked = |segment: &Segment| {
             let of = SegmentWay {
                 start: segment.start,
@@ -114,25 +126,50 @@ impl Audit {
                 continue;
             };
             self.report.core_pairs += u64::from(found.near);
-            let Some(Touch { toi, crossing }) = found.touch else {
+            let Some(touch) = found.touch else {
                 continue;
             };
+            let Touch {
+                toi,
+                crossing,
+                query,
+            } = touch;
             self.report.core_contacts += 1;
             let missed = What::CoreMissed {
                 bodies,
                 toi,
                 crossing,
             };
-            let what = match said.remove(&bodies) {
-                Some(reported) => timed(reported, toi),
-                None => Some(missed),
-            };
-            if let Some(what) = what {
-                self.find(record, what, &[], None);
+            match said.remove(&bodies) {
+                Some(reported) => {
+                    let what = timed(reported, toi);
+                    self.find_reported(record, what, &[], &bodies, Some(query));
+                }
+                None => self.find(record, missed, &[], Some(query.into())),
             }
         }
-        for _ in said {
-            self.find(record, What::False, &[], None);
+        for bodies in said.into_keys() {
+            self.find_reported(record, Some(What::False), &[], &bodies, None);
+        }
+    }
+
+    /// What is wrong with a contact of bodies that was reported, if anything is.
+    fn find_reported(
+        &mut self,
+        record: &StepRecord,
+        what: Option<What>,
+        segments: &[SegmentId],
+        bodies: &[usize],
+        query: Option<RigidQuery>,
+    ) {
+        if let Some(what) = what {
+            self.report.add(Finding {
+                step: record.step,
+                what,
+                segments: segments.to_vec(),
+                of_bodies: bodies.to_vec(),
+                query: query.map(AnyQuery::from),
+            });
         }
     }
 
@@ -170,25 +207,35 @@ impl Audit {
         self.poses = Some(record.bodies.iter().map(|body| body.after).collect());
     }
 
-    /// The bodies into whose cores a change of resolution goes.
-    pub(super) fn swept_bodies(&self, record: &StepRecord, change: &Remesh) -> Vec<usize> {
+    /// The bodies into whose cores a change of resolution goes, and what touches there, unless the body
+    /// is no body.
+    pub(super) fn swept_bodies(
+        &self,
+        record: &StepRecord,
+        change: &Remesh,
+    ) -> Vec<(usize, Option<RigidQuery>)> {
         let [a, b, c] = change.triangle;
         let own = match change.kind {
             RemeshKind::Merge => vec![[a, b], [b, c]],
             RemeshKind::Split => vec![[a, c]],
         };
-        let is_through = |body: &usize| {
-            let core = &self.cores[*body];
+        let through = |body: usize| {
+            let core = &self.cores[body];
             let way = record
                 .bodies
-                .get(*body)
+                .get(body)
                 .map(|body| BodyWay::resting(&body.after));
-            let Some(Ok(way)) = way else { return true };
+            let Some(Ok(way)) = way else {
+                return Some((body, None));
+            };
             let was_in = |ends| is_in(core, way.pose(), ends).unwrap_or(false);
-            let swept = is_swept(core, way.first(), &change.triangle).unwrap_or(true);
-            swept && !own.iter().any(was_in)
+            let touched = match swept(core, way.first(), &change.triangle) {
+                Ok(touched) => Some(touched?),
+                Err(_) => None,
+            };
+            (!own.iter().any(was_in)).then_some((body, touched))
         };
-        (0..self.cores.len()).filter(is_through).collect()
+        (0..self.cores.len()).filter_map(through).collect()
     }
 
     /// Wires and bodies: a segment touches the core or is inside it where the run ends, and it does

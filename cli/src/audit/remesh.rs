@@ -1,9 +1,12 @@
 //! The wires between two steps, while changes of resolution are made.
 
 use tunnelproof::query::EdgeEdge;
-use tunnelproof::wire::{NodeKind, Remesh, RemeshKind, SegmentId, StepRecord, WireId};
+use tunnelproof::wire::{
+    ContactConstraint, ContactSite, NodeKind, Remesh, RemeshKind, SegmentId, StepRecord, WireId,
+};
 
 use super::aside::{Held, Node, Passages, passages};
+use super::finding::{Field, What};
 use super::first_contact;
 use super::segments::{four, is_one_point};
 use super::thickness::Thickness;
@@ -13,6 +16,8 @@ use super::thickness::Thickness;
 pub(super) struct Wires {
     nodes: Vec<Vec<Node>>,
     radii: Vec<f64>,
+    /// The contacts that pushed.
+    pushing: Vec<ContactConstraint>,
 }
 
 /// A segment that a change passes through, with a witness.
@@ -23,7 +28,7 @@ pub(super) struct Meeting {
 }
 
 impl Wires {
-    /// After the motion of a step.
+    /// After the motion of a step, and with contact nodes that leave their bodies free.
     pub(super) fn after(record: &StepRecord) -> Self {
         let wires = record.wires.iter().map(|wire| {
             let places = wire.arcs.iter().zip(&wire.kinds).zip(&wire.after);
@@ -34,14 +39,66 @@ impl Wires {
         let mut nodes: Vec<Vec<Node>> = wires.collect();
         for slide in &record.slides {
             let wire = nodes.get_mut(slide.wire.0);
-            if let Some(node) = wire.and_then(|wire| wire.get_mut(slide.node)) {
+            let node = wire.and_then(|wire| wire.get_mut(slide.node));
+            let is_contact = |node: &&mut Node| matches!(node.kind, NodeKind::Contact { .. });
+            if let Some(node) = node.filter(is_contact) {
                 node.arc += slide.distance;
+                if slide.left {
+                    node.kind = NodeKind::Free;
+                }
             }
         }
+        let pushing = record.contacts.iter();
+        let pushing = pushing.filter(|contact| contact.normal_force() > 0.0);
         Wires {
             nodes,
             radii: record.wires.iter().map(|wire| wire.radius).collect(),
+            pushing: pushing.map(|record| record.contact).collect(),
         }
+    }
+
+    /// What of each wire is not in the next step as it is here: its arc lengths, or what carries its
+    /// nodes. One that has other nodes there jumps.
+    pub(super) fn altered(&self, next: &StepRecord) -> Vec<What> {
+        let wires = self.nodes.iter().zip(&next.wires).enumerate();
+        let same = wires.filter(|(_, (here, next))| here.len() == next.kinds.len());
+        let altered = same.filter_map(|(wire, (here, next))| {
+            let arc = || {
+                here.iter()
+                    .zip(&next.arcs)
+                    .position(|(n, arc)| n.arc != *arc)
+            };
+            let kind = || (0..here.len()).find(|&k| !self.may_become(wire, k, &next.kinds[k]));
+            let (field, at) = match arc() {
+                Some(at) => (Field::Arcs, at),
+                None => (Field::Kinds, kind()?),
+            };
+            let at = Some(at);
+            Some(What::Altered { wire, field, at })
+        });
+        altered.collect()
+    }
+
+    /// Whether a node may be of this kind in the next step: of its own one, or a contact node where it
+    /// was free and a contact with the body pushed on the wire nearer than at its neighbours.
+    fn may_become(&self, wire: usize, node: usize, next: &NodeKind) -> bool {
+        let nodes = &self.nodes[wire];
+        let kind = &nodes[node].kind;
+        let (NodeKind::Free, NodeKind::Contact { body, friction, .. }) = (kind, next) else {
+            return kind == next;
+        };
+        let (Some(before), Some(after)) = (node.checked_sub(1), nodes.get(node + 1)) else {
+            return false;
+        };
+        let is_beside = |arc: f64| nodes[before].arc < arc && arc < after.arc;
+        self.pushing
+            .iter()
+            .any(|contact| match (contact.a, contact.b) {
+                (ContactSite::Wire { wire: of, arc }, ContactSite::Body { body: on, .. }) => {
+                    of.0 == wire && on == *body && contact.friction == *friction && is_beside(arc)
+                }
+                _ => false,
+            })
     }
 
     /// The wires that do not start there in the next step.
@@ -61,16 +118,31 @@ impl Wires {
         (0..count).filter(|&w| !starts(w)).collect()
     }
 
-    /// Where the triangle of a change is: the number of the node before its middle. None if it is not there.
+    /// Where the triangle of a change is: the number of the node before its middle. None if it is not there, or
+    /// the node in the middle is fixed or would not be between the others.
     fn place(&self, change: &Remesh) -> Option<usize> {
         let wire = self.nodes.get(change.wire.0)?;
-        let [a, b, c] = change.triangle;
-        let corners = match change.kind {
-            RemeshKind::Merge => vec![a, b, c],
-            RemeshKind::Split => vec![a, c],
+        let corners: &[usize] = match change.kind {
+            RemeshKind::Merge => &[0, 1, 2],
+            RemeshKind::Split => &[0, 2],
         };
+        let corners = corners
+            .iter()
+            .map(|&k| (change.triangle[k], change.arcs[k]));
+        let is_free = |nodes: &[Node]| nodes.len() < 3 || nodes[1].kind == NodeKind::Free;
         let mut windows = wire.windows(corners.len());
-        windows.position(|nodes| nodes.iter().map(|node| node.at).eq(corners.iter().copied()))
+        let place = windows.position(|nodes| {
+            let places = nodes.iter().map(|node| (node.at, node.arc));
+            places.eq(corners.clone()) && is_free(nodes)
+        });
+        place.filter(|_| change.arcs.is_sorted_by(|a, b| a < b))
+    }
+
+    /// The first segment that a change takes out or divides.
+    pub(super) fn segment(&self, change: &Remesh) -> Option<SegmentId> {
+        let segment = self.place(change)?;
+        let wire = change.wire;
+        Some(SegmentId { wire, segment })
     }
 
     /// The segments that are no neighbours of a change.

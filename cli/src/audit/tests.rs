@@ -10,8 +10,8 @@ use tunnelproof::contact::{Contact, Verdict};
 use tunnelproof::narrow::{self, NarrowPhase, Unsupported};
 use tunnelproof::wire::recording::BodySummary;
 use tunnelproof::wire::{
-    BodyRecord, Collisions, Material, Mode, NodeKind, Pose, Remesh, RemeshKind, Shape, Stop,
-    Vector, WireId, WirePlan, WireRecord, World,
+    BodyCrossing, BodyCrossingOutcome, BodyId, BodyRecord, Collisions, Material, Mode, NodeKind,
+    Pose, Remesh, RemeshKind, Shape, Stop, Vector, WireId, WirePlan, WireRecord, World,
 };
 
 use super::*;
@@ -260,16 +260,16 @@ fn audit_finds_a_step_that_nobody_saw() {
     let mut records = records(basic_collision(), Collisions::default(), 3);
     records.remove(1);
     let report = audited(&records);
-    // All of them, as the ones that are fixed sag.
-    assert_eq!(report.jumps, 3);
-    assert_eq!(report.findings[0].what, What::Jump { wire: 0 });
+    // All of them, as the ones that are fixed sag; and the step's number.
+    assert_eq!(report.jumps, 4);
+    assert_eq!(report.findings[1].what, What::Jump { wire: 0 });
     records[0].wires[1].after[0].x = f64::NAN;
-    assert!(
-        audited(&records)
-            .findings
-            .iter()
-            .any(|f| f.what == What::Unsound { wire: 1 })
-    );
+    let unsound = What::Unsound {
+        wire: 1,
+        field: Field::After,
+        at: Some(0),
+    };
+    assert!(audited(&records).findings.iter().any(|f| f.what == unsound));
 }
 
 fn remeshed(x: f64, kind: RemeshKind) -> Report {
@@ -304,7 +304,7 @@ fn remesh_records([x, y]: [f64; 2], kind: RemeshKind) -> [StepRecord; 2] {
         triangle,
         arcs,
     }];
-    second.step = 1;
+    (second.step, second.time) = (1, 1.0);
     second.wires = vec![after, standing];
     [first, second]
 }
@@ -324,6 +324,24 @@ fn audit_finds_a_change_of_resolution_that_jumps_through() {
     }
     let sum = |kind| remeshed(1.0, kind).standing[0].1;
     assert_eq!(sum(RemeshKind::Merge), -sum(RemeshKind::Split));
+}
+
+#[test]
+fn audit_finds_a_change_of_resolution_that_cannot_be_made() {
+    let jumps = |kind, fault: fn(&mut Remesh, &mut Vec<NodeKind>)| {
+        let mut records = remesh_records([-0.1, 0.1], kind);
+        let [first, _] = &mut records;
+        fault(&mut first.remeshes[0], &mut first.wires[0].kinds);
+        audited(&records).jumps
+    };
+    for kind in [RemeshKind::Merge, RemeshKind::Split] {
+        assert_eq!(jumps(kind, |_, _| ()), 0);
+        assert!(jumps(kind, |change, _| change.arcs[0] = -1.0) > 0);
+        assert!(jumps(kind, |change, _| change.arcs[1] = 2.5) > 0);
+        assert!(jumps(kind, |change, _| change.arcs[1] = f64::NAN) > 0);
+    }
+    // What is pinned is not taken out.
+    assert!(jumps(RemeshKind::Merge, |_, kinds| kinds[1] = NodeKind::Pinned) > 0);
 }
 
 /// A corner of a wire that is taken out or put in, and a thin body that lies in the triangle.
@@ -584,5 +602,313 @@ fn audit_finds_a_change_of_resolution_that_comes_near() {
         assert_eq!(report.remeshes_nearer, expected, "{report:?}");
         assert_eq!(report.remeshes_through, 0);
         assert_eq!(report.is_clean(), expected == [0, 0]);
+    }
+}
+
+/// A box at rest above a wire that is pinned at both ends.
+const BOX: &str = r#"
+title = "box"
+duration = 0.1
+settings = { gravity = [0, 0, 0] }
+[[bodies]]
+name = "box"
+shape = { box = { half = [0.05, 0.05, 0.05] } }
+position = [0, 0, 1]
+drive = { kinematic = [{ from = 0, velocity = [0, 0, 0] }] }
+[[wires]]
+name = "wire"
+material = { radius = 0.005, bend_modulus = 0 }
+resolution = 1
+adaptive = false
+route = [{ pinned = [-1, 0, 0] }, { free = [0.3, 0, 0] }, { pinned = [1, 0, 0] }]
+"#;
+
+/// A run of a scene, with a fault.
+fn tampered(scene: &str, fault: impl FnOnce(&mut Vec<StepRecord>)) -> Report {
+    let scene = Scene::from_toml(scene).unwrap();
+    let world = scene.world().unwrap();
+    let mut audit = Audit::of_world(&world);
+    let collisions = scene.collisions(Mode::Guard, &Certified).unwrap();
+    let mut records = records(world, collisions, scene.steps() as usize);
+    fault(&mut records);
+    records.iter().for_each(|record| audit.step(record));
+    audit.finish()
+}
+
+fn found(report: &Report) -> Vec<What> {
+    report.findings.iter().map(|finding| finding.what).collect()
+}
+
+/// The box goes through the wire in step 2.
+fn go_through(records: &mut [StepRecord]) {
+    for (step, record) in records.iter_mut().enumerate().skip(2) {
+        record.bodies[0].after.position.z = -1.0;
+        if step > 2 {
+            record.bodies[0].before.position.z = -1.0;
+        }
+    }
+}
+
+/// Nodes at these places of the body.
+fn eyes() -> Vec<NodeKind> {
+    let eye = |x: f64| NodeKind::Eye {
+        body: BodyId(0),
+        local: Vector::new(x, 0.0, -1.0),
+    };
+    [-1.0, 0.3, 1.0].map(eye).to_vec()
+}
+
+#[test]
+fn audit_finds_a_body_that_goes_through_a_wire_that_is_said_to_ride_it() {
+    assert!(tampered(BOX, |_| ()).is_exact());
+    let honest = tampered(BOX, |records| go_through(records));
+    assert!(honest.body_missed > 0 && honest.astray == 0);
+    let in_one_step = tampered(BOX, |records| {
+        go_through(records);
+        records[2].wires[0].kinds = eyes();
+    });
+    let in_every_step = tampered(BOX, |records| {
+        go_through(records);
+        for record in &mut *records {
+            record.wires[0].kinds = eyes();
+        }
+    });
+    for report in [&in_one_step, &in_every_step] {
+        assert!(report.astray >= 3 && !report.is_clean(), "{report:?}");
+        // They are taken for free nodes.
+        assert_eq!(report.body_missed, honest.body_missed);
+    }
+    let what = found(&in_one_step);
+    assert!(what.contains(&What::Astray {
+        wire: 0,
+        node: 1,
+        body: Some(0),
+        at_end: true,
+    }));
+    let altered = |at| What::Altered {
+        wire: 0,
+        field: Field::Kinds,
+        at: Some(at),
+    };
+    assert_eq!(what.iter().filter(|&what| *what == altered(0)).count(), 2);
+    // There is no such body.
+    let of_nothing = tampered(BOX, |records| {
+        for record in records {
+            record.wires[0].kinds[1] = NodeKind::Eye {
+                body: BodyId(7),
+                local: Vector::zeros(),
+            };
+        }
+    });
+    assert_eq!(of_nothing.astray, of_nothing.steps);
+}
+
+#[test]
+fn audit_finds_a_pin_that_moves() {
+    let report = tampered(BOX, |records| {
+        records[1].wires[0].after[0].y = 1e-300;
+        for record in &mut records[2..] {
+            let wire = &mut record.wires[0];
+            for points in [&mut wire.before, &mut wire.after] {
+                points[0].y = 1e-300;
+            }
+        }
+    });
+    let astray = What::Astray {
+        wire: 0,
+        node: 0,
+        body: None,
+        at_end: true,
+    };
+    assert_eq!(found(&report), [astray]);
+    assert!(!report.is_clean());
+}
+
+#[test]
+fn audit_finds_contact_nodes_that_come_and_go_without_a_reason() {
+    let is_contact = |kind: &NodeKind| matches!(kind, NodeKind::Contact { .. });
+    let kinds = |report: &Report| {
+        let is_kind = |what: &What| {
+            matches!(
+                what,
+                What::Altered {
+                    field: Field::Kinds,
+                    ..
+                }
+            )
+        };
+        report.findings.iter().filter(|f| is_kind(&f.what)).count()
+    };
+    assert!(tampered(EDGE, |_| ()).is_exact());
+    // The contacts that pushed are not there; it comes from somewhere.
+    let unpushed = tampered(EDGE, |records| {
+        records
+            .iter_mut()
+            .for_each(|record| record.contacts.clear());
+    });
+    assert!(kinds(&unpushed) > 0 && !unpushed.is_clean());
+    let kept = tampered(EDGE, |records| {
+        for record in records {
+            record.slides.retain(|slide| !slide.left);
+        }
+    });
+    assert!(kinds(&kept) > 0);
+    let freed = tampered(EDGE, |records| {
+        let middle = records.len() / 2;
+        for wire in &mut records[middle].wires {
+            let contacts = wire.kinds.iter_mut().filter(|kind| is_contact(kind));
+            contacts.for_each(|kind| *kind = NodeKind::Free);
+        }
+    });
+    assert!(kinds(&freed) >= 2);
+    let unslid = tampered(EDGE, |records| {
+        let slides = records.iter_mut().flat_map(|record| &mut record.slides);
+        let slide = slides.max_by(|a, b| a.distance.total_cmp(&b.distance));
+        slide.unwrap().distance *= 0.5;
+    });
+    let is_arc = |what: &What| {
+        matches!(
+            what,
+            What::Altered {
+                field: Field::Arcs,
+                ..
+            }
+        )
+    };
+    assert_eq!(unslid.jumps, 1, "{:?}", unslid.findings);
+    assert!(is_arc(&unslid.findings[0].what));
+    let moved = tampered(EDGE, |records| {
+        let middle = records.len() / 2;
+        let kinds = records[middle].wires.iter_mut().flat_map(|w| &mut w.kinds);
+        for kind in kinds {
+            if let NodeKind::Contact { local, .. } = kind {
+                local.x += 1e-9;
+            }
+        }
+    });
+    assert!(moved.astray > 0);
+}
+
+#[test]
+fn audit_finds_steps_that_do_not_follow_each_other() {
+    let field = |fault: fn(&mut Vec<StepRecord>)| {
+        let report = tampered(BOX, fault);
+        assert_eq!(report.jumps, report.findings.len() as u64);
+        assert!(!report.is_clean());
+        found(&report)
+    };
+    use StepField::{GuardedThickness, Number, Time};
+    let of = |field| What::StepUnsound { field };
+    let swapped = field(|records| records.swap(3, 4));
+    assert_eq!(swapped, [Number, Number, Time, Number].map(of));
+    assert_eq!(field(|records| drop(records.remove(3))), [of(Number)]);
+    let twice = field(|records| records.insert(3, records[3].clone()));
+    assert_eq!(twice, [Number, Time].map(of));
+    for time in [f64::NAN, f64::INFINITY] {
+        let what = match time.is_nan() {
+            true => field(|records| records[2].time = f64::NAN),
+            false => field(|records| records[2].time = f64::INFINITY),
+        };
+        // No time is after it.
+        assert_eq!(what, [Time, Time].map(of), "{time}");
+    }
+    let huge = field(|records| records[2].time = 1.7e308);
+    assert_eq!(huge, [of(Time)]);
+    let share = field(|records| records[2].collisions.guarded_thickness = -0.5);
+    assert_eq!(share, [of(GuardedThickness)]);
+}
+
+#[test]
+fn audit_names_numbers_that_are_none_of_a_wire() {
+    let report = |set: &dyn Fn(&mut WireRecord)| {
+        let report = tampered(BOX, |records| set(&mut records[2].wires[0]));
+        assert!(!report.is_clean());
+        found(&report)
+    };
+    let unsound = |field, at| What::Unsound { wire: 0, field, at };
+    let altered = |field, at| What::Altered { wire: 0, field, at };
+    for wrong in [f64::NAN, f64::INFINITY, -1.0, 0.0] {
+        let radius = report(&|wire| wire.radius = wrong);
+        assert!(radius.contains(&unsound(Field::Radius, None)), "{wrong}");
+        let arc = report(&|wire| wire.arcs[1] = wrong);
+        assert!(arc.contains(&unsound(Field::Arcs, Some(1))), "{wrong}");
+    }
+    for wrong in [f64::NAN, f64::INFINITY] {
+        let tension = report(&|wire| wire.tensions[1] = wrong);
+        assert_eq!(tension, [unsound(Field::Tensions, Some(1))]);
+        let place = report(&|wire| wire.after[2].y = wrong);
+        assert!(place.contains(&unsound(Field::After, Some(2))));
+    }
+    let huge = report(&|wire| wire.radius = 1.7e308);
+    assert!(huge.contains(&altered(Field::Radius, None)));
+    let huge = report(&|wire| wire.arcs[2] = 1.7e308);
+    assert_eq!(huge, [altered(Field::Arcs, Some(2)); 2]);
+    let few = report(&|wire| wire.tensions.truncate(1));
+    assert_eq!(few, [unsound(Field::Tensions, None)]);
+    let gone = tampered(BOX, |records| {
+        records.iter_mut().for_each(|record| record.wires.clear());
+    });
+    assert_eq!(gone.jumps, gone.steps);
+    let few = report(&|wire| wire.kinds.truncate(2));
+    assert!(few.contains(&unsound(Field::Kinds, None)));
+    // Thinner from the start on.
+    let thinner = tampered(BOX, |records| {
+        for wire in records.iter_mut().flat_map(|record| &mut record.wires) {
+            wire.radius /= 2.0;
+        }
+    });
+    assert_eq!(thinner.jumps, thinner.steps);
+}
+
+#[test]
+fn audit_finds_an_orientation_of_another_length() {
+    let report = tampered(BOX, |records| {
+        let turn = &mut records[2].bodies[0].after.orientation;
+        let twice = turn.into_inner() * 2.0;
+        *turn = nalgebra::UnitQuaternion::new_unchecked(twice);
+    });
+    assert!(found(&report).contains(&What::BodyUnsound { body: 0 }));
+}
+
+#[test]
+fn findings_of_bodies_say_where_and_are_explained() {
+    let report = tampered(BOX, |records| go_through(records));
+    let missed = &report.findings[0];
+    assert!(matches!(missed.what, What::BodyMissed { .. }));
+    assert_eq!(missed.segments.len(), 1);
+    let command = missed.command(&Caller::Test).unwrap();
+    assert!(command.contains("explain --turning -"), "{command}");
+    assert!(missed.place().is_some());
+    let segment = SegmentId {
+        wire: WireId(0),
+        segment: 1,
+    };
+    let made_up = tampered(BOX, |records| {
+        let crossings = &mut records[1].collisions.body_crossings;
+        crossings.push(BodyCrossing {
+            body: BodyId(0),
+            segment,
+            arc: 1.5,
+            toi: 0.5,
+            outcome: BodyCrossingOutcome::Passed,
+        });
+    });
+    assert_eq!(made_up.false_hits, 1);
+    assert_eq!(
+        made_up.findings[0].to_string(),
+        "step 1: reported to meet, and do not: wire 0 segment 1 and body 0"
+    );
+    for kind in [RemeshKind::Merge, RemeshKind::Split] {
+        let report = remeshed_beside_a_body(1.0, kind);
+        let finding = &report.findings[0];
+        assert_eq!(finding.what, What::BodyRemesh { body: 0, arc: 1.0 });
+        assert_eq!(
+            finding.to_string(),
+            "step 0: a change of resolution at 1 m passes through body 0: wire 0 segment 0"
+        );
+        let command = finding.command(&Caller::Test).unwrap();
+        assert!(command.contains("explain --turning -"), "{command}");
+        let between_wires = remeshed(1.0, kind);
+        assert_eq!(between_wires.findings[0].segments.len(), 2);
     }
 }

@@ -45,15 +45,22 @@ pub(super) struct MarkKind {
     pub(super) light: &'static str,
     /// Its colour on dark paper.
     pub(super) dark: &'static str,
-    /// Whether something got through something else.
+    /// Whether something got through something else, or may have.
     pub(super) is_bad: bool,
 }
 
 /// All that is marked.
-pub(super) const MARKS: [MarkKind; 4] = [
+pub(super) const MARKS: [MarkKind; 5] = [
     MarkKind {
         what: "missed",
         words: "missed",
+        light: "#c62828",
+        dark: "#ff6b6b",
+        is_bad: true,
+    },
+    MarkKind {
+        what: "jumped",
+        words: "jumped",
         light: "#c62828",
         dark: "#ff6b6b",
         is_bad: true,

@@ -144,10 +144,11 @@ impl Replay {
         self.verdict = match report.is_clean() {
             true => "audited: nothing passed unnoticed".to_owned(),
             false => format!(
-                "audited: {} contacts missed, {} standing tunnels, {} ambiguous",
+                "audited: {} contacts missed, {} standing tunnels, {} ambiguous, {} jumps",
                 report.missed.iter().sum::<u64>() + report.body_missed + report.core_missed,
                 report.standing.len() + report.body_standing.len() + report.core_standing.len(),
-                report.ambiguous.len()
+                report.ambiguous.len(),
+                report.jumps + report.astray
             ),
         };
         let findings = report.findings.iter();
@@ -161,12 +162,12 @@ impl Replay {
     fn mark(&mut self, finding: &Finding) {
         let shows = |frame: &&mut Frame| frame.step > finding.step;
         if let Some(frame) = self.frames.iter_mut().find(shows) {
-            // In the middle of the first segment at the end of the step.
-            let at = finding.query.as_ref().map(|query| {
-                let [a, b] = [query.end()[0], query.end()[1]];
-                frame::triple(&nalgebra::center(&a, &b))
-            });
-            let what = "missed";
+            let at = finding.place().as_ref().map(frame::triple);
+            let what = if finding.is_jump() {
+                "jumped"
+            } else {
+                "missed"
+            };
             frame.marks.push(Mark { what, at });
         }
     }

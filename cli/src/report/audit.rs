@@ -55,6 +55,7 @@ pub fn text(report: &Report, caller: &Caller) -> String {
             penetration(&report.standing_penetration),
         ),
         ("jumps", grouped(report.jumps)),
+        ("nodes astray", grouped(report.astray)),
         ("times late", worst(report.late)),
         ("times early", worst(report.early)),
         ("contacts made up", grouped(report.false_hits)),

@@ -180,7 +180,7 @@ fn run(mut world: World, mut collisions: Collisions<'_>, steps: usize) -> Run {
 
 /// What was found wrong.
 fn passed(report: &Report) -> u64 {
-    report.body_missed + report.body_remeshes_through + report.jumps
+    report.body_missed + report.body_remeshes_through + report.jumps + report.astray
 }
 
 fn count() -> u64 {
