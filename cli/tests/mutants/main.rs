@@ -62,7 +62,7 @@ const CERTIFY_TURNING: &[&str] = &[
      turning_thick_uniform,turning_thick_lattice,turning_thick_confined,\
      turning_thick_tangent,turning_thick_scales",
     "--count",
-    "1000",
+    "250",
 ];
 
 /// How many seeds of each family the thesis path is replayed on.
