@@ -291,7 +291,7 @@ fn shrink_and_explain_take_queries_of_bodies_that_turn() {
     let text = stdout(&explained);
     assert_eq!(code(&explained), 0, "{}", stderr(&explained));
     assert!(
-        text.contains("\"hit\":false}  tunnel") || text.contains("  missed graze"),
+        text.contains("  tunnel\n") || text.contains("  missed graze\n"),
         "{text}"
     );
     let again = with_input(
