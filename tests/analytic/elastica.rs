@@ -18,8 +18,8 @@ fn light() -> Material {
 }
 
 /// A rod of 1 m in equal segments, clamped at the origin along a direction, with a mass in kg at its
-/// end: where the end comes to rest.
-fn loaded_end(clamp: Vector, end: Vector, mass: f64) -> Result<Vector, Box<dyn Error>> {
+/// end, at rest.
+fn loaded(clamp: Vector, end: Vector, mass: f64) -> Result<Wire, Box<dyn Error>> {
     let mut world = World::new(Settings::default())?;
     let shape = Shape::Sphere { radius: 0.02 };
     let density = mass / shape.mass_properties(1.0)?.mass;
@@ -28,7 +28,14 @@ fn loaded_end(clamp: Vector, end: Vector, mass: f64) -> Result<Vector, Box<dyn E
     let route = clamped(clamp, Stop::Eye { body, local });
     world.add_wire(&WirePlan::new(light(), 1.0 / 32.0, route))?;
     settle(&mut world, &|_| Vec::new(), 1e-12, 50_000)?;
-    Ok(end_of(&world.wires()[0]))
+    Ok(world.wires()[0].clone())
+}
+
+/// A cantilever that starts level, under a weight given as `P L^2 / E I`.
+pub(crate) fn cantilever(load: f64) -> Result<Wire, Box<dyn Error>> {
+    let gravity = -Settings::default().gravity.z;
+    let mass = load * light().bend_stiffness() / gravity;
+    loaded(Vector::x(), Vector::x(), mass)
 }
 
 /// Two pinned points clamp a rod; the stub between them is short, so that at the wall only half a
@@ -50,7 +57,7 @@ pub(super) const BENT_CANTILEVER: Case = Case {
 
 /// Where the end of a cantilever is under a weight `P`, in parts of its length: `P L^2 / E I`, how far
 /// down, how far back (Mattiasson 1981, table 1).
-const MATTIASSON: [(f64, f64, f64); 4] = [
+pub(crate) const MATTIASSON: [(f64, f64, f64); 4] = [
     (1.0, 0.301_72, 0.056_43),
     (2.0, 0.493_46, 0.160_64),
     (5.0, 0.713_79, 0.387_63),
@@ -58,11 +65,9 @@ const MATTIASSON: [(f64, f64, f64); 4] = [
 ];
 
 fn bent_cantilever() -> Outcome {
-    let gravity = -Settings::default().gravity.z;
     let mut rows = Vec::new();
     for (load, down, back) in MATTIASSON {
-        let mass = load * light().bend_stiffness() / gravity;
-        let end = loaded_end(Vector::x(), Vector::x(), mass)?;
+        let end = end_of(&cantilever(load)?);
         let what = |way| format!("P L^2/E I = {load}: {way}, m");
         rows.push(Comparison::new(what("down"), down, -end.z, 5e-3));
         rows.push(Comparison::new(what("back"), back, 1.0 - end.x, 5e-3));
@@ -97,7 +102,7 @@ fn column() -> Outcome {
         let (first, second) = elliptic(k);
         let load = least * (first / FRAC_PI_2).powi(2);
         let start = Vector::new(libm::sin(0.1), 0.0, libm::cos(0.1));
-        let end = loaded_end(Vector::z(), start, load / gravity)?;
+        let end = end_of(&loaded(Vector::z(), start, load / gravity)?);
         let what = |way| format!("P/Pc = {:.3}: end {way}, m", load / least);
         let [height, aside] = [2.0 * second / first - 1.0, 2.0 * k / first];
         rows.push(Comparison::new(what("above the foot"), height, end.z, 1e-2));

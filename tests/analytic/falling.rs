@@ -1,4 +1,4 @@
-//! What is published of chains that fall: folded, and onto a scale.
+//! What is published of a chain that falls: folded, one end let go.
 
 use std::error::Error;
 
@@ -16,10 +16,12 @@ pub(super) const FOLDED: Case = Case {
 /// What part of the length the end falls: at the end it swings.
 const FALLEN: f64 = 0.9;
 
-/// How long the free end of a chain of 1 m takes to fall, in s,
-/// and its speed then: the ends start side by side, and one is let go.
-fn fall(links: usize, step: f64) -> Result<(f64, f64), Box<dyn Error>> {
-    let length = 1.0;
+/// The length of the chain in m.
+pub(crate) const LENGTH: f64 = 1.0;
+
+/// A chain that hangs by one end, at the moment at which the other one beside it is let go.
+pub(crate) fn let_go(links: usize, step: f64) -> Result<World, Box<dyn Error>> {
+    let length = LENGTH;
     let link = length / links as f64;
     let material = Material::steel(0.002).chain();
     let mut hanging = World::new(Settings::default())?;
@@ -42,8 +44,14 @@ fn fall(links: usize, step: f64) -> Result<(f64, f64), Box<dyn Error>> {
     let mut plan = WirePlan::new(damped, 2.0 * link, route);
     plan.length = Some(length);
     world.add_wire(&plan)?;
-    let free = (2.0 * length / -world.settings().gravity.z).sqrt();
-    let mark = -FALLEN * length;
+    Ok(world)
+}
+
+/// How long the free end takes to fall, in s, and its speed then.
+fn fall(links: usize, step: f64) -> Result<(f64, f64), Box<dyn Error>> {
+    let mut world = let_go(links, step)?;
+    let free = (2.0 * LENGTH / -world.settings().gravity.z).sqrt();
+    let mark = -FALLEN * LENGTH;
     while world.time() < 1.2 * free {
         let before = end_height(&world);
         world.step(&[])?;

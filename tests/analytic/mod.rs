@@ -6,8 +6,8 @@
 mod cable;
 mod contact;
 mod drum;
-mod elastica;
-mod falling;
+pub(crate) mod elastica;
+pub(crate) mod falling;
 mod motion;
 mod statics;
 mod swing;

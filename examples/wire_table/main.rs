@@ -1,15 +1,23 @@
 //! Prints what the wire stepper makes of cases with known answers, beside the formulas.
 //!
-//! `cargo run --release --example wire_table`
+//! ```text
+//! cargo run --release --example wire_table
+//! cargo run --release --example wire_table -- picture > docs/pictures/known-answers.svg
+//! ```
 
 use std::error::Error;
 
-#[path = "../tests/analytic/mod.rs"]
+#[path = "../../tests/analytic/mod.rs"]
 mod analytic;
+mod picture;
 
 use analytic::CASES;
 
 fn main() -> Result<(), Box<dyn Error>> {
+    if std::env::args().nth(1).as_deref() == Some("picture") {
+        println!("{}", picture::draw()?);
+        return Ok(());
+    }
     println!("| case | formula | what | expected | measured | deviation | tolerance |");
     println!("| --- | --- | --- | --- | --- | --- | --- |");
     let mut missed = 0;
