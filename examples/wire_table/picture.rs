@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use tunnelproof::query::Point;
 
 use crate::analytic::elastica::{MATTIASSON, cantilever};
-use crate::analytic::falling::{LENGTH, let_go};
+use crate::analytic::falling::{LENGTH, by_energy, let_go};
 
 const STYLE: &str = "
 svg { --paper: #ffffff; --ink: #1f2328; --soft: #59636e; --line: #d1d9e0; --ours: #0969da }
@@ -150,7 +150,7 @@ fn chain(svg: &mut String) -> Result<(), Box<dyn Error>> {
     let mut world = let_go(128, STEP)?;
     let gravity = -world.settings().gravity.z;
     for (k, fallen) in [0.0, 0.2, 0.4, 0.6, 0.75, 0.9].into_iter().enumerate() {
-        let time = time_of(fallen, gravity);
+        let time = by_energy(gravity, fallen).0;
         while world.time() + STEP / 2.0 < time {
             world.step(&[])?;
         }
@@ -172,15 +172,4 @@ fn chain(svg: &mut String) -> Result<(), Box<dyn Error>> {
         text(svg, [x, 540.0], "soft", &format!("{time:.2}s"));
     }
     Ok(())
-}
-
-/// When the end has fallen by a part of the length, in s, by the midpoint rule over the square root
-/// of the way.
-fn time_of(fallen: f64, gravity: f64) -> f64 {
-    const PARTS: u32 = 2000;
-    let part = fallen.sqrt() / f64::from(PARTS);
-    let rate = |u: f64| 2.0 * (LENGTH * (1.0 - u * u) / (gravity * (2.0 - u * u))).sqrt();
-    (0..PARTS)
-        .map(|i| part * rate(part * (f64::from(i) + 0.5)))
-        .sum()
 }

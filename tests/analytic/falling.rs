@@ -69,12 +69,12 @@ fn end_height(world: &World) -> f64 {
     nodes[nodes.len() - 1].position.z
 }
 
-/// When and how fast an end that is let go has fallen, in s and m/s, by conservation of energy:
+/// When an end that is let go has fallen by a part of the length, and how fast, in s and m/s, by conservation of energy:
 /// `v^2 = g x (2 L - x) / (L - x)` after a way `x` of a chain whose ends start at one place.
-fn by_energy(gravity: f64) -> (f64, f64) {
+pub(crate) fn by_energy(gravity: f64, fallen: f64) -> (f64, f64) {
     // Simpson's rule over `u = sqrt(x)`, where the integrand has no pole.
     let rate = |u: f64| 2.0 * ((1.0 - u * u) / (gravity * (2.0 - u * u))).sqrt();
-    let (parts, end) = (100, FALLEN.sqrt());
+    let (parts, end) = (100, fallen.sqrt());
     let part = end / f64::from(parts);
     let weight = |i| match i {
         0 => 1.0,
@@ -84,14 +84,14 @@ fn by_energy(gravity: f64) -> (f64, f64) {
     let sum: f64 = (0..=parts)
         .map(|i| weight(i) * rate(part * f64::from(i)))
         .sum();
-    let speed = gravity * FALLEN * (2.0 - FALLEN) / (1.0 - FALLEN);
+    let speed = gravity * fallen * (2.0 - fallen) / (1.0 - fallen);
     (sum * part / 3.0, speed.sqrt())
 }
 
 fn folded() -> Outcome {
     let gravity = -Settings::default().gravity.z;
     let free = (2.0 * FALLEN / gravity).sqrt();
-    let (time, speed) = by_energy(gravity);
+    let (time, speed) = by_energy(gravity, FALLEN);
     let (measured, measured_speed) = fall(128, 2.5e-4)?;
     let what = "time for 0.9 of the length, in free falls";
     Ok(vec![

@@ -85,7 +85,7 @@ impl Shrink {
                 reason: reason.into(),
             };
             let Some(fault) = disagreement.fault(&query).map_err(refused)? else {
-                is_asked |= disagreement.is_asked(&query);
+                is_asked = is_asked || disagreement.is_asked(&query);
                 continue;
             };
             let name = format!("{}{SHRUNK}", id.strip_suffix(SHRUNK).unwrap_or(&id));

@@ -3,7 +3,6 @@
 
 use std::fmt::Write as _;
 
-use tunnelproof::contact::Case;
 use tunnelproof::rigid::{RigidMotion, Side};
 use tunnelproof_reference::answer::ExactAnswer;
 use tunnelproof_reference::certify::judged::Judged;
@@ -47,7 +46,12 @@ pub fn explain(entry: &TurningEntry, truth: &ExactAnswer, subjects: &[Judged]) -
     if !query.radius().is_zero() {
         let _ = writeln!(text, "  radius  {}", query.radius());
     }
-    let _ = writeln!(text, "\nCase: {}: {}", truth.case, words_of(truth.case));
+    let _ = writeln!(
+        text,
+        "\nCase: {}: {}",
+        truth.case,
+        explanation::case_words(truth.case, query.kind().linear())
+    );
     match &truth.hit {
         Some(hit) => {
             let lines = explanation::contact(hit, !query.radius().is_zero());
@@ -61,18 +65,6 @@ pub fn explain(entry: &TurningEntry, truth: &ExactAnswer, subjects: &[Judged]) -
         .map(|subject| Statement::new(subject, &query, truth))
         .collect();
     text + "\n" + &explanation::statements(&said)
-}
-
-/// What a case means where sides turn.
-fn words_of(case: Case) -> &'static str {
-    match case {
-        Case::General => "none of the special cases",
-        Case::Parallel => "directions are parallel for the whole step, on two lines",
-        Case::Coplanar => "the four points share a plane for the whole step",
-        Case::Collinear => "the four points share a line for the whole step",
-        Case::SharedStart => "A and C are the same point for the whole step",
-        Case::Degenerate => "an edge is a point, or the face has no area",
-    }
 }
 
 const NAMES: [char; 4] = ['A', 'B', 'C', 'D'];

@@ -131,15 +131,6 @@ impl Explanation {
 
 impl CaseWords {
     fn new<Z: Integer>(decision: &Decision<Z>, kind: QueryKind) -> Self {
-        let words = match (decision.case(), kind) {
-            (Case::General, _) => "none of the special cases",
-            (Case::Parallel, _) => "directions are parallel for the whole step, on two lines",
-            (Case::Coplanar, _) => "the four points share a plane for the whole step",
-            (Case::Collinear, _) => "the four points share a line for the whole step",
-            (Case::SharedStart, _) => "A and C are the same point for the whole step",
-            (Case::Degenerate, QueryKind::EdgeEdge) => "an edge is a point for the whole step",
-            (Case::Degenerate, QueryKind::VertexFace) => "the face has no area for the whole step",
-        };
         let definitions = match kind {
             QueryKind::EdgeEdge => "K = B - A, L = D - C, M = C - A, f = (K x L) . M",
             QueryKind::VertexFace => "w = A - B, E1 = C - B, E2 = D - B, f = (E1 x E2) . w",
@@ -151,11 +142,24 @@ impl CaseWords {
         };
         CaseWords {
             name: decision.case().name(),
-            words,
+            words: case_words(decision.case(), kind),
             definitions,
             vanishing: named(true),
             not_vanishing: named(false),
         }
+    }
+}
+
+/// What a case means, also where sides turn: then the kind is that of the same query of linear motion.
+pub fn case_words(case: Case, kind: QueryKind) -> &'static str {
+    match (case, kind) {
+        (Case::General, _) => "none of the special cases",
+        (Case::Parallel, _) => "directions are parallel for the whole step, on two lines",
+        (Case::Coplanar, _) => "the four points share a plane for the whole step",
+        (Case::Collinear, _) => "the four points share a line for the whole step",
+        (Case::SharedStart, _) => "A and C are the same point for the whole step",
+        (Case::Degenerate, QueryKind::EdgeEdge) => "an edge is a point for the whole step",
+        (Case::Degenerate, QueryKind::VertexFace) => "the face has no area for the whole step",
     }
 }
 
