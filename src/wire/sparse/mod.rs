@@ -8,4 +8,4 @@ mod symmetric;
 pub(super) use ldl::{Ldl, SparseColumns};
 pub(super) use order::{dissect, least_degree};
 pub(super) use structure::Structure;
-pub(super) use symmetric::{Symmetric, Triplets};
+pub(super) use symmetric::{Symmetric, Triplets, sorted_by_key};

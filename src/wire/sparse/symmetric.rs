@@ -38,11 +38,10 @@ pub(in crate::wire) struct Symmetric {
 impl Symmetric {
     /// The structure of the matrix of size `n` with these entries; all are 0.
     pub(in crate::wire) fn new(n: usize, index: &[(u32, u32)]) -> Self {
-        let mut sorted: Vec<(u32, u32, u32)> = (0..)
-            .zip(index)
-            .map(|(triplet, &(row, column))| (column, row, triplet))
-            .collect();
-        sorted.sort_unstable();
+        let by_row = sorted_by_key(n, 0..index.len() as u32, |triplet| {
+            index[triplet as usize].0
+        });
+        let sorted = sorted_by_key(n, by_row, |triplet| index[triplet as usize].1);
         let mut matrix = Symmetric {
             starts: vec![0; n + 1],
             rows: Vec::new(),
@@ -50,7 +49,8 @@ impl Symmetric {
             slots: vec![0; index.len()],
         };
         let mut last = None;
-        for (column, row, triplet) in sorted {
+        for triplet in sorted {
+            let (row, column) = index[triplet as usize];
             if last != Some((column, row)) {
                 last = Some((column, row));
                 matrix.rows.push(row);
@@ -101,5 +101,44 @@ impl Symmetric {
             }
         }
         (residual, magnitude)
+    }
+}
+
+/// The items in ascending order of their keys, which are below `n`; those with the same key stay in order.
+pub(in crate::wire) fn sorted_by_key(
+    n: usize,
+    items: impl IntoIterator<Item = u32, IntoIter: Clone>,
+    key: impl Fn(u32) -> u32,
+) -> Vec<u32> {
+    let items = items.into_iter();
+    let mut next = vec![0; n + 1];
+    for item in items.clone() {
+        next[key(item) as usize + 1] += 1;
+    }
+    let count = next.iter_mut().fold(0, |sum, count| {
+        *count += sum;
+        *count
+    });
+    let mut sorted = vec![0; count];
+    for item in items {
+        let place = &mut next[key(item) as usize];
+        sorted[*place] = item;
+        *place += 1;
+    }
+    sorted
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sorted_by_key_is_a_stable_sort() {
+        let keys = [5, 0, 3, 5, 5, 1, 0, 3];
+        let mut expected: Vec<u32> = (0..8).rev().collect();
+        expected.sort_by_key(|item| keys[*item as usize]);
+        let sorted = sorted_by_key(6, (0..8).rev(), |item| keys[item as usize]);
+        assert_eq!(sorted, expected);
+        assert_eq!(sorted_by_key(0, [], |item| item), []);
     }
 }

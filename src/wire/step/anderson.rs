@@ -36,7 +36,9 @@ pub(super) fn sweep(
     swept: &mut Swept,
 ) {
     let mut history = History::default();
-    let diagonals = blocks.iter().map(|block| block.mobility.diagonal());
+    let diagonals = blocks
+        .iter()
+        .map(|block| block.mobility.matrix().diagonal());
     let units: Vec<f64> = diagonals
         .flat_map(|d| [d.x, d.y, d.z])
         .map(f64::sqrt)

@@ -7,7 +7,7 @@ use nalgebra::Matrix3;
 use smallvec::SmallVec;
 
 use super::carrier::{Carrier, Columns, velocity_of};
-use super::coulomb::solve_block;
+use super::coulomb::{Mobility, solve_block};
 use super::rows::normal_row;
 use super::system::System;
 use crate::wire::contact::ContactConstraint;
@@ -24,7 +24,7 @@ pub(super) struct Block {
     /// Where its path is.
     pub(super) path: Range<usize>,
     /// `Y^T D^-1 Y`, with the regularisation of the normal row.
-    pub(super) mobility: Matrix3<f64>,
+    pub(super) mobility: Mobility,
     sigma: f64,
     /// Velocity without contact impulses, less what is asked for.
     pub(super) bias: Vector,
@@ -143,6 +143,11 @@ impl Blocks {
         6 * self.paths.rows.len() + OWN * self.list.len()
     }
 
+    /// Rows of the factor.
+    pub(super) fn rows(&self) -> usize {
+        self.paths.factor.len()
+    }
+
     /// Rows, values and pivots on the path of a block.
     pub(super) fn path(&self, block: &Block) -> impl Iterator<Item = (u32, [f64; 3], f64)> {
         let entries = self.paths.entries(&block.path);
@@ -155,7 +160,7 @@ impl Blocks {
         for block in &mut self.list {
             let change = block.solve(&block.excess(&self.paths));
             self.paths.push(&block.path, &change);
-            largest = largest.max((block.mobility * change).amax());
+            largest = largest.max((block.mobility.matrix() * change).amax());
         }
         largest
     }
@@ -238,7 +243,7 @@ impl Block {
             frame,
             terms,
             path,
-            mobility,
+            mobility: Mobility::new(mobility),
             sigma,
         }
     }
@@ -256,7 +261,7 @@ impl Block {
     /// Solves the block with all others held, from its velocity less what is asked for; by how much
     /// its impulse changes.
     pub(super) fn solve(&mut self, excess: &Vector) -> Vector {
-        let others = excess - self.mobility * self.impulse;
+        let others = excess - self.mobility.matrix() * self.impulse;
         let impulse = solve_block(&self.mobility, &others, self.friction, &self.impulse);
         let change = impulse - self.impulse;
         self.impulse = impulse;

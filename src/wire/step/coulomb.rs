@@ -1,30 +1,48 @@
 //! Coulomb's law at one contact, with all others held.
 
-use nalgebra::{Matrix3, Vector2};
+use nalgebra::{Cholesky, Const, Matrix3, Vector2};
 
 use crate::wire::Vector;
+
+/// The mobility of a contact, and its factor if there is one.
+pub(super) struct Mobility {
+    matrix: Matrix3<f64>,
+    factor: Option<Cholesky<f64, Const<3>>>,
+}
+
+impl Mobility {
+    pub(super) fn new(matrix: Matrix3<f64>) -> Self {
+        let factor = matrix.cholesky();
+        Mobility { matrix, factor }
+    }
+
+    pub(super) fn matrix(&self) -> &Matrix3<f64> {
+        &self.matrix
+    }
+}
 
 /// Impulse of one contact by Coulomb's law: `u = mobility impulse + others`; apart (`u_n >= 0`)
 /// without impulse, or `u_n = 0` and the tangential impulse within the cone, against the sliding on
 /// its border.
 pub(super) fn solve_block(
-    mobility: &Matrix3<f64>,
+    mobility: &Mobility,
     others: &Vector,
     friction: f64,
     start: &Vector,
 ) -> Vector {
+    let Mobility { matrix, factor } = mobility;
     // The tangential rows are not regularised: without mobility there, nothing can move the places.
-    let immovable = mobility[(1, 1)] <= 0.0;
+    let immovable = matrix[(1, 1)] <= 0.0;
     if others.x >= 0.0 || immovable {
         return Vector::zeros();
     }
-    if let Some(factor) = mobility.cholesky() {
+    if let Some(factor) = factor {
         let stick = -factor.solve(others);
         if stick.x >= 0.0 && stick.yz().norm() <= friction * stick.x {
             return stick;
         }
     }
-    slide(mobility, others, friction, start)
+    slide(matrix, others, friction, start)
 }
 
 /// The sliding solution: normal impulse and projection of the tangential one in turn. Only a scalar

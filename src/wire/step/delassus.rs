@@ -6,6 +6,7 @@
 
 use super::contact_blocks::{Block, Blocks};
 use crate::wire::Vector;
+use crate::wire::sparse::sorted_by_key;
 
 /// `u = S lambda + b` of all contacts.
 pub(super) struct Delassus {
@@ -47,11 +48,15 @@ impl Delassus {
             let path = blocks.path(block);
             visits.extend(path.map(|(row, three, pivot)| (row, at, three, pivot)));
         }
-        visits.sort_unstable_by_key(|&(row, at, ..)| (row, at));
-        for visits in visits.chunk_by(|(row, ..), (other, ..)| row == other) {
-            for (k, &(_, a, three, pivot)) in visits.iter().enumerate() {
+        let order = 0..visits.len() as u32;
+        let order = sorted_by_key(blocks.rows(), order, |visit| visits[visit as usize].0);
+        let row = |visit: &u32| visits[*visit as usize].0;
+        for of_row in order.chunk_by(|visit, next| row(visit) == row(next)) {
+            for (k, &visit) in of_row.iter().enumerate() {
+                let (_, a, three, pivot) = visits[visit as usize];
                 let scaled = three.map(|value| value / pivot);
-                for &(_, b, other, _) in &visits[..k] {
+                for &visit in &of_row[..k] {
+                    let (_, b, other, _) = visits[visit as usize];
                     for (column, scaled) in scaled.iter().enumerate() {
                         let start = (3 * a + column) * n + 3 * b;
                         for (sum, value) in self.matrix[start..start + 3].iter_mut().zip(other) {
@@ -75,7 +80,7 @@ impl Delassus {
         for (at, block) in blocks.iter().enumerate() {
             for column in 0..3 {
                 let start = (3 * at + column) * n + 3 * at;
-                let mobility = block.mobility.column(column);
+                let mobility = block.mobility.matrix().column(column);
                 self.matrix[start..start + 3].copy_from_slice(mobility.as_slice());
             }
         }
@@ -101,7 +106,7 @@ impl Delassus {
             let excess = &self.excess[3 * at..3 * at + 3];
             let change = block.solve(&Vector::from_column_slice(excess));
             self.push(at, &change);
-            largest = largest.max((block.mobility * change).amax());
+            largest = largest.max((block.mobility.matrix() * change).amax());
         }
         largest
     }
