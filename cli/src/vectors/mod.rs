@@ -102,3 +102,23 @@ impl Source {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::path::Path;
+
+    use super::*;
+
+    /// Those of the families take longer: `vectors_are_what_would_be_written_and_every_difference_is_found`.
+    #[test]
+    fn files_before_the_families_are_as_they_are_on_disk() {
+        let mut sources = vec![given::figures(), given::errata(), reports::reports()];
+        without_repetition(&mut sources);
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../vectors");
+        for file in sources.into_iter().map(Source::file) {
+            let on_disk = fs::read_to_string(folder.join(&file.name)).unwrap();
+            assert!(file.text == on_disk, "{}", file.name);
+        }
+    }
+}
