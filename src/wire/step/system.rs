@@ -144,6 +144,7 @@ impl System {
 
     /// Takes contacts into the system, with their predicted impulses, and softens what chains hold.
     pub(super) fn take(&mut self, world: &World, contacts: &[ContactConstraint], start: &Start) {
+        self.triplets.index.truncate(self.mass_entries);
         let mut masses = vec![0.0; self.layout.size];
         let entries = self.triplets.index.iter().zip(&self.triplets.value);
         for (&(i, j), value) in entries.take(self.mass_entries) {
@@ -189,23 +190,32 @@ impl System {
 
     /// Factors the system with the rows that are active now.
     pub(super) fn factor(&mut self) -> Result<(), Reason> {
-        self.triplets.index.truncate(self.mass_entries);
-        self.triplets.value.truncate(self.mass_entries);
+        // Where entries are depends on what contacts and rows there are, not on their state.
+        let is_indexed = self.triplets.index.len() > self.mass_entries;
+        let triplets = &mut self.triplets;
+        triplets.value.truncate(self.mass_entries);
+        let mut add = |i: usize, j: usize, value: f64| {
+            if is_indexed {
+                let index = triplets.index.get(triplets.value.len());
+                debug_assert_eq!(index, Some(&(i.min(j) as u32, i.max(j) as u32)));
+                triplets.value.push(value);
+            } else {
+                triplets.add(i, j, value);
+            }
+        };
         for contact in &self.implicit {
-            let triplets = &mut self.triplets;
-            contact.each_entry(|i, j, value| triplets.add(i, j, value));
+            contact.each_entry(&mut add);
         }
         for row in &self.rows {
             // A row that is not active keeps its place in the structure: -1 x multiplier = 0.
             let Branch { active, start, .. } = row.branch;
             let weight = if active { 1.0 } else { 0.0 };
-            let triplets = &mut self.triplets;
-            row.each_column(|column, value| triplets.add(column, row.multiplier, weight * value));
+            row.each_column(|column, value| add(column, row.multiplier, weight * value));
             let sigma = if active { row.regularisation() } else { 1.0 };
-            self.triplets.add(row.multiplier, row.multiplier, -sigma);
+            add(row.multiplier, row.multiplier, -sigma);
             self.right[row.multiplier] = weight * (row.target + start - row.given());
         }
-        let stands = |s: &Structure| s.index == self.triplets.index;
+        let stands = |s: &Structure| is_indexed || s.index == self.triplets.index;
         let structure = self.structure.take().filter(stands);
         let mut structure = structure.unwrap_or_else(|| {
             let matrix = Symmetric::new(self.layout.size, &self.triplets.index);
