@@ -163,7 +163,7 @@ impl World {
         system.take(self, contacts, start);
         let tolerance = self.settings.contact_tolerance;
         let found = multipliers::solve(system, system.start(self), tolerance, budget);
-        system.implicit.clear();
+        system.release_contacts();
         phases.contacts += clock.lap();
         let found = found.ok()??;
         let solver = SolverRecord {

@@ -162,6 +162,12 @@ impl System {
         }
     }
 
+    /// Leaves the contacts out again.
+    pub(super) fn release_contacts(&mut self) {
+        self.implicit.clear();
+        self.triplets.index.truncate(self.mass_entries);
+    }
+
     /// The velocities before the step.
     pub(super) fn start(&self, world: &World) -> Vec<f64> {
         let mut x = vec![0.0; self.layout.size];

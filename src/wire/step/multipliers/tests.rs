@@ -139,7 +139,7 @@ fn moved_by(
             columns.extend(own);
         }
     }
-    system.implicit.clear();
+    system.release_contacts();
     system.factor().unwrap();
     system.solve(&columns).unwrap().0
 }
