@@ -1,0 +1,368 @@
+//! Mutation analysis: are the tests of the project changed in their verdict by every small change of its sources?
+//!
+//! The changes are those of [cargo-mutants](https://mutants.rs), and every constant in floating point halved, doubled and set to 0.
+//! All mutants are in one build, which is told by its environment which of them is on. So a mutant costs the tests that reach it, and
+//! no compilation.
+
+use std::collections::{BTreeMap, HashMap};
+use std::fs::{self, File};
+use std::io::{BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, bail};
+use clap::Parser;
+use rand::SeedableRng;
+use rand::seq::SliceRandom;
+use serde::{Deserialize, Serialize};
+
+use rewrite::{Kind, Mutant};
+use suite::{End, Said, Test};
+use tree::Subject;
+
+mod rewrite;
+mod suite;
+mod tree;
+
+/// Changes the sources in every small way, one at a time, and says which changes no test notices
+#[derive(Parser)]
+#[command(after_help = AFTER)]
+struct Options {
+    /// What is mutated: the certified path, or the judges
+    #[arg(long, default_value = "certified", value_parser = ["certified", "judges"])]
+    subject: String,
+    /// Only so many mutants, drawn at random
+    #[arg(long, value_name = "N")]
+    sample: Option<usize>,
+    /// The seed of the draw
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Only mutants of this kind: constant, operator, unary, body or arm
+    #[arg(long, value_parser = Kind::ALL.map(Kind::name))]
+    kind: Option<String>,
+    /// Only mutants in files with this in their path
+    #[arg(long, default_value = "")]
+    file: String,
+    /// Threads
+    #[arg(long, default_value_t = 2)]
+    jobs: usize,
+    /// Tests that take longer than this are left out
+    #[arg(long, value_name = "S", default_value_t = 8)]
+    longest: u64,
+    /// Count the mutants, and run no test
+    #[arg(long)]
+    list: bool,
+    /// The project; what is built goes to its `target/mutation`
+    #[arg(long, default_value = ".")]
+    project: PathBuf,
+}
+
+const AFTER: &str = "\
+Goes on where it was stopped: results are kept in target/mutation/SUBJECT/results.jsonl. Remove it after a change of sources or tests.";
+
+const CERTIFIED: Subject = Subject {
+    package: ".",
+    sources: &["src/certified"],
+};
+const JUDGES: Subject = Subject {
+    package: "reference",
+    sources: &[
+        "reference/src/oracle",
+        "reference/src/algebraic",
+        "reference/src/poly",
+        "reference/src/places",
+        "reference/src/places.rs",
+    ],
+};
+
+/// The tests of the certified path: unit tests, and those of whole answers.
+const CERTIFIED_TESTS: &[&str] = &[
+    "--lib",
+    "--test",
+    "advance",
+    "--test",
+    "certified",
+    "--test",
+    "conformance",
+    "--test",
+    "discrete",
+    "--test",
+    "figures",
+    "--test",
+    "normal",
+    "--test",
+    "rigid",
+    "--test",
+    "rigid_normal",
+    "--test",
+    "symmetry",
+    "--test",
+    "thick",
+    "--test",
+    "underflow",
+    "--test",
+    "vertex_face",
+    "--test",
+    "cascade",
+    "--test",
+    "worst",
+    "--test",
+    "mesh",
+];
+const JUDGES_TESTS: &[&str] = &[
+    "--lib",
+    "--test",
+    "agreement",
+    "--test",
+    "conformance",
+    "--test",
+    "rigid",
+    "--test",
+    "vertex_face",
+    "--test",
+    "figures",
+];
+
+#[derive(Clone, Debug, Deserialize, Serialize)]
+struct Outcome {
+    id: u32,
+    verdict: Verdict,
+    /// The test that noticed.
+    by: Option<String>,
+    seconds: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]
+#[serde(rename_all = "kebab-case")]
+enum Verdict {
+    /// A test fails.
+    Killed,
+    /// A test does not end.
+    TimedOut,
+    /// All tests pass, and yet answers are others.
+    Wrong,
+    /// All tests pass, and all answers are the same, but they take more work, or less.
+    Costs,
+    /// All tests pass, and answers and work are the same.
+    Same,
+    /// No test and no answer reaches it.
+    Unreached,
+}
+
+impl Verdict {
+    const ALL: [Self; 6] = [
+        Self::Killed,
+        Self::TimedOut,
+        Self::Wrong,
+        Self::Costs,
+        Self::Same,
+        Self::Unreached,
+    ];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Killed => "killed",
+            Self::TimedOut => "timed out",
+            Self::Wrong => "wrong",
+            Self::Costs => "costs",
+            Self::Same => "same",
+            Self::Unreached => "unreached",
+        }
+    }
+}
+
+fn main() -> Result<()> {
+    let options = Options::parse();
+    let project = fs::canonicalize(&options.project)?;
+    let (subject, arguments, filter) = match options.subject.as_str() {
+        "certified" => (CERTIFIED, CERTIFIED_TESTS, "certified::"),
+        "judges" => (JUDGES, JUDGES_TESTS, ""),
+        other => bail!("no subject {other}"),
+    };
+    let folder = project.join("target/mutation").join(&options.subject);
+    let tree = folder.join("tree");
+    tree::copy(&project, &tree)?;
+    let mutants = tree::mutate(&project, &tree, &subject)?;
+    let wanted = wanted(&mutants, &options);
+    if options.list {
+        for mutant in &wanted {
+            println!("{}", said(mutant));
+        }
+        return Ok(());
+    }
+    let longest = Duration::from_secs(options.longest);
+    let tests = suite::baseline(&tree, arguments, filter, longest, options.jobs)?;
+    println!(
+        "{} tests, {:.0} s in all",
+        tests.len(),
+        tests.iter().map(|test| test.seconds).sum::<f64>()
+    );
+    let outcomes = judge(&wanted, &tests, &tree, options.jobs)?;
+    report(&wanted, &outcomes);
+    Ok(())
+}
+
+fn wanted(mutants: &[Mutant], options: &Options) -> Vec<Mutant> {
+    let mut wanted: Vec<_> = mutants
+        .iter()
+        .filter(|mutant| {
+            options
+                .kind
+                .as_deref()
+                .is_none_or(|kind| mutant.kind.name() == kind)
+                && mutant.file.contains(&options.file)
+        })
+        .cloned()
+        .collect();
+    if let Some(sample) = options.sample {
+        wanted.shuffle(&mut rand_chacha::ChaCha8Rng::seed_from_u64(options.seed));
+        wanted.truncate(sample);
+        wanted.sort_by_key(|mutant| mutant.id);
+    }
+    wanted
+}
+
+/// What the tests say of each mutant, by its number.
+fn judge(
+    mutants: &[Mutant],
+    tests: &[Test],
+    tree: &Path,
+    jobs: usize,
+) -> Result<HashMap<u32, Outcome>> {
+    let mut reaching: HashMap<u32, Vec<&Test>> = HashMap::new();
+    for test in tests {
+        for &site in &test.reaches {
+            reaching.entry(site).or_default().push(test);
+        }
+    }
+    let asker = suite::asker(tree)?;
+    let started = Instant::now();
+    let usual = suite::ask(&asker, None, Duration::from_secs(600))?
+        .context("the sources as they are give no answers")?;
+    let judge = Judge {
+        reaching,
+        asker,
+        usual,
+        limit: 20 * started.elapsed() + Duration::from_secs(5),
+    };
+    let path = tree.with_file_name("results.jsonl");
+    let mut known = HashMap::new();
+    if let Ok(file) = File::open(&path) {
+        for line in BufReader::new(file).lines() {
+            if let Ok(outcome) = serde_json::from_str::<Outcome>(&line?) {
+                known.insert(outcome.id, outcome);
+            }
+        }
+    }
+    let left: Vec<&Mutant> = mutants
+        .iter()
+        .filter(|mutant| !known.contains_key(&mutant.id))
+        .collect();
+    let file = Mutex::new((File::options().create(true).append(true).open(path)?, 0));
+    let started = Instant::now();
+    let outcomes = suite::spread(&left, jobs, |mutant| {
+        let outcome = judge.look(mutant)?;
+        if !matches!(outcome.verdict, Verdict::Killed | Verdict::TimedOut) {
+            println!("{}: {}", outcome.verdict.name(), said(mutant));
+        }
+        let mut file = file
+            .lock()
+            .map_err(|_| anyhow::anyhow!("a thread failed"))?;
+        writeln!(file.0, "{}", serde_json::to_string(&outcome)?)?;
+        file.1 += 1;
+        if file.1 % 200 == 0 {
+            eprintln!(
+                "{} of {} in {:.0} s",
+                file.1,
+                left.len(),
+                started.elapsed().as_secs_f64()
+            );
+        }
+        Ok(outcome)
+    })?;
+    known.extend(outcomes.into_iter().map(|outcome| (outcome.id, outcome)));
+    Ok(known)
+}
+
+/// What is needed to judge a mutant.
+struct Judge<'a> {
+    /// The tests that reach a place, the quickest first.
+    reaching: HashMap<u32, Vec<&'a Test>>,
+    /// The program that asks for answers, what it says without a mutant, and how long it may take.
+    asker: PathBuf,
+    usual: Said,
+    limit: Duration,
+}
+
+impl Judge<'_> {
+    /// Runs the tests that reach it until one fails. If none does, answers and work are compared.
+    fn look(&self, mutant: &Mutant) -> Result<Outcome> {
+        let started = Instant::now();
+        let id = mutant.id;
+        let outcome = |verdict, by: Option<&Test>| Outcome {
+            id,
+            verdict,
+            by: by.map(|test| format!("{} {}", test.target, test.name)),
+            seconds: started.elapsed().as_secs_f64(),
+        };
+        for &test in self
+            .reaching
+            .get(&mutant.site)
+            .map_or(&[][..], Vec::as_slice)
+        {
+            let limit = Duration::from_secs_f64(5.0 + 10.0 * test.seconds);
+            match suite::run(test, limit, |command| command.env("MUTANT", id.to_string()))
+                .context("a test cannot be run")?
+            {
+                End::Passed => {}
+                End::Failed => return Ok(outcome(Verdict::Killed, Some(test))),
+                End::TimedOut => return Ok(outcome(Verdict::TimedOut, Some(test))),
+            }
+        }
+        let verdict = match suite::ask(&self.asker, Some(id), self.limit)? {
+            Some(said) if said == self.usual && !self.reaching.contains_key(&mutant.site) => {
+                Verdict::Unreached
+            }
+            Some(said) if said == self.usual => Verdict::Same,
+            Some(said) if said.answers == self.usual.answers => Verdict::Costs,
+            _ => Verdict::Wrong,
+        };
+        Ok(outcome(verdict, None))
+    }
+}
+
+fn said(mutant: &Mutant) -> String {
+    format!(
+        "#{} {}:{}:{} {}: {}",
+        mutant.id, mutant.file, mutant.line, mutant.column, mutant.function, mutant.what
+    )
+}
+
+fn report(mutants: &[Mutant], outcomes: &HashMap<u32, Outcome>) {
+    let mut table: BTreeMap<Kind, [usize; 6]> = BTreeMap::new();
+    for mutant in mutants {
+        if let Some(outcome) = outcomes.get(&mutant.id) {
+            table.entry(mutant.kind).or_default()[outcome.verdict as usize] += 1;
+        }
+    }
+    let names = Verdict::ALL.map(|verdict| format!("{:>10}", verdict.name()));
+    println!("\n{:10} {:>8} {}", "kind", "mutants", names.join(""));
+    let mut all = [0; 6];
+    for (kind, counts) in &table {
+        row(kind.name(), counts);
+        for (sum, count) in all.iter_mut().zip(counts) {
+            *sum += count;
+        }
+    }
+    row("all", &all);
+}
+
+fn row(name: &str, counts: &[usize; 6]) {
+    let numbers = counts.map(|count| format!("{count:>10}"));
+    println!(
+        "{name:10} {:>8} {}",
+        counts.iter().sum::<usize>(),
+        numbers.join("")
+    );
+}

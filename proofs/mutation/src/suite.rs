@@ -1,0 +1,313 @@
+//! The tests: which there are, how long each takes, and which places it reaches.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, ensure};
+use serde::{Deserialize, Serialize};
+
+use crate::tree::cargo;
+
+/// A test of a program of tests.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+pub struct Test {
+    pub program: PathBuf,
+    pub folder: PathBuf,
+    pub target: String,
+    pub name: String,
+    pub seconds: f64,
+    /// The places that it reaches, in order.
+    pub reaches: Vec<u32>,
+}
+
+#[derive(Deserialize)]
+struct Artifact {
+    manifest_path: Option<PathBuf>,
+    target: Option<Target>,
+    executable: Option<PathBuf>,
+}
+
+#[derive(Deserialize)]
+struct Target {
+    name: String,
+    kind: Vec<String>,
+}
+
+/// How a run of tests ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    Passed,
+    Failed,
+    TimedOut,
+}
+
+/// The programs of tests, built: each with its package's folder, its name, and whether it is the tests of a library.
+fn programs(tree: &Path, arguments: &[&str]) -> Result<Vec<(PathBuf, PathBuf, Target)>> {
+    let output = cargo(tree)
+        .args([
+            "test",
+            "--release",
+            "--no-run",
+            "--message-format",
+            "json",
+            "-p",
+            "tunnelproof",
+            "-p",
+            "tunnelproof-reference",
+        ])
+        .args(arguments)
+        .stderr(Stdio::inherit())
+        .output()?;
+    ensure!(output.status.success(), "the tests do not compile");
+    let mut programs = Vec::new();
+    for line in String::from_utf8_lossy(&output.stdout).lines() {
+        if let Ok(Artifact {
+            manifest_path: Some(manifest),
+            target: Some(target),
+            executable: Some(program),
+        }) = serde_json::from_str(line)
+        {
+            programs.push((
+                program,
+                manifest
+                    .parent()
+                    .context("a manifest is in a folder")?
+                    .to_owned(),
+                target,
+            ));
+        }
+    }
+    Ok(programs)
+}
+
+/// Builds the tests, and runs each alone, without any mutant: how long it takes, and what it reaches. Those that take longer are left
+/// out, and told. Kept in a file, as long as the programs are the same.
+pub fn baseline(
+    tree: &Path,
+    arguments: &[&str],
+    filter: &str,
+    longest: Duration,
+    jobs: usize,
+) -> Result<Vec<Test>> {
+    let mut all = Vec::new();
+    for (program, folder, target) in programs(tree, arguments)? {
+        let is_lib = target.kind.iter().any(|kind| kind.contains("lib"));
+        let listed = Command::new(&program)
+            .args(["--list", "--format", "terse"])
+            .current_dir(&folder)
+            .output()?;
+        for test in String::from_utf8_lossy(&listed.stdout).lines() {
+            if let Some(name) = test.strip_suffix(": test")
+                && (!is_lib || name.starts_with(filter))
+            {
+                let (program, folder, target, name) = (
+                    program.clone(),
+                    folder.clone(),
+                    target.name.clone(),
+                    name.to_owned(),
+                );
+                all.push(Test {
+                    program,
+                    folder,
+                    target,
+                    name,
+                    seconds: 0.0,
+                    reaches: Vec::new(),
+                });
+            }
+        }
+    }
+    let kept = tree.with_file_name("tests.json");
+    let key = format!(
+        "{:?} {}",
+        all.iter()
+            .map(|test| (stamp(&test.program), &test.name))
+            .collect::<Vec<_>>(),
+        longest.as_secs()
+    );
+    if let Ok(text) = fs::read_to_string(&kept)
+        && let Ok((of, tests)) = serde_json::from_str::<(String, Vec<Test>)>(&text)
+        && of == key
+    {
+        return Ok(tests);
+    }
+    let measured = spread(&all, jobs, |test| measure(test, tree, longest))?;
+    let mut tests: Vec<Test> = measured.into_iter().flatten().collect();
+    ensure!(!tests.is_empty(), "no test reaches what is mutated");
+    tests.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
+    fs::write(&kept, serde_json::to_string(&(key, &tests))?)?;
+    Ok(tests)
+}
+
+/// When the program was built.
+fn stamp(program: &Path) -> Option<std::time::SystemTime> {
+    fs::metadata(program).ok()?.modified().ok()
+}
+
+/// The test with what it takes and reaches, if it reaches anything in time.
+fn measure(test: &Test, tree: &Path, longest: Duration) -> Result<Option<Test>> {
+    let places = tree.with_file_name(format!(
+        "reached-{}-{}",
+        test.target,
+        test.name.replace("::", "-")
+    ));
+    fs::write(&places, [])?;
+    let started = Instant::now();
+    let end = run(test, longest, |command| {
+        command.env("MUTATION_REACHED", &places)
+    })?;
+    let reached = fs::read(&places)?;
+    fs::remove_file(&places)?;
+    match end {
+        End::Failed => anyhow::bail!("{} {} fails without any mutant", test.target, test.name),
+        End::TimedOut => {
+            println!(
+                "left out, as it takes more than {} s: {} {}",
+                longest.as_secs(),
+                test.target,
+                test.name
+            );
+            return Ok(None);
+        }
+        End::Passed if reached.is_empty() => return Ok(None),
+        End::Passed => {}
+    }
+    let reaches = (0..)
+        .zip(&reached)
+        .filter(|(_, is)| **is != 0)
+        .map(|(site, _)| site)
+        .collect();
+    Ok(Some(Test {
+        seconds: started.elapsed().as_secs_f64(),
+        reaches,
+        ..test.clone()
+    }))
+}
+
+/// Does something with each item, on several threads; what comes of it is in the order of the items.
+pub fn spread<T: Sync, R: Send>(
+    items: &[T],
+    jobs: usize,
+    work: impl Fn(&T) -> Result<R> + Sync,
+) -> Result<Vec<R>> {
+    let next = AtomicUsize::new(0);
+    let results = Mutex::new(Vec::new());
+    std::thread::scope(|scope| {
+        let thread = || -> Result<()> {
+            while let Some((at, item)) =
+                Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|at| Some((at, items.get(at)?)))
+            {
+                let result = work(item)?;
+                results
+                    .lock()
+                    .map_err(|_| anyhow::anyhow!("a thread failed"))?
+                    .push((at, result));
+            }
+            Ok(())
+        };
+        let threads: Vec<_> = (0..jobs.max(1)).map(|_| scope.spawn(thread)).collect();
+        threads.into_iter().try_for_each(|thread| {
+            thread
+                .join()
+                .map_err(|_| anyhow::anyhow!("a thread failed"))?
+        })
+    })?;
+    let mut results = results
+        .into_inner()
+        .map_err(|_| anyhow::anyhow!("a thread failed"))?;
+    results.sort_by_key(|(at, _)| *at);
+    Ok(results.into_iter().map(|(_, result)| result).collect())
+}
+
+/// What the certified path says of queries of all families, with a mutant or without one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Said {
+    pub answers: String,
+    /// How many places that are mutated were passed.
+    pub work: u64,
+}
+
+/// The program that asks.
+pub fn asker(tree: &Path) -> Result<PathBuf> {
+    let programs = programs(tree, &["--test", "mutation_answers"])?;
+    programs
+        .into_iter()
+        .map(|(program, ..)| program)
+        .next()
+        .context("no program asks")
+}
+
+/// Asks; `None` if there is no answer within the limit.
+pub fn ask(program: &Path, mutant: Option<u32>, limit: Duration) -> Result<Option<Said>> {
+    let mut command = Command::new(program);
+    command
+        .args(["--nocapture", "--test-threads", "1"])
+        .env("MUTATION_WORK", "1")
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null());
+    if let Some(id) = mutant {
+        command.env("MUTANT", id.to_string());
+    }
+    let mut child = command.spawn()?;
+    let started = Instant::now();
+    while child.try_wait()?.is_none() {
+        if started.elapsed() > limit {
+            child.kill()?;
+            child.wait()?;
+            return Ok(None);
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let output = child.wait_with_output()?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    Ok(text.lines().find_map(|line| {
+        let (answers, work) = line.strip_prefix("said ")?.split_once(' ')?;
+        Some(Said {
+            answers: answers.to_owned(),
+            work: work.parse().ok()?,
+        })
+    }))
+}
+
+/// Runs a test alone.
+pub fn run(
+    test: &Test,
+    limit: Duration,
+    environment: impl FnOnce(&mut Command) -> &mut Command,
+) -> Result<End> {
+    let mut command = Command::new(&test.program);
+    command
+        .args(["--exact", &test.name, "--test-threads", "1"])
+        .current_dir(&test.folder)
+        .env("CARGO_MANIFEST_DIR", &test.folder)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null());
+    environment(&mut command);
+    let mut child = command
+        .spawn()
+        .with_context(|| test.program.display().to_string())?;
+    let started = Instant::now();
+    let mut pause = Duration::from_micros(500);
+    loop {
+        if let Some(status) = child.try_wait()? {
+            return Ok(if status.success() {
+                End::Passed
+            } else {
+                End::Failed
+            });
+        }
+        if started.elapsed() > limit {
+            child.kill()?;
+            child.wait()?;
+            return Ok(End::TimedOut);
+        }
+        std::thread::sleep(pause);
+        pause = (2 * pause).min(Duration::from_millis(20));
+    }
+}

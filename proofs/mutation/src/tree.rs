@@ -1,0 +1,261 @@
+//! A copy of the project, in which the sources of a folder have all their mutants.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, ensure};
+use serde::Deserialize;
+
+use crate::rewrite::{Mutant, Numbers, constants, rewrite};
+
+/// What is mutated: the crate, and the module of it by its file.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// The folder of the crate's package, from that of the project.
+    pub package: &'static str,
+    /// The folders and files that are mutated, from that of the project.
+    pub sources: &'static [&'static str],
+}
+
+/// Copies what Git knows of the project, so that what did not change is not compiled anew.
+pub fn copy(project: &Path, tree: &Path) -> Result<()> {
+    let listed = Command::new("git")
+        .args([
+            "ls-files",
+            "-z",
+            "--cached",
+            "--others",
+            "--exclude-standard",
+        ])
+        .current_dir(project)
+        .output()?;
+    ensure!(
+        listed.status.success(),
+        "git ls-files: {}",
+        String::from_utf8_lossy(&listed.stderr)
+    );
+    for name in String::from_utf8(listed.stdout)?.split_terminator('\0') {
+        let from = project.join(name);
+        if from.is_file() {
+            put(&tree.join(name), &fs::read(&from)?)?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes a file unless it has these contents.
+fn put(path: &Path, contents: &[u8]) -> Result<()> {
+    if fs::read(path).is_ok_and(|old| old == contents) {
+        return Ok(());
+    }
+    fs::create_dir_all(path.parent().context("a file is in a folder")?)?;
+    fs::write(path, contents).with_context(|| path.display().to_string())
+}
+
+/// A source that is mutated.
+struct Source {
+    name: String,
+    text: String,
+    file: syn::File,
+}
+
+/// The files of the folders, without modules of tests.
+fn sources(project: &Path, subject: &Subject) -> Result<Vec<Source>> {
+    let mut paths = Vec::new();
+    for source in subject.sources {
+        walk(&project.join(source), &mut paths)?;
+    }
+    let mut sources = Vec::new();
+    let mut tests = BTreeSet::new();
+    for path in paths {
+        let text = fs::read_to_string(&path)?;
+        let file = syn::parse_file(&text).with_context(|| path.display().to_string())?;
+        for item in &file.items {
+            if let syn::Item::Mod(module) = item
+                && module.content.is_none()
+                && module
+                    .attrs
+                    .iter()
+                    .any(|attribute| attribute.path().is_ident("cfg"))
+            {
+                let stem = path
+                    .file_stem()
+                    .and_then(|stem| stem.to_str())
+                    .unwrap_or_default();
+                let folder = match stem {
+                    "mod" | "lib" => path.with_file_name(""),
+                    _ => path.with_extension(""),
+                };
+                tests.insert(folder.join(module.ident.to_string()));
+            }
+        }
+        let name = path.strip_prefix(project)?.display().to_string();
+        sources.push((path, Source { name, text, file }));
+    }
+    let is_test = |path: &Path| {
+        tests
+            .iter()
+            .any(|test| path.with_extension("") == *test || path.starts_with(test))
+    };
+    Ok(sources
+        .into_iter()
+        .filter(|(path, _)| !is_test(path))
+        .map(|(_, source)| source)
+        .collect())
+}
+
+fn walk(path: &Path, found: &mut Vec<PathBuf>) -> Result<()> {
+    if path.is_dir() {
+        let mut entries = fs::read_dir(path)?
+            .map(|entry| Ok(entry?.path()))
+            .collect::<Result<Vec<_>>>()?;
+        entries.sort();
+        return entries.iter().try_for_each(|entry| walk(entry, found));
+    }
+    if path.extension().is_some_and(|extension| extension == "rs") {
+        found.push(path.to_owned());
+    }
+    Ok(())
+}
+
+/// Writes the sources with all mutants but those that do not compile, which the compiler is asked for, and returns the mutants.
+pub fn mutate(project: &Path, tree: &Path, subject: &Subject) -> Result<Vec<Mutant>> {
+    let sources = sources(project, subject)?;
+    let names = sources
+        .iter()
+        .flat_map(|source| constants(&source.file))
+        .collect();
+    let mut dropped = BTreeSet::new();
+    loop {
+        let (mut numbers, mut mutants) = (Numbers::default(), Vec::new());
+        for source in &sources {
+            let rewritten = rewrite(
+                &source.name,
+                &source.text,
+                &source.file,
+                &names,
+                &dropped,
+                &mut numbers,
+            );
+            put(&tree.join(&source.name), rewritten.text.as_bytes())?;
+            mutants.extend(rewritten.mutants);
+        }
+        let package = tree.join(subject.package);
+        let schema = format!(
+            "{}\nconst SITES: u32 = {};\n",
+            include_str!("schema.rs"),
+            numbers.sites
+        );
+        put(&package.join("src/mutation.rs"), schema.as_bytes())?;
+        if subject.package == "." {
+            put(
+                &tree.join("tests/mutation_answers.rs"),
+                include_bytes!("answers.rs.txt"),
+            )?;
+        }
+        let lib = fs::read_to_string(project.join(subject.package).join("src/lib.rs"))?;
+        put(
+            &package.join("src/lib.rs"),
+            format!("{lib}\n#[doc(hidden)]\npub mod mutation;\n").as_bytes(),
+        )?;
+        let refused = refused(tree, subject)?;
+        if refused.is_empty() {
+            println!(
+                "{} mutants in {} files; {} more do not compile",
+                mutants.len(),
+                sources.len(),
+                dropped.len()
+            );
+            return Ok(mutants);
+        }
+        let before = dropped.len();
+        dropped.extend(refused);
+        ensure!(dropped.len() > before, "the same mutants are refused again");
+        eprintln!("{} mutants that do not compile", dropped.len());
+    }
+}
+
+#[derive(Deserialize)]
+struct Message {
+    message: Option<Diagnostic>,
+}
+
+#[derive(Deserialize)]
+struct Diagnostic {
+    level: String,
+    rendered: Option<String>,
+    spans: Vec<Place>,
+}
+
+#[derive(Deserialize)]
+struct Place {
+    file_name: String,
+    line_start: usize,
+    line_end: usize,
+    is_primary: bool,
+}
+
+/// The mutants that the compiler refuses.
+fn refused(tree: &Path, subject: &Subject) -> Result<BTreeSet<u32>> {
+    let package = tree.join(subject.package);
+    let output = cargo(tree)
+        .args([
+            "check",
+            "--release",
+            "--lib",
+            "--message-format",
+            "json",
+            "--manifest-path",
+        ])
+        .arg(package.join("Cargo.toml"))
+        .output()?;
+    let mut refused = BTreeSet::new();
+    for line in String::from_utf8_lossy(&output.stdout).lines() {
+        let Ok(Message {
+            message: Some(said),
+        }) = serde_json::from_str::<Message>(line)
+        else {
+            continue;
+        };
+        if said.level != "error" || said.spans.is_empty() {
+            continue;
+        }
+        let before = refused.len();
+        for place in said.spans.iter().filter(|place| place.is_primary) {
+            let text = fs::read_to_string(tree.join(&place.file_name))
+                .or_else(|_| fs::read_to_string(package.join(&place.file_name)))?;
+            let lines = text
+                .lines()
+                .skip(place.line_start - 1)
+                .take(place.line_end - place.line_start + 1);
+            for mark in lines.flat_map(|line| line.split("/*m").skip(1)) {
+                refused.extend(
+                    mark.split("*/")
+                        .next()
+                        .and_then(|id| id.parse::<u32>().ok()),
+                );
+            }
+        }
+        if refused.len() == before && refused.is_empty() {
+            eprintln!("{}", said.rendered.unwrap_or_default());
+        }
+    }
+    ensure!(
+        output.status.success() || !refused.is_empty(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    Ok(refused)
+}
+
+/// Cargo for the copy: without lints, and with a folder of its own to build in.
+pub fn cargo(tree: &Path) -> Command {
+    let mut command = Command::new("cargo");
+    command
+        .current_dir(tree)
+        .env("RUSTFLAGS", "--cap-lints=allow")
+        .env("CARGO_TARGET_DIR", tree.with_file_name("build"));
+    command
+}
