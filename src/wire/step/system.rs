@@ -144,7 +144,7 @@ impl System {
 
     /// Takes contacts into the system, with their predicted impulses, and softens what chains hold.
     pub(super) fn take(&mut self, world: &World, contacts: &[ContactConstraint], start: &Start) {
-        self.triplets.index.truncate(self.mass_entries);
+        self.release_contacts();
         let mut masses = vec![0.0; self.layout.size];
         let entries = self.triplets.index.iter().zip(&self.triplets.value);
         for (&(i, j), value) in entries.take(self.mass_entries) {
