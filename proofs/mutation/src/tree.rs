@@ -36,13 +36,24 @@ pub fn copy(project: &Path, tree: &Path) -> Result<()> {
         "git ls-files: {}",
         String::from_utf8_lossy(&listed.stderr)
     );
-    for name in String::from_utf8(listed.stdout)?.split_terminator('\0') {
-        let from = project.join(name);
-        if from.is_file() {
-            put(&tree.join(name), &fs::read(&from)?)?;
+    let listed = String::from_utf8(listed.stdout)?;
+    let names: BTreeSet<&str> = listed
+        .split_terminator('\0')
+        .filter(|name| project.join(name).is_file())
+        .collect();
+    // What an earlier run copied, and is there no more.
+    let list = tree.with_file_name("files");
+    if let Ok(earlier) = fs::read_to_string(&list) {
+        for name in earlier.split_terminator('\0') {
+            if !names.contains(name) && tree.join(name).is_file() {
+                fs::remove_file(tree.join(name))?;
+            }
         }
     }
-    Ok(())
+    for name in &names {
+        put(&tree.join(name), &fs::read(project.join(name))?)?;
+    }
+    put(&list, listed.as_bytes())
 }
 
 /// Writes a file unless it has these contents.

@@ -1,8 +1,9 @@
+//! Operations of both backends on known values.
+
 use std::cmp::Ordering;
 
 use num_bigint::BigInt;
-
-use super::{Integer, OrderedField, Ratio};
+use tunnelproof_reference::field::{Integer, OrderedField, Ratio};
 
 fn integer_operations<Z: Integer>() {
     let z = Z::from_i64;
