@@ -16,7 +16,7 @@ use tunnelproof_reference::{difference, oracle, shadow};
 mod public;
 
 /// A fifth where Rust checks its arithmetic (`cargo test` without `--release`).
-const COUNT: u64 = if cfg!(debug_assertions) { 1_000 } else { 5_000 };
+const COUNT: u64 = if cfg!(debug_assertions) { 1_000 } else { 3_000 };
 
 fn by_oracle<Z: Integer>(query: &EdgeEdge) -> ExactAnswer {
     oracle::decide::<Z>(&Query::EdgeEdge(*query)).written()

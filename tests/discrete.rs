@@ -71,7 +71,7 @@ fn radius() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(cases(1_000)))]
+    #![proptest_config(ProptestConfig::with_cases(cases(500)))]
 
     #[test]
     fn discrete_is_exact_on_lattice(corners in lattice(), radius in radius()) {

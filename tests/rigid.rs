@@ -15,7 +15,7 @@ use tunnelproof_reference::subject::Answer;
 /// How many queries of each family are judged; `TUNNELPROOF_RIGID_COUNT` asks for more.
 fn count() -> u64 {
     let asked = std::env::var("TUNNELPROOF_RIGID_COUNT").ok();
-    let usual = if cfg!(debug_assertions) { 60 } else { 1500 };
+    let usual = if cfg!(debug_assertions) { 60 } else { 900 };
     asked.map_or(usual, |text| text.parse().expect("a number"))
 }
 

@@ -16,7 +16,7 @@ use tunnelproof_reference::normal::ExactNormal;
 /// How many queries of each family are judged.
 fn count() -> u64 {
     let asked = std::env::var("TUNNELPROOF_RIGID_COUNT").ok();
-    let usual = if cfg!(debug_assertions) { 40 } else { 400 };
+    let usual = if cfg!(debug_assertions) { 40 } else { 200 };
     asked.map_or(usual, |text| text.parse().expect("a number"))
 }
 
