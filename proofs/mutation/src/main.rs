@@ -182,7 +182,6 @@ fn main() -> Result<()> {
     };
     let folder = project.join("target/mutation").join(&options.subject);
     let tree = folder.join("tree");
-    tree::copy(&project, &tree)?;
     let mutants = tree::mutate(&project, &tree, &subject)?;
     let wanted = wanted(&mutants, &options);
     if options.list {

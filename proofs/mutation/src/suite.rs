@@ -274,6 +274,13 @@ pub fn ask(program: &Path, mutant: Option<u32>, limit: Duration) -> Result<Optio
     }))
 }
 
+/// How much tests do that can be asked for less: what they do without optimisation.
+const LESS: [(&str, &str); 3] = [
+    ("TUNNELPROOF_CASES", "100"),
+    ("TUNNELPROOF_RIGID_COUNT", "60"),
+    ("TUNNELPROOF_STEPS", "200"),
+];
+
 /// Runs a test alone.
 pub fn run(
     test: &Test,
@@ -285,6 +292,7 @@ pub fn run(
         .args(["--exact", &test.name, "--test-threads", "1"])
         .current_dir(&test.folder)
         .env("CARGO_MANIFEST_DIR", &test.folder)
+        .envs(LESS)
         .stdin(Stdio::null())
         .stdout(Stdio::null())
         .stderr(Stdio::null());

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -19,8 +20,8 @@ pub struct Subject {
     pub sources: &'static [&'static str],
 }
 
-/// Copies what Git knows of the project, so that what did not change is not compiled anew.
-pub fn copy(project: &Path, tree: &Path) -> Result<()> {
+/// Copies what Git knows of the project but the files `except`. What did not change is not written, so that it is not compiled anew.
+fn copy(project: &Path, tree: &Path, except: &BTreeSet<&str>) -> Result<()> {
     let listed = Command::new("git")
         .args([
             "ls-files",
@@ -50,7 +51,7 @@ pub fn copy(project: &Path, tree: &Path) -> Result<()> {
             }
         }
     }
-    for name in &names {
+    for name in names.difference(except) {
         put(&tree.join(name), &fs::read(project.join(name))?)?;
     }
     put(&list, listed.as_bytes())
@@ -131,14 +132,30 @@ fn walk(path: &Path, found: &mut Vec<PathBuf>) -> Result<()> {
     Ok(())
 }
 
-/// Writes the sources with all mutants but those that do not compile, which the compiler is asked for, and returns the mutants.
+/// Copies the project, with all mutants in its sources but those that do not compile, which the compiler is asked for, and returns the mutants.
 pub fn mutate(project: &Path, tree: &Path, subject: &Subject) -> Result<Vec<Mutant>> {
     let sources = sources(project, subject)?;
+    let lib = Path::new(subject.package).join("src/lib.rs");
+    let lib = lib.strip_prefix(".").unwrap_or(&lib);
+    let written = sources.iter().map(|source| &*source.name);
+    let written = written.chain(lib.to_str()).collect();
+    copy(project, tree, &written)?;
     let names = sources
         .iter()
         .flat_map(|source| constants(&source.file))
         .collect();
-    let mut dropped = BTreeSet::new();
+    // Of an earlier run on the same sources: then nothing is compiled anew.
+    let mut hasher = DefaultHasher::new();
+    for source in &sources {
+        (&source.name, &source.text).hash(&mut hasher);
+    }
+    let (kept, key) = (tree.with_file_name("dropped.json"), hasher.finish());
+    let mut dropped: BTreeSet<u32> = fs::read_to_string(&kept)
+        .ok()
+        .and_then(|text| serde_json::from_str::<(u64, BTreeSet<u32>)>(&text).ok())
+        .filter(|(of, _)| *of == key)
+        .map(|(_, dropped)| dropped)
+        .unwrap_or_default();
     loop {
         let (mut numbers, mut mutants) = (Numbers::default(), Vec::new());
         for source in &sources {
@@ -166,13 +183,14 @@ pub fn mutate(project: &Path, tree: &Path, subject: &Subject) -> Result<Vec<Muta
                 include_bytes!("answers.rs.txt"),
             )?;
         }
-        let lib = fs::read_to_string(project.join(subject.package).join("src/lib.rs"))?;
+        let text = fs::read_to_string(project.join(lib))?;
         put(
-            &package.join("src/lib.rs"),
-            format!("{lib}\n#[doc(hidden)]\npub mod mutation;\n").as_bytes(),
+            &tree.join(lib),
+            format!("{text}\n#[doc(hidden)]\npub mod mutation;\n").as_bytes(),
         )?;
         let refused = refused(tree, subject)?;
         if refused.is_empty() {
+            put(&kept, serde_json::to_string(&(key, &dropped))?.as_bytes())?;
             println!(
                 "{} mutants in {} files; {} more do not compile",
                 mutants.len(),
