@@ -98,8 +98,6 @@ fn odd_part<Z: Integer>(value: &Z) -> (Z, i64) {
 
 #[cfg(test)]
 mod tests {
-    use num_bigint::BigInt;
-
     use super::*;
 
     #[test]
@@ -130,11 +128,10 @@ mod tests {
         assert!(exact_f64(false, 0, 0).unwrap().is_sign_positive());
     }
 
-    #[test]
-    fn exact_quotient_known_values() {
-        let z = BigInt::from_i64;
+    fn exact_quotient_known_values<Z: Integer>() {
+        let z = Z::from_i64;
         let power = |bits: u64| z(1).shl(bits);
-        let exact = |n: &BigInt, d: &BigInt| exact_quotient(n, d);
+        let exact = |n: &Z, d: &Z| exact_quotient(n, d);
         assert_eq!(exact(&z(-6), &z(-4)), Ok(1.5));
         assert_eq!(exact(&z(21), &z(-28)), Ok(-0.75));
         assert_eq!(exact(&power(2000).mul(&z(3)), &power(3074)), Ok(1.5e-323));
@@ -146,5 +143,16 @@ mod tests {
         let many_bits = power(1024).add(&z(1));
         assert_eq!(exact(&many_bits, &z(1)), Err(NotF64::TooLarge));
         assert_eq!(exact(&many_bits, &z(2)), Err(NotF64::TooManyBits(1025)));
+    }
+
+    #[test]
+    fn exact_quotient_num_bigint() {
+        exact_quotient_known_values::<num_bigint::BigInt>();
+    }
+
+    #[cfg(feature = "gmp")]
+    #[test]
+    fn exact_quotient_gmp() {
+        exact_quotient_known_values::<rug::Integer>();
     }
 }

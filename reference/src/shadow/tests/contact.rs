@@ -139,6 +139,22 @@ fn shadow_repaired_is_right_on_lattice_queries() {
     assert!((count / 4..count * 7 / 8).contains(&hits), "{hits} hits");
 }
 
+#[cfg(feature = "gmp")]
+#[test]
+fn shadow_backends_agree_on_lattice_queries() {
+    let mut random = Random(4);
+    for _ in 0..10_000 {
+        let points = lattice_query(&mut random);
+        for repairs in [Repairs::ALL, Repairs::NONE] {
+            assert_eq!(
+                edge_edge::<BigInt>(&query(&points), repairs),
+                edge_edge::<rug::Integer>(&query(&points), repairs),
+                "{points:?}"
+            );
+        }
+    }
+}
+
 #[test]
 fn shadow_published_says_something_finite_of_every_contact_it_reports() {
     let mut random = Random(6);
