@@ -172,9 +172,12 @@ impl Ldl {
             let i = i as usize;
             let value = std::mem::take(&mut y[i]);
             let end = filled[i];
-            let column = self.starts[i]..end;
-            for (&row, l) in self.rows[column.clone()].iter().zip(&self.values[column]) {
-                y[row as usize] -= l * value;
+            // Rows that are not active are zeros.
+            if value != 0.0 {
+                let column = self.starts[i]..end;
+                for (&row, l) in self.rows[column.clone()].iter().zip(&self.values[column]) {
+                    y[row as usize] -= l * value;
+                }
             }
             let l = value / self.diagonal[i];
             pivot -= l * value;
@@ -257,6 +260,7 @@ impl Ldl {
         &self.diagonal
     }
 
+    #[inline]
     fn column(&self, k: usize) -> impl Iterator<Item = (usize, f64)> {
         let range = self.starts[k]..self.starts[k + 1];
         let rows = self.rows[range.clone()].iter().map(|&row| row as usize);

@@ -10,3 +10,17 @@ pub(in crate::wire) struct Structure {
     pub(in crate::wire) matrix: Symmetric,
     pub(in crate::wire) ldl: Ldl,
 }
+
+impl Structure {
+    /// The solution of `A x = b` as factored, refined once.
+    pub(in crate::wire) fn refined(&self, b: &[f64]) -> Vec<f64> {
+        let mut x = b.to_vec();
+        self.ldl.solve(&mut x);
+        let mut correction = self.matrix.residual(b, &x);
+        self.ldl.solve(&mut correction);
+        for (x, correction) in x.iter_mut().zip(&correction) {
+            *x += correction;
+        }
+        x
+    }
+}

@@ -78,29 +78,40 @@ impl Symmetric {
     }
 
     /// The rows above or on the diagonal and the values of a column.
+    #[inline]
     pub(super) fn column(&self, column: usize) -> impl Iterator<Item = (usize, f64)> {
         let range = self.starts[column]..self.starts[column + 1];
         let rows = self.rows[range.clone()].iter().map(|&row| row as usize);
         rows.zip(self.values[range].iter().copied())
     }
 
-    /// `b - A x`, and for each row `|b| + |A| |x|`, the magnitude of what was summed up.
-    pub(in crate::wire) fn residual(&self, b: &[f64], x: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let mut residual = b.to_vec();
-        let mut magnitude: Vec<f64> = b.iter().map(|value| value.abs()).collect();
-        let mut take = |row: usize, term: f64| {
-            residual[row] -= term;
-            magnitude[row] += term.abs();
-        };
-        for column in 0..self.size() {
+    /// `b - A x`.
+    pub(in crate::wire) fn residual(&self, b: &[f64], x: &[f64]) -> Vec<f64> {
+        self.sums(b.to_vec(), x, |sum, term| *sum -= term)
+    }
+
+    /// For each row `b - A x`, and `|b| + |A| |x|`, the magnitude of what was summed up.
+    pub(in crate::wire) fn residual_and_magnitude(&self, b: &[f64], x: &[f64]) -> Vec<[f64; 2]> {
+        let start = b.iter().map(|&value| [value, value.abs()]).collect();
+        self.sums(start, x, |[residual, magnitude], term| {
+            *residual -= term;
+            *magnitude += term.abs();
+        })
+    }
+
+    /// For each row a sum that takes the terms of `A x` one by one.
+    fn sums<T: Copy>(&self, mut sums: Vec<T>, x: &[f64], take: impl Fn(&mut T, f64)) -> Vec<T> {
+        for (column, &at) in x.iter().enumerate() {
+            let mut own = sums[column];
             for (row, value) in self.column(column) {
-                take(row, value * x[column]);
                 if row != column {
-                    take(column, value * x[row]);
+                    take(&mut sums[row], value * at);
                 }
+                take(&mut own, value * x[row]);
             }
+            sums[column] = own;
         }
-        (residual, magnitude)
+        sums
     }
 }
 

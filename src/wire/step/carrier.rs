@@ -29,17 +29,19 @@ impl Carrier {
     }
 
     /// Calls back for each column and value of the row of `direction . velocity`.
+    #[inline]
     pub(super) fn each_column(&self, direction: &Vector, mut take: impl FnMut(usize, f64)) {
-        let mut three = |first: usize, vector: &Vector| {
-            (0..3).for_each(|axis| take(first + axis, vector[axis]));
+        let (Carrier::Free(first) | Carrier::Body(first, _)) = *self else {
+            return;
         };
-        match self {
-            Carrier::Free(first) => three(*first, direction),
-            Carrier::Body(first, arm) => {
-                three(*first, direction);
-                three(first + 3, &arm.cross(direction));
-            }
-            Carrier::Prescribed(_) => {}
+        take(first, direction.x);
+        take(first + 1, direction.y);
+        take(first + 2, direction.z);
+        if let Carrier::Body(_, arm) = self {
+            let moment = arm.cross(direction);
+            take(first + 3, moment.x);
+            take(first + 4, moment.y);
+            take(first + 5, moment.z);
         }
     }
 

@@ -138,7 +138,7 @@ impl World {
             (candidate.x, candidate.solver.residual) = (active_set.x, active_set.backward_error);
             candidate.solver.cut_short |= !active_set.is_found || budget.is_spent();
             if !contacts.is_empty() {
-                let (free, _) = system.solve(&[])?;
+                let free = system.solve_free();
                 let impulses = &candidate.swept.impulses;
                 let residual = contact_residual(self, system, contacts, &free, impulses);
                 candidate.solver.contact_residual = residual;
@@ -195,12 +195,16 @@ impl World {
         phases: &mut Phases,
     ) -> Result<Candidate, Reason> {
         let mut clock = Clock::start();
-        let (mut x, mut residual) = system.solve(&[])?;
-        phases.solve += clock.lap();
         let mut swept = Swept::default();
         if !contacts.is_empty() {
-            swept = sweep(self, system, contacts, &x, start, budget);
-            (x, residual) = system.solve(&swept.columns)?;
+            let free = system.solve_free();
+            phases.solve += clock.lap();
+            swept = sweep(self, system, contacts, &free, start, budget);
+        }
+        let (x, residual) = system.solve(&swept.columns)?;
+        if contacts.is_empty() {
+            phases.solve += clock.lap();
+        } else {
             phases.contacts += clock.lap();
         }
         let solver = SolverRecord {

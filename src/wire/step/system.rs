@@ -261,21 +261,21 @@ impl System {
             return Ok((Vec::new(), 0.0));
         };
         let right = self.right_side(impulses);
-        let mut x = right.clone();
-        structure.ldl.solve(&mut x);
-        let (mut correction, _) = structure.matrix.residual(&right, &x);
-        structure.ldl.solve(&mut correction);
-        for (x, correction) in x.iter_mut().zip(&correction) {
-            *x += correction;
-        }
-        let (residual, magnitude) = structure.matrix.residual(&right, &x);
-        let error = self.backward_error(&residual, &magnitude);
+        let x = structure.refined(&right);
+        let error = self.backward_error(&structure.matrix.residual_and_magnitude(&right, &x));
         if error <= RESIDUAL {
             Ok((x, error))
         } else {
             let limit = RESIDUAL;
             Err(Reason::Residual { error, limit })
         }
+    }
+
+    /// The solution without impulses on velocities, refined and not checked.
+    pub(super) fn solve_free(&self) -> Vec<f64> {
+        self.structure.as_ref().map_or_else(Vec::new, |structure| {
+            structure.refined(&self.right_side(&[]))
+        })
     }
 
     /// The solution without impulses on velocities, neither refined nor checked.
@@ -310,7 +310,7 @@ impl System {
         let Some(structure) = &self.structure else {
             return 0.0;
         };
-        let (negative, _) = structure.matrix.residual(&vec![0.0; y.len()], y);
+        let negative = structure.matrix.residual(&vec![0.0; y.len()], y);
         let entries = y.iter().zip(&negative).zip(&self.is_velocity);
         let velocities = entries.filter(|(_, velocity)| **velocity);
         velocities.map(|((y, negative), _)| -y * negative).sum()
@@ -329,13 +329,13 @@ impl System {
 
     /// The largest residual relative to the largest magnitude that was summed up: equations of
     /// motion among each other (N s), rows among each other (m/s). NaN if there is one.
-    fn backward_error(&self, residual: &[f64], magnitude: &[f64]) -> f64 {
+    fn backward_error(&self, sums: &[[f64; 2]]) -> f64 {
         let worst = |of_motion: bool| {
-            let rows = residual.iter().zip(magnitude).zip(&self.is_velocity);
+            let rows = sums.iter().zip(&self.is_velocity);
             let kind = rows.filter(|(_, velocity)| **velocity == of_motion);
             // Not `f64::max`, which passes over NaN.
             let larger = |a: f64, b: f64| if a >= b { a } else { b };
-            let (r, m) = kind.fold((0.0, f64::MIN_POSITIVE), |(r, m), ((residual, sum), _)| {
+            let (r, m) = kind.fold((0.0, f64::MIN_POSITIVE), |(r, m), ([residual, sum], _)| {
                 (larger(r, residual.abs()), larger(m, *sum))
             });
             r / m
