@@ -3,11 +3,13 @@
 //! Newton's method, which finds what pulls and slides, then finds what pushes, sticks and slips at
 //! once ([`multipliers`](super::multipliers)).
 
+use std::ops::Range;
+
 use nalgebra::Matrix3;
 use smallvec::SmallVec;
 
 use super::augmented::Augmented;
-use super::carrier::{Layout, velocity_of};
+use super::carrier::{Carrier, Layout, velocity_of};
 use super::rows::normal_row;
 use crate::wire::contact::ContactConstraint;
 use crate::wire::vector::{Vector, frame};
@@ -19,8 +21,11 @@ use crate::wire::world::World;
 pub(super) struct Implicit {
     /// Normal and tangents.
     frame: Matrix3<f64>,
-    /// The velocity along x, y, z that unknowns give it.
-    columns: SmallVec<[(usize, Vector); 12]>,
+    /// The unknowns that give it a velocity.
+    points: SmallVec<[Point; 4]>,
+    /// Of those that are bodies: the velocity along x, y, z that each component of the angular
+    /// velocity gives.
+    spins: Vec<Vector>,
     /// The velocity along x, y, z that is prescribed.
     given: Vector,
     law: Augmented,
@@ -30,6 +35,16 @@ pub(super) struct Implicit {
     impulse: Vector,
     /// How fast that falls there.
     slope: Matrix3<f64>,
+}
+
+/// Three unknowns, a velocity, and what a contact has of it; of a body three more, its angular
+/// velocity.
+#[derive(Clone, Debug)]
+struct Point {
+    first: usize,
+    weight: f64,
+    /// Where its three spins are; empty if it is no body.
+    spins: Range<usize>,
 }
 
 impl Implicit {
@@ -42,41 +57,73 @@ impl Implicit {
         contact: &ContactConstraint,
         impulse: &Vector,
     ) -> Self {
-        let mut columns: SmallVec<[(usize, Vector); 12]> = SmallVec::new();
+        let mut points: SmallVec<[Point; 4]> = SmallVec::new();
+        let mut spins = Vec::new();
         let mut given = Vector::zeros();
         for (carrier, weight) in layout.contact(world, contact) {
             given += carrier.prescribed_velocity() * weight;
-            for axis in 0..3 {
-                let direction = Vector::ith(axis, weight);
-                carrier.each_column(&direction, |column, value| {
-                    match columns.iter_mut().find(|(other, _)| *other == column) {
-                        Some((_, along)) => along[axis] += value,
-                        None => columns.push((column, Vector::ith(axis, value))),
-                    }
+            let (Carrier::Free(first) | Carrier::Body(first, _)) = carrier else {
+                continue;
+            };
+            let known = points.iter().position(|point| point.first == first);
+            let at = known.unwrap_or_else(|| {
+                let start = spins.len();
+                if let Carrier::Body(..) = carrier {
+                    spins.extend([Vector::zeros(); 3]);
+                }
+                points.push(Point {
+                    first,
+                    weight: 0.0,
+                    spins: start..spins.len(),
                 });
+                points.len() - 1
+            });
+            let point = &mut points[at];
+            point.weight += weight;
+            if let Carrier::Body(_, arm) = carrier {
+                for (axis, along) in spins[point.spins.clone()].iter_mut().enumerate() {
+                    *along += Vector::ith(axis, weight).cross(&arm);
+                }
             }
         }
-        let mobilities = columns
-            .iter()
-            .map(|(column, along)| along.norm_squared() / masses[*column]);
-        let mobility = mobilities.sum::<f64>() / 3.0;
         let frame = frame(&contact.normal);
         let speed = velocity_of(world, &contact.a) - velocity_of(world, &contact.b);
         let row = normal_row(&world.settings, contact, speed.dot(&contact.normal));
-        let law = if mobility > 0.0 {
-            Augmented::new(mobility, row, contact.friction, &(frame * impulse))
-        } else {
-            Augmented::none()
-        };
-        Implicit {
+        let mut own = Implicit {
             frame,
-            columns,
+            points,
+            spins,
             given,
-            law,
+            law: Augmented::none(),
             velocity: Vector::zeros(),
             impulse: Vector::zeros(),
             slope: Matrix3::zeros(),
+        };
+        let mobility = own.mobility(masses);
+        if mobility > 0.0 {
+            own.law = Augmented::new(mobility, row, contact.friction, &(frame * impulse));
         }
+        own
+    }
+
+    /// A third of the trace of its mobility, with nothing else but the diagonal of the masses.
+    fn mobility(&self, masses: &[f64]) -> f64 {
+        let mut sum = 0.0;
+        for point in &self.points {
+            for axis in 0..3 {
+                sum += point.weight * point.weight / masses[point.first + axis];
+            }
+            for (component, along) in self.spins(point) {
+                sum += along.norm_squared() / masses[component];
+            }
+        }
+        sum / 3.0
+    }
+
+    /// The components of a body's angular velocity, and the velocity that each gives.
+    fn spins(&self, point: &Point) -> impl Iterator<Item = (usize, &Vector)> {
+        let first = point.first + 3;
+        (first..).zip(&self.spins[point.spins.clone()])
     }
 
     /// Linearises the law at the velocity of a solution, or where it gives the predicted impulse.
@@ -92,10 +139,30 @@ impl Implicit {
     /// Calls back for each entry that it adds to the mass matrix, on and above the diagonal.
     pub(super) fn each_entry(&self, mut take: impl FnMut(usize, usize, f64)) {
         let slope = self.frame.tr_mul(&(self.slope * self.frame));
-        for (i, along) in &self.columns {
-            let force = slope * along;
-            for (j, along) in self.columns.iter().filter(|(j, _)| i <= j) {
-                take(*i, *j, force.dot(along));
+        for point in &self.points {
+            for axis in 0..3 {
+                let force = slope.column(axis) * point.weight;
+                self.each_entry_of(point.first + axis, &force, &mut take);
+            }
+            for (component, along) in self.spins(point) {
+                self.each_entry_of(component, &(slope * along), &mut take);
+            }
+        }
+    }
+
+    /// Those of one row, given the force for a unit of its unknown.
+    fn each_entry_of(&self, i: usize, force: &Vector, mut take: impl FnMut(usize, usize, f64)) {
+        let mut upper = |j: usize, value: f64| {
+            if i <= j {
+                take(i, j, value);
+            }
+        };
+        for point in &self.points {
+            upper(point.first, force.x * point.weight);
+            upper(point.first + 1, force.y * point.weight);
+            upper(point.first + 2, force.z * point.weight);
+            for (component, along) in self.spins(point) {
+                upper(component, force.dot(along));
             }
         }
     }
@@ -104,8 +171,13 @@ impl Implicit {
     pub(super) fn each_impulse(&self, mut take: impl FnMut(usize, f64)) {
         let impulse = self.linear(&(self.frame * self.given));
         let impulse = self.frame.tr_mul(&impulse);
-        for (column, along) in &self.columns {
-            take(*column, along.dot(&impulse));
+        for point in &self.points {
+            take(point.first, point.weight * impulse.x);
+            take(point.first + 1, point.weight * impulse.y);
+            take(point.first + 2, point.weight * impulse.z);
+            for (component, along) in self.spins(point) {
+                take(component, along.dot(&impulse));
+            }
         }
     }
 
@@ -145,9 +217,15 @@ impl Implicit {
 
     /// The velocity at a solution.
     fn at(&self, x: &[f64]) -> Vector {
-        let columns = self.columns.iter();
-        let along = columns.fold(self.given, |sum, (column, along)| sum + along * x[*column]);
-        self.frame * along
+        let mut sum = self.given;
+        for point in &self.points {
+            let first = point.first;
+            sum += Vector::new(x[first], x[first + 1], x[first + 2]) * point.weight;
+            for (component, along) in self.spins(point) {
+                sum += along * x[component];
+            }
+        }
+        self.frame * sum
     }
 
     /// The impulse at a velocity, by the law taken as linear.
