@@ -17,10 +17,11 @@ use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};
 
-use rewrite::{Kind, Mutant};
+use mutant::{Kind, Mutant};
 use suite::{End, Said, Test};
 use tree::Subject;
 
+mod mutant;
 mod rewrite;
 mod suite;
 mod tree;
@@ -47,7 +48,7 @@ struct Options {
     /// Threads
     #[arg(long, default_value_t = 2)]
     jobs: usize,
-    /// Tests that take longer than this are left out
+    /// Tests that take longer than this get only mutants that give other answers
     #[arg(long, value_name = "S", default_value_t = 8)]
     longest: u64,
     /// Count the mutants, and run no test
@@ -295,39 +296,48 @@ struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    /// Runs the tests that reach it until one fails. If none does, answers and work are compared.
+    /// Runs the tests that reach it until one fails. If none does, answers and work are compared; if answers differ, it gets the long
+    /// tests too.
     fn look(&self, mutant: &Mutant) -> Result<Outcome> {
         let started = Instant::now();
-        let id = mutant.id;
-        let outcome = |verdict, by: Option<&Test>| Outcome {
-            id,
+        let outcome = |(verdict, by): (Verdict, Option<&Test>)| Outcome {
+            id: mutant.id,
             verdict,
             by: by.map(|test| format!("{} {}", test.target, test.name)),
             seconds: started.elapsed().as_secs_f64(),
         };
-        for &test in self
-            .reaching
-            .get(&mutant.site)
-            .map_or(&[][..], Vec::as_slice)
-        {
-            let limit = Duration::from_secs_f64(5.0 + 10.0 * test.seconds);
-            match suite::run(test, limit, |command| command.env("MUTANT", id.to_string()))
-                .context("a test cannot be run")?
-            {
-                End::Passed => {}
-                End::Failed => return Ok(outcome(Verdict::Killed, Some(test))),
-                End::TimedOut => return Ok(outcome(Verdict::TimedOut, Some(test))),
-            }
+        if let Some(killed) = self.test(mutant, false)? {
+            return Ok(outcome(killed));
         }
-        let verdict = match suite::ask(&self.asker, Some(id), self.limit)? {
+        let verdict = match suite::ask(&self.asker, Some(mutant.id), self.limit)? {
             Some(said) if said == self.usual && !self.reaching.contains_key(&mutant.site) => {
                 Verdict::Unreached
             }
             Some(said) if said == self.usual => Verdict::Same,
             Some(said) if said.answers == self.usual.answers => Verdict::Costs,
-            _ => Verdict::Wrong,
+            _ => {
+                let killed = self.test(mutant, true)?;
+                return Ok(outcome(killed.unwrap_or((Verdict::Wrong, None))));
+            }
         };
-        Ok(outcome(verdict, None))
+        Ok(outcome((verdict, None)))
+    }
+
+    /// The verdict of the first test that fails, of those that are long or those that are not.
+    fn test(&self, mutant: &Mutant, long: bool) -> Result<Option<(Verdict, Option<&Test>)>> {
+        let tests = self.reaching.get(&mutant.site).into_iter().flatten();
+        for test in tests.filter(|test| test.is_long == long) {
+            let limit = Duration::from_secs_f64(5.0 + 10.0 * test.seconds);
+            let id = mutant.id.to_string();
+            match suite::run(test, limit, |command| command.env("MUTANT", id))
+                .context("a test cannot be run")?
+            {
+                End::Passed => {}
+                End::Failed => return Ok(Some((Verdict::Killed, Some(test)))),
+                End::TimedOut => return Ok(Some((Verdict::TimedOut, Some(test)))),
+            }
+        }
+        Ok(None)
     }
 }
 

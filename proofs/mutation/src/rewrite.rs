@@ -7,59 +7,14 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use proc_macro2::Span;
-use serde::{Deserialize, Serialize};
 use syn::spanned::Spanned;
 use syn::visit::{self, Visit};
 
-/// A change of the sources.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-pub struct Mutant {
-    pub id: u32,
-    /// The place that has it, which may have others.
-    pub site: u32,
-    pub file: String,
-    pub line: usize,
-    pub column: usize,
-    pub function: String,
-    pub kind: Kind,
-    /// What it does, as `a + b -> a - b`.
-    pub what: String,
-}
+use crate::mutant::{Kind, Mutant};
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Kind {
-    /// A number in floating point is 0, half of what it is, or twice that.
-    Constant,
-    /// Another operation of two values.
-    Operator,
-    /// `-` or `!` is left out.
-    Unary,
-    /// A function returns a constant at once.
-    Body,
-    /// An arm of a match is left out, or its condition is always met or never.
-    Arm,
-}
-
-impl Kind {
-    pub const ALL: [Self; 5] = [
-        Self::Constant,
-        Self::Operator,
-        Self::Unary,
-        Self::Body,
-        Self::Arm,
-    ];
-
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Constant => "constant",
-            Self::Operator => "operator",
-            Self::Unary => "unary",
-            Self::Body => "body",
-            Self::Arm => "arm",
-        }
-    }
-}
+mod arms;
+mod operators;
+mod returns;
 
 /// A source with all its mutants.
 pub struct Rewritten {
@@ -234,147 +189,6 @@ impl Rewriter<'_> {
         }
     }
 
-    fn binary(&mut self, e: &syn::ExprBinary) {
-        let operator = self.text[e.op.span().byte_range()].to_owned();
-        let others: &[&str] = match operator.as_str() {
-            "+" => &["-", "*"],
-            "-" => &["+", "/"],
-            "*" => &["+", "/"],
-            "/" => &["*", "%"],
-            "%" => &["/", "+"],
-            "==" => &["!="],
-            "!=" => &["=="],
-            "<" => &["<=", ">", "=="],
-            "<=" => &["<", ">"],
-            ">" => &[">=", "<", "=="],
-            ">=" => &[">", "<"],
-            "&&" => &["||"],
-            "||" => &["&&"],
-            "<<" => &[">>"],
-            ">>" => &["<<"],
-            "&" => &["|", "^"],
-            "|" => &["&", "^"],
-            "^" => &["|", "&"],
-            "+=" => &["-=", "*="],
-            "-=" => &["+=", "/="],
-            "*=" => &["+=", "/="],
-            "/=" => &["*=", "%="],
-            "|=" => &["&=", "^="],
-            "&=" => &["|=", "^="],
-            "^=" => &["|=", "&="],
-            "<<=" => &[">>="],
-            ">>=" => &["<<="],
-            _ => &[],
-        };
-        let is_logic = matches!(e.op, syn::BinOp::And(_) | syn::BinOp::Or(_));
-        if others.is_empty() || has_let(&e.left) || has_let(&e.right) {
-            return visit::visit_expr_binary(self, e);
-        }
-        let is_comparison = matches!(operator.as_str(), "==" | "!=" | "<" | "<=" | ">" | ">=");
-        let is_assignment = operator.ends_with('=') && !is_comparison;
-        let (l, r) = match () {
-            () if is_comparison => ("*left_", "*right_"),
-            () if is_assignment => (&self.text[e.left.span().byte_range()], "right_"),
-            () => ("left_", "right_"),
-        };
-        let (l, r) = (l.to_owned(), r.to_owned());
-        let shown = format!(
-            "{} {operator} {}",
-            self.shown(e.left.span()),
-            self.shown(e.right.span())
-        );
-        let site = self.site();
-        let wanted = self.add(
-            site,
-            Kind::Operator,
-            e.op.span(),
-            others
-                .iter()
-                .map(|other| {
-                    (
-                        format!("{shown}: {operator} -> {other}"),
-                        format!("{l} {other} {r}"),
-                    )
-                })
-                .collect(),
-        );
-        if wanted.is_empty() {
-            return visit::visit_expr_binary(self, e);
-        }
-        let all = e.span().byte_range();
-        let marks = marks(&wanted);
-        let arms = arms(&wanted, &format!("{l} {operator} {r}"), &marks);
-        match () {
-            () if is_logic => {
-                let is_on = format!("crate::mutation::at({site}) == {}", wanted[0].0);
-                let negated = if operator == "&&" { "" } else { "!" };
-                self.open(all.start, "({ let left_: bool = ".to_owned());
-                self.visit_expr(&e.left);
-                self.replace(
-                    e.op.span().byte_range(),
-                    format!("; if left_ == {negated}({is_on}) {{ left_ }} else {{ {marks}\n"),
-                );
-                self.visit_expr(&e.right);
-                self.close(all.end, " } })".to_owned());
-            }
-            () if is_comparison => {
-                self.open(all.start, "(match (&(".to_owned());
-                self.visit_expr(&e.left);
-                self.replace(e.op.span().byte_range(), "), &(".to_owned());
-                self.visit_expr(&e.right);
-                self.close(all.end, format!(")) {{ {marks}\n(left_, right_) => match crate::mutation::at({site}) {{{arms}}} }})"));
-            }
-            () if is_assignment => {
-                // The place is written as it was, and is not mutated.
-                let right = e.right.span().byte_range();
-                self.replace(all.start..right.start, "(match (".to_owned());
-                self.visit_expr(&e.right);
-                self.close(
-                    all.end,
-                    format!(
-                        ") {{ {marks}\nright_ => match crate::mutation::at({site}) {{{arms}}} }})"
-                    ),
-                );
-            }
-            () => {
-                self.open(all.start, "(match (".to_owned());
-                self.visit_expr(&e.left);
-                self.replace(e.op.span().byte_range(), ", ".to_owned());
-                self.visit_expr(&e.right);
-                self.close(all.end, format!(") {{ {marks}\n(left_, right_) => match crate::mutation::at({site}) {{{arms}}} }})"));
-            }
-        }
-    }
-
-    fn unary(&mut self, e: &syn::ExprUnary) {
-        let operator = match e.op {
-            syn::UnOp::Neg(_) => "-",
-            syn::UnOp::Not(_) => "!",
-            _ => return visit::visit_expr_unary(self, e),
-        };
-        let site = self.site();
-        let shown = self.shown(e.span());
-        let wanted = self.add(
-            site,
-            Kind::Unary,
-            e.span(),
-            vec![(format!("{shown}: without {operator}"), "it_".to_owned())],
-        );
-        if wanted.is_empty() {
-            return visit::visit_expr_unary(self, e);
-        }
-        let all = e.span().byte_range();
-        let marks = marks(&wanted);
-        let arms = arms(&wanted, &format!("{operator}it_"), &marks);
-        self.open(all.start, "(match (".to_owned());
-        self.replace(e.op.span().byte_range(), String::new());
-        self.visit_expr(&e.expr);
-        self.close(
-            all.end,
-            format!(") {{ {marks}\nit_ => match crate::mutation::at({site}) {{{arms}}} }})"),
-        );
-    }
-
     fn scaled(&mut self, span: Span) {
         let site = self.site();
         let shown = self.shown(span);
@@ -393,36 +207,6 @@ impl Rewriter<'_> {
                 format!("crate::mutation::scaled({site}, {first}, "),
             );
             self.close(span.byte_range().end, format!("){}\n", marks(&wanted)));
-        }
-    }
-
-    fn body(&mut self, signature: &syn::Signature, block: &syn::Block) {
-        let values = returned(&signature.output);
-        let site = self.site();
-        let wanted = self.add(
-            site,
-            Kind::Body,
-            signature.ident.span(),
-            values
-                .into_iter()
-                .map(|value| {
-                    (
-                        format!(
-                            "returns {}",
-                            if value.is_empty() { "at once" } else { &value }
-                        ),
-                        value,
-                    )
-                })
-                .collect(),
-        );
-        if !wanted.is_empty() {
-            let mut text = format!("match crate::mutation::at({site}) {{");
-            for (id, value) in &wanted {
-                text.push_str(&format!("\n{id} => return {value}, /*m{id}*/"));
-            }
-            text.push_str("\n_ => {} }\n");
-            self.open(block.brace_token.span.open().byte_range().end, text);
         }
     }
 
@@ -450,15 +234,6 @@ fn marks(alternatives: &[Alternative]) -> String {
         .collect()
 }
 
-fn arms(alternatives: &[Alternative], original: &str, marks: &str) -> String {
-    let mut text = String::new();
-    for (id, code) in alternatives {
-        text.push_str(&format!("\n{id} => {code}, /*m{id}*/"));
-    }
-    text.push_str(&format!("\n_ => {original} {marks}\n"));
-    text
-}
-
 fn is_type(ty: &syn::Type, name: &str) -> bool {
     matches!(ty, syn::Type::Path(path) if path.path.is_ident(name))
 }
@@ -478,35 +253,6 @@ fn is_test(attributes: &[syn::Attribute]) -> bool {
             || (attribute.path().is_ident("cfg")
                 && matches!(&attribute.meta, syn::Meta::List(list) if list.tokens.to_string() == "test"))
     })
-}
-
-/// What a function may return in place of what it computes, as far as its type says so.
-fn returned(output: &syn::ReturnType) -> Vec<String> {
-    let texts = |texts: &[&str]| texts.iter().map(|&text| text.to_owned()).collect();
-    let syn::ReturnType::Type(_, ty) = output else {
-        return texts(&[""]);
-    };
-    let syn::Type::Path(path) = &**ty else {
-        return match &**ty {
-            syn::Type::Never(_) | syn::Type::ImplTrait(_) | syn::Type::Reference(_) => Vec::new(),
-            _ => texts(&["Default::default()"]),
-        };
-    };
-    match path
-        .path
-        .segments
-        .last()
-        .map(|segment| segment.ident.to_string())
-        .as_deref()
-    {
-        Some("bool") => texts(&["true", "false"]),
-        Some("f64" | "f32") => texts(&["0.0", "1.0", "-1.0"]),
-        Some("u8" | "u16" | "u32" | "u64" | "u128" | "usize") => texts(&["0", "1"]),
-        Some("i8" | "i16" | "i32" | "i64" | "i128" | "isize") => texts(&["0", "1", "-1"]),
-        Some("Option") => texts(&["None", "Some(Default::default())"]),
-        Some("Result") => texts(&["Ok(Default::default())"]),
-        _ => texts(&["Default::default()"]),
-    }
 }
 
 impl<'a> Visit<'a> for Rewriter<'_> {
@@ -589,52 +335,10 @@ impl<'a> Visit<'a> for Rewriter<'_> {
             .iter()
             .any(|arm| matches!(arm.pat, syn::Pat::Wild(_)) && arm.guard.is_none());
         for arm in &e.arms {
-            let pattern = arm.pat.span();
-            match &arm.guard {
-                Some((_, guard)) if !has_let(guard) => {
-                    let site = self.site();
-                    let shown = self.shown(guard.span());
-                    let wanted = self.add(
-                        site,
-                        Kind::Arm,
-                        pattern,
-                        ["true", "false"]
-                            .map(|to| (format!("the condition {shown} is {to}"), to.to_owned()))
-                            .to_vec(),
-                    );
-                    if let [(met, _), (unmet, _)] = wanted[..] {
-                        let at = format!("crate::mutation::at({site})");
-                        let range = guard.span().byte_range();
-                        self.open(
-                            range.start,
-                            format!("{at} == {met} || ({at} != {unmet} && ("),
-                        );
-                        self.visit_expr(guard);
-                        self.close(range.end, format!("))/*m{met}*//*m{unmet}*/\n"));
-                    } else {
-                        self.visit_expr(guard);
-                    }
-                }
-                Some((_, guard)) => self.visit_expr(guard),
-                None if has_rest && !matches!(arm.pat, syn::Pat::Wild(_)) => {
-                    let site = self.site();
-                    let shown = self.shown(pattern);
-                    let wanted = self.add(
-                        site,
-                        Kind::Arm,
-                        pattern,
-                        vec![(format!("without the arm {shown}"), String::new())],
-                    );
-                    if let [(id, _)] = wanted[..] {
-                        self.close(
-                            pattern.byte_range().end,
-                            format!(" if crate::mutation::at({site}) != {id} /*m{id}*/\n"),
-                        );
-                    }
-                }
-                None => {}
-            }
-            self.visit_expr(&arm.body);
+            self.arm(arm, has_rest);
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -22,6 +22,8 @@ pub struct Test {
     pub seconds: f64,
     /// Whether it is asked for less, where it can be.
     pub is_less: bool,
+    /// Whether it takes so long that it gets only mutants that give other answers.
+    pub is_long: bool,
     /// The places that it reaches, in order.
     pub reaches: Vec<u32>,
 }
@@ -86,8 +88,12 @@ fn programs(tree: &Path, arguments: &[&str]) -> Result<Vec<(PathBuf, PathBuf, Ta
     Ok(programs)
 }
 
-/// Builds the tests, and runs each alone, without any mutant: how long it takes, and what it reaches. Those that take longer are left
-/// out, and told. Kept in a file, as long as the programs are the same.
+/// How many times longer than the others tests may take that get only some mutants.
+const LONG: u32 = 20;
+
+/// Builds the tests, and runs each alone, without any mutant: how long it takes, and what it reaches. Those that take longer than
+/// `longest` are long ones; those that take [`LONG`] times that are left out, and told. Kept in a file, as long as the programs are the
+/// same.
 pub fn baseline(
     tree: &Path,
     arguments: &[&str],
@@ -119,6 +125,7 @@ pub fn baseline(
                     name,
                     seconds: 0.0,
                     is_less: true,
+                    is_long: false,
                     reaches: Vec::new(),
                 });
             }
@@ -160,7 +167,8 @@ fn measure(test: &Test, tree: &Path, longest: Duration) -> Result<Option<Test>> 
     ));
     fs::write(&places, [])?;
     let started = Instant::now();
-    let end = run(test, longest, |command| {
+    let most = LONG * longest;
+    let end = run(test, most, |command| {
         command.env("MUTATION_REACHED", &places)
     })?;
     let reached = fs::read(&places)?;
@@ -182,7 +190,7 @@ fn measure(test: &Test, tree: &Path, longest: Duration) -> Result<Option<Test>> 
         End::TimedOut => {
             println!(
                 "left out, as it takes more than {} s: {} {}",
-                longest.as_secs(),
+                most.as_secs(),
                 test.target,
                 test.name
             );
@@ -198,6 +206,7 @@ fn measure(test: &Test, tree: &Path, longest: Duration) -> Result<Option<Test>> 
         .collect();
     Ok(Some(Test {
         seconds: started.elapsed().as_secs_f64(),
+        is_long: started.elapsed() > longest,
         reaches,
         ..test.clone()
     }))

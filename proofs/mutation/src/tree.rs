@@ -9,7 +9,8 @@ use std::process::Command;
 use anyhow::{Context, Result, ensure};
 use serde::Deserialize;
 
-use crate::rewrite::{Mutant, Numbers, constants, rewrite};
+use crate::mutant::Mutant;
+use crate::rewrite::{Numbers, constants, rewrite};
 
 /// What is mutated: the crate, and the module of it by its file.
 #[derive(Clone, Debug)]
