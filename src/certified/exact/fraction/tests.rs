@@ -68,3 +68,37 @@ fn fraction_near_refuses_other_times() {
         assert!(Fraction::near(time).is_none(), "{time}");
     }
 }
+
+/// Exhaustive: every fraction below the limit, in lowest terms or not.
+#[test]
+fn fractions_are_all_found_and_between_their_neighbours() {
+    for denominator in 2..Fraction::LIMIT {
+        for numerator in 1..denominator {
+            let value = numerator as f64 / denominator as f64;
+            let found = Fraction::near(value).unwrap();
+            assert_eq!(
+                found.numerator * denominator,
+                numerator * found.denominator,
+                "{numerator} / {denominator}"
+            );
+            let fraction = Fraction {
+                numerator,
+                denominator,
+            };
+            let (below, above) = fraction.neighbours();
+            // Values are multiples of 2^-66, numerators and denominators below 2^12.
+            let scaled = |value: f64| (value * 2f64.powi(66)) as u128 * u128::from(denominator);
+            let exact = u128::from(numerator) << 66;
+            let is_exact = scaled(below) == exact;
+            assert!(
+                scaled(below) <= exact && exact <= scaled(above),
+                "{fraction:?}"
+            );
+            assert_eq!(
+                above,
+                if is_exact { below } else { below.next_up() },
+                "{fraction:?}"
+            );
+        }
+    }
+}

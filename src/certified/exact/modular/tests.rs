@@ -38,3 +38,71 @@ fn coprime_is_not_said_where_the_prime_divides_a_leading_coefficient() {
     ));
     assert!(!are_coprime(&poly(&[2, prime]), &poly(&[-1, 1])));
 }
+
+/// All vectors of this length with components from -2 to 2, but those with a 0 at the end.
+fn all(length: u32) -> impl Iterator<Item = Vec<i64>> {
+    let vector = move |code: i64| {
+        (0..length)
+            .map(move |i| code / 5i64.pow(i) % 5 - 2)
+            .collect()
+    };
+    (0..5i64.pow(length))
+        .map(vector)
+        .filter(|vector: &Vec<i64>| vector.last() != Some(&0))
+}
+
+/// The determinant of Sylvester's matrix, by minors.
+fn resultant(p: &[i64], q: &[i64]) -> i64 {
+    fn determinant(rows: &[Vec<i64>]) -> i64 {
+        let Some((first, rest)) = rows.split_first() else {
+            return 1;
+        };
+        let minor = |at: usize| {
+            let without = |row: &Vec<i64>| [&row[..at], &row[at + 1..]].concat();
+            determinant(&rest.iter().map(without).collect::<Vec<_>>())
+        };
+        let terms = first.iter().enumerate().filter(|(_, entry)| **entry != 0);
+        terms
+            .map(|(at, entry)| [1, -1][at % 2] * entry * minor(at))
+            .sum()
+    }
+    let (m, n) = (p.len() - 1, q.len() - 1);
+    let shifted = |own: &[i64], at: usize| {
+        let mut row = vec![0; m + n];
+        row[at..at + own.len()].copy_from_slice(own);
+        row
+    };
+    let rows = (0..n)
+        .map(|at| shifted(p, at))
+        .chain((0..m).map(|at| shifted(q, at)));
+    determinant(&rows.collect::<Vec<_>>())
+}
+
+/// Exhaustive, with primes so small that they often do not tell: coprime is said of just those
+/// whose leading coefficients and whose resultant the prime does not divide. A common factor makes
+/// the resultant 0, so it is never said where there is one.
+#[test]
+fn coprime_by_a_small_prime_is_said_where_it_does_not_divide_the_resultant() {
+    fn check<const P: u64>(p: &[i64], q: &[i64]) -> bool {
+        let tells = |c: i64| c.unsigned_abs() % P != 0;
+        let leading = [p, q].map(|p| p.last().is_some_and(|&c| tells(c)));
+        let expected = leading == [true; 2] && tells(resultant(p, q));
+        assert_eq!(
+            are_coprime_modulo::<P, 0>(&poly(p), &poly(q)),
+            expected,
+            "{P} {p:?} {q:?}"
+        );
+        expected
+    }
+    let (mut said, mut not_said) = (0, 0);
+    for [m, n] in [[2, 1], [2, 2], [3, 2], [3, 3], [4, 2]] {
+        for p in all(m) {
+            for q in all(n) {
+                for coprime in [check::<2>(&p, &q), check::<3>(&p, &q), check::<7>(&p, &q)] {
+                    *(if coprime { &mut said } else { &mut not_said }) += 1;
+                }
+            }
+        }
+    }
+    assert!(said > 20_000 && not_said > 20_000, "{said} {not_said}");
+}
