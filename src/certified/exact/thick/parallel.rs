@@ -144,7 +144,7 @@ enum Time {
 }
 
 /// A polynomial of degree 2 in time.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Quadratic([i128; 3]);
 
 impl Quadratic {
@@ -274,3 +274,6 @@ fn dot(x: &Vector, y: &Vector) -> i128 {
 fn is_zero(x: &Vector) -> bool {
     *x == [0; 3]
 }
+
+#[cfg(test)]
+mod tests;
