@@ -141,8 +141,10 @@ enum Verdict {
     Killed,
     /// A test does not end.
     TimedOut,
-    /// All tests pass, and yet answers are others.
+    /// All tests pass, and yet exact answers are others.
     Wrong,
+    /// All tests pass, exact answers are the same, and places or their bounds are others.
+    Places,
     /// All tests pass, and all answers are the same, but they take more work, or less.
     Costs,
     /// All tests pass, and answers and work are the same.
@@ -152,10 +154,11 @@ enum Verdict {
 }
 
 impl Verdict {
-    const ALL: [Self; 6] = [
+    const ALL: [Self; 7] = [
         Self::Killed,
         Self::TimedOut,
         Self::Wrong,
+        Self::Places,
         Self::Costs,
         Self::Same,
         Self::Unreached,
@@ -166,6 +169,7 @@ impl Verdict {
             Self::Killed => "killed",
             Self::TimedOut => "timed out",
             Self::Wrong => "wrong",
+            Self::Places => "places",
             Self::Costs => "costs",
             Self::Same => "same",
             Self::Unreached => "unreached",
@@ -296,8 +300,8 @@ struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    /// Runs the tests that reach it until one fails. If none does, answers and work are compared; if answers differ, it gets the long
-    /// tests too.
+    /// Runs the tests that reach it until one fails. If none does, answers and work are compared; if what is exact differs, it gets
+    /// the long tests too.
     fn look(&self, mutant: &Mutant) -> Result<Outcome> {
         let started = Instant::now();
         let outcome = |(verdict, by): (Verdict, Option<&Test>)| Outcome {
@@ -315,6 +319,7 @@ impl Judge<'_> {
             }
             Some(said) if said == self.usual => Verdict::Same,
             Some(said) if said.answers == self.usual.answers => Verdict::Costs,
+            Some(said) if said.exact == self.usual.exact => Verdict::Places,
             _ => {
                 let killed = self.test(mutant, true)?;
                 return Ok(outcome(killed.unwrap_or((Verdict::Wrong, None))));
@@ -349,7 +354,7 @@ fn said(mutant: &Mutant) -> String {
 }
 
 fn report(mutants: &[Mutant], outcomes: &HashMap<u32, Outcome>) {
-    let mut table: BTreeMap<Kind, [usize; 6]> = BTreeMap::new();
+    let mut table: BTreeMap<Kind, [usize; 7]> = BTreeMap::new();
     for mutant in mutants {
         if let Some(outcome) = outcomes.get(&mutant.id) {
             table.entry(mutant.kind).or_default()[outcome.verdict as usize] += 1;
@@ -357,7 +362,7 @@ fn report(mutants: &[Mutant], outcomes: &HashMap<u32, Outcome>) {
     }
     let names = Verdict::ALL.map(|verdict| format!("{:>10}", verdict.name()));
     println!("\n{:10} {:>8} {}", "kind", "mutants", names.join(""));
-    let mut all = [0; 6];
+    let mut all = [0; 7];
     for (kind, counts) in &table {
         row(kind.name(), counts);
         for (sum, count) in all.iter_mut().zip(counts) {
@@ -367,7 +372,7 @@ fn report(mutants: &[Mutant], outcomes: &HashMap<u32, Outcome>) {
     row("all", &all);
 }
 
-fn row(name: &str, counts: &[usize; 6]) {
+fn row(name: &str, counts: &[usize; 7]) {
     let numbers = counts.map(|count| format!("{count:>10}"));
     println!(
         "{name:10} {:>8} {}",

@@ -250,6 +250,9 @@ pub fn spread<T: Sync, R: Send>(
 /// What the certified path says of queries of all families, with a mutant or without one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Said {
+    /// Times, sides, kinds, cases and flags.
+    pub exact: String,
+    /// These, and places with their bounds.
     pub answers: String,
     /// How many places that are mutated were passed.
     pub work: u64,
@@ -290,8 +293,10 @@ pub fn ask(program: &Path, mutant: Option<u32>, limit: Duration) -> Result<Optio
     let output = child.wait_with_output()?;
     let text = String::from_utf8_lossy(&output.stdout);
     Ok(text.lines().find_map(|line| {
-        let (answers, work) = line.strip_prefix("said ")?.split_once(' ')?;
+        let (exact, rest) = line.strip_prefix("said ")?.split_once(' ')?;
+        let (answers, work) = rest.split_once(' ')?;
         Some(Said {
+            exact: exact.to_owned(),
             answers: answers.to_owned(),
             work: work.parse().ok()?,
         })
