@@ -190,8 +190,11 @@ impl Quadratic {
     /// What part of a whole it is at a time, as far as that is in `[0, 1]`, and a bound on the
     /// error.
     ///
-    /// Error bound: of a share of at most 1 that is a quotient of `p` and `q`, the errors of both
-    /// over the least `q`, and three roundings at the start.
+    /// Error bound: let `p` and `q` be off by less than `e` and `d`. Where the exact share `x` is in
+    /// `[0, 1]`, the quotient is off by `(p - p' + x (q' - q)) / q`, less than `(e + d) / q`; where it
+    /// is above 1, `p > q - d - e`, and where it is below 0, `p < e`: after the clamp no more is
+    /// missing. `q` is above the least one that is taken. A quarter more is for the roundings of the bound, and
+    /// `8 u` for that of the quotient. Three roundings at the start.
     fn share_of(self, whole: Self, time: Time) -> Option<(f64, f64)> {
         match time {
             Time::Start => {
