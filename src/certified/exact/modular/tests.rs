@@ -84,7 +84,7 @@ fn resultant(p: &[i64], q: &[i64]) -> i64 {
 #[test]
 fn coprime_by_a_small_prime_is_said_where_it_does_not_divide_the_resultant() {
     fn check<const P: u64>(p: &[i64], q: &[i64]) -> bool {
-        let tells = |c: i64| c.unsigned_abs() % P != 0;
+        let tells = |c: i64| !c.unsigned_abs().is_multiple_of(P);
         let leading = [p, q].map(|p| p.last().is_some_and(|&c| tells(c)));
         let expected = leading == [true; 2] && tells(resultant(p, q));
         assert_eq!(
