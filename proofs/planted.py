@@ -1,0 +1,38 @@
+"""Faults in copies of the sources, and what refuses them."""
+
+import shutil
+import tempfile
+from contextlib import contextmanager
+from pathlib import Path
+
+from engine import Engine
+from prove import Refused
+from rust import Unknown
+
+ROOT = Path(__file__).resolve().parent.parent
+CERTIFIED = "src/certified"
+
+# What a claim fails with whose source is another one.
+FAILURES = (Refused, Unknown, KeyError, TypeError, ValueError, AttributeError, ArithmeticError, IndexError)
+
+
+def refuses(engine, claim, build):
+    try:
+        build(engine, claim)
+        return claim.measure()[0] > 1 or not claim.holds()
+    except FAILURES:
+        return True
+
+
+@contextmanager
+def sources_with(file, text):
+    """The sources, with another text in a file of them."""
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copytree(ROOT / CERTIFIED, Path(folder) / CERTIFIED)
+        (Path(folder) / CERTIFIED / file).write_text(text)
+        yield Engine(folder)
+
+
+def own_first(jobs, file):
+    """The claims, those of the file first."""
+    return sorted(jobs, key=lambda job: job[0].where != file)
