@@ -19,7 +19,7 @@ use tunnelproof::wire::{
 use tunnelproof_reference::instant::Instant;
 use tunnelproof_reference::oracle::decide_query;
 
-use super::{STEPS, collisions, is_touching, scene, vector, wires};
+use super::{STEPS, collisions, is_touching, scene, scenes, vector, wires};
 
 /// A segment where a motion starts and where it ends.
 #[derive(Clone, Copy)]
@@ -258,15 +258,14 @@ fn kappa(seed: u64) -> f64 {
 
 #[test]
 fn guard_keeps_a_share_of_the_thickness() {
-    let scenes = std::env::var("TUNNELPROOF_SCENES");
-    let scenes = scenes.map_or(20, |count| count.parse().expect("a number of scenes"));
+    let scenes = scenes(20);
     let mut tally = Tally::default();
-    for seed in 0..scenes {
+    for seed in scenes.clone() {
         tally.scene(seed, kappa(seed), collisions(seed));
         let nearer = [tally.nearer, tally.nearer_remeshing];
         assert_eq!(nearer, [[0; 2]; 2], "scene of seed {seed}: {tally:?}");
     }
-    println!("{scenes} scenes with thickness: {tally:?}");
+    println!("scenes {scenes:?} with thickness: {tally:?}");
     assert_eq!(tally.refused_steps, 0);
     // All parts of guard mode took part.
     assert!(tally.prevented > 0 && tally.held > 0 && tally.remeshed > 0 && tally.refused > 0);
