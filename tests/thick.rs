@@ -124,13 +124,13 @@ fn is_same(said: Option<&Said>, exact: &ExactAnswer) -> bool {
 /// when this was written. Half of the radii are distances at the ends of the step, which `f64`
 /// cannot tell from a miss.
 const EXACT_AT_MOST: &[(&str, f64)] = &[
-    ("thick_uniform", 12.0),
-    ("thick_lattice", 54.0),
-    ("thick_parallel", 74.0),
-    ("thick_grazing", 29.0),
-    ("thick_scales", 96.0),
-    ("thick_face_uniform", 12.0),
-    ("thick_face_lattice", 61.0),
+    ("thick_uniform", 10.0),
+    ("thick_lattice", 30.0),
+    ("thick_parallel", 57.0),
+    ("thick_grazing", 27.0),
+    ("thick_scales", 94.0),
+    ("thick_face_uniform", 10.0),
+    ("thick_face_lattice", 59.0),
 ];
 
 #[test]

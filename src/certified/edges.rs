@@ -146,6 +146,10 @@ impl Stages for EdgeEdge {
         exact::passage_of_edges(positions)
     }
 
+    fn side(positions: &Positions, toi: [f64; 2]) -> Option<i8> {
+        exact::side_of_edges(positions, toi)
+    }
+
     fn are_always_parallel(positions: &Positions) -> bool {
         exact::are_always_parallel(positions)
     }

@@ -109,6 +109,10 @@ pub(super) trait Stages: 'static {
     /// What integers say of the two sides without their radius.
     fn passage(positions: &Positions) -> Passage;
 
+    /// What integers say of the sign of `f` just before a time of impact above 0 with these
+    /// neighbours in `f64`; `None` if there may be a root of `f`.
+    fn side(positions: &Positions, toi: [f64; 2]) -> Option<i8>;
+
     /// Whether the two are certainly parallel for the whole step, as far as a kind asks for that.
     fn are_always_parallel(_positions: &Positions) -> bool {
         false

@@ -29,12 +29,12 @@ use crate::contact::{Case, ContactKind, FacePlace, Flags, Hit};
 
 /// The exact answer for a vertex A and a face BCD, given as B, C, A, D.
 pub(in crate::certified) fn decide_face(as_edges: &Positions) -> Option<Hit<FacePlace>> {
-    answer::<VertexMeetsFace>(as_edges)
+    answer(VertexMeetsFace, as_edges)
 }
 
 /// The case of the motion of a vertex A and a face BCD, given as B, C, A, D.
 pub(in crate::certified) fn case_of_face(as_edges: &Positions) -> Case {
-    answer::<FaceCase>(as_edges)
+    answer(FaceCase, as_edges)
 }
 
 struct FaceCase;
@@ -42,7 +42,7 @@ struct FaceCase;
 impl Question for FaceCase {
     type Answer = Case;
 
-    fn answer<L: Width>(motion: Motion<L>) -> Case {
+    fn answer<L: Width>(self, motion: Motion<L>) -> Case {
         Face::new(motion).case()
     }
 }
@@ -53,7 +53,7 @@ struct VertexMeetsFace;
 impl Question for VertexMeetsFace {
     type Answer = Option<Hit<FacePlace>>;
 
-    fn answer<L: Width>(motion: Motion<L>) -> Option<Hit<FacePlace>> {
+    fn answer<L: Width>(self, motion: Motion<L>) -> Option<Hit<FacePlace>> {
         let face = Face::new(motion);
         if face.motion.is_confined() {
             face.decide_confined()

@@ -12,9 +12,10 @@ use super::width::Number;
 
 /// Limbs that are held without allocation.
 ///
-/// The largest numbers of a decision are about 20 `b` bits for coordinate differences of `b` bits
-/// (see [`super::sturm`]), and `b` is at most 95 where coordinates are between 1e-6 and 1e6.
-pub(super) const INLINE: usize = 32;
+/// So many hold a coefficient of degree 6, a product of six differences of coordinates of 115 bits
+/// each: numbers near 1 beside some near 2^-60. More would have to be copied wherever a number moves;
+/// the values that remainders come to are longer, and on the heap.
+pub(super) const INLINE: usize = 12;
 
 type Limbs = SmallVec<[u64; INLINE]>;
 

@@ -75,7 +75,7 @@ use self::motion::Motion;
 pub(super) use face::{case_of_face, decide_face};
 use locus::{Locus, Place};
 pub(super) use near::are_near;
-pub(super) use passage::{Passage, passage_of_edges, passage_of_face};
+pub(super) use passage::{Passage, passage_of_edges, passage_of_face, side_of_edges, side_of_face};
 pub(super) use rigid::{
     decide_turning_edges, decide_turning_face, normal_of_turning_edges, normal_of_turning_face,
     passage_of_turning_edges, passage_of_turning_face,
@@ -95,47 +95,49 @@ pub(super) const PLACE_ERROR: f64 = 4.0 * f64::EPSILON;
 
 /// The first contact of two edges.
 pub(super) fn decide_edges(positions: &Positions) -> Option<Hit<EdgePlace>> {
-    answer::<EdgesTouch>(positions)
+    answer(EdgesTouch, positions)
 }
 
 /// The case of the motion of two edges.
 pub(super) fn case_of_edges(positions: &Positions) -> Case {
-    answer::<EdgesCase>(positions)
+    answer(EdgesCase, positions)
 }
 
 /// What is asked of the motion of four points.
 trait Question {
     type Answer;
 
-    fn answer<L: Width>(motion: Motion<L>) -> Self::Answer;
+    fn answer<L: Width>(self, motion: Motion<L>) -> Self::Answer;
 }
 
 /// The answer in the narrowest integers that the coordinates allow.
-fn answer<Q: Question>(positions: &Positions) -> Q::Answer {
+fn answer<Q: Question>(question: Q, positions: &Positions) -> Q::Answer {
     match Scaled::new(positions) {
         Scaled::Short { values, bits } => {
             let component = |i: usize| values[i];
             if bits <= Tiny::BITS {
-                answer_in::<Q, Tiny, _>(component)
+                answer_in::<Q, Tiny, _>(question, component)
             } else if bits <= Small::BITS {
-                answer_in::<Q, Small, _>(component)
+                answer_in::<Q, Small, _>(question, component)
             } else if bits <= Medium::BITS {
-                answer_in::<Q, Medium, _>(component)
+                answer_in::<Q, Medium, _>(question, component)
             } else {
-                answer_in::<Q, Large, _>(component)
+                answer_in::<Q, Large, _>(question, component)
             }
         }
         Scaled::Narrow { values, bits } => {
             let component = |i: usize| values[i];
             if bits <= Large::BITS {
-                answer_in::<Q, Large, _>(component)
+                answer_in::<Q, Large, _>(question, component)
             } else if bits <= Huge::BITS {
-                answer_in::<Q, Huge, _>(component)
+                answer_in::<Q, Huge, _>(question, component)
             } else {
-                answer_in::<Q, Unlimited, _>(component)
+                answer_in::<Q, Unlimited, _>(question, component)
             }
         }
-        Scaled::Broad(values) => answer_in::<Q, Unlimited, _>(|i| Boxed::from(&values[i])),
+        Scaled::Broad(values) => {
+            answer_in::<Q, Unlimited, _>(question, |i| Boxed::from(&values[i]))
+        }
     }
 }
 
@@ -143,9 +145,10 @@ fn answer<Q: Question>(positions: &Positions) -> Q::Answer {
 /// stack holds a motion of this width alone.
 #[inline(never)]
 fn answer_in<Q: Question, L: Width<Linear: From<T>>, T>(
+    question: Q,
     component: impl Fn(usize) -> T,
 ) -> Q::Answer {
-    Q::answer(Motion::<L>::new(|i| component(i).into()))
+    question.answer(Motion::<L>::new(|i| component(i).into()))
 }
 
 type Tiny = Fixed<1, 1, 2, 5, 8>;
@@ -163,7 +166,7 @@ struct EdgesTouch;
 impl Question for EdgesTouch {
     type Answer = Option<Hit<EdgePlace>>;
 
-    fn answer<L: Width>(motion: Motion<L>) -> Self::Answer {
+    fn answer<L: Width>(self, motion: Motion<L>) -> Self::Answer {
         if motion.is_confined() {
             motion.decide_confined()
         } else {
@@ -178,7 +181,7 @@ struct EdgesCase;
 impl Question for EdgesCase {
     type Answer = Case;
 
-    fn answer<L: Width>(motion: Motion<L>) -> Case {
+    fn answer<L: Width>(self, motion: Motion<L>) -> Case {
         motion.case()
     }
 }

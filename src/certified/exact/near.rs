@@ -108,7 +108,7 @@ fn cross(x: &Point, y: &Point) -> Point {
     })
 }
 
-fn dot(x: &Point, y: &Point) -> Integer {
+pub(super) fn dot(x: &Point, y: &Point) -> Integer {
     let [a, b, c] = [0, 1, 2].map(|i| Integer::product(&x[i], &y[i]));
     Integer::sum(&Integer::sum(&a, &b), &c)
 }

@@ -28,12 +28,23 @@ pub(in crate::certified) struct Passage {
 
 /// The passage of two edges.
 pub(in crate::certified) fn passage_of_edges(positions: &Positions) -> Passage {
-    answer::<EdgesPass>(positions)
+    answer(EdgesPass, positions)
 }
 
 /// The passage of a vertex A and a face BCD, given as B, C, A, D.
 pub(in crate::certified) fn passage_of_face(as_edges: &Positions) -> Passage {
-    answer::<VertexPasses>(as_edges)
+    answer(VertexPasses, as_edges)
+}
+
+/// The sign of `f` of two edges just before a time of impact above 0 with these neighbours in
+/// `f64`, unless it has a root there.
+pub(in crate::certified) fn side_of_edges(positions: &Positions, toi: [f64; 2]) -> Option<i8> {
+    answer(Side { toi }, positions)
+}
+
+/// The same of a vertex A and a face BCD, given as B, C, A, D.
+pub(in crate::certified) fn side_of_face(as_edges: &Positions, toi: [f64; 2]) -> Option<i8> {
+    answer(Side { toi }, as_edges)
 }
 
 struct EdgesPass;
@@ -41,7 +52,7 @@ struct EdgesPass;
 impl Question for EdgesPass {
     type Answer = Passage;
 
-    fn answer<L: Width>(motion: Motion<L>) -> Passage {
+    fn answer<L: Width>(self, motion: Motion<L>) -> Passage {
         let (case, crosses) = if motion.is_confined() {
             let overlap = |time: &Time<L>| motion.locus(time).map(|locus| locus.second.is_some());
             let crosses = crosses_confined(motion.ends(), overlap);
@@ -60,7 +71,7 @@ struct VertexPasses;
 impl Question for VertexPasses {
     type Answer = Passage;
 
-    fn answer<L: Width>(motion: Motion<L>) -> Passage {
+    fn answer<L: Width>(self, motion: Motion<L>) -> Passage {
         let face = Face::new(motion);
         let crosses = if face.motion.is_confined() {
             crosses_confined(&face.edges(), |time| face.place(time).map(|_| false))
@@ -72,6 +83,34 @@ impl Question for VertexPasses {
             case: face.case(),
             kind: kind(crosses),
         }
+    }
+}
+
+struct Side {
+    toi: [f64; 2],
+}
+
+impl Question for Side {
+    type Answer = Option<i8>;
+
+    fn answer<L: Width>(self, motion: Motion<L>) -> Option<i8> {
+        let [below, above] = self.toi;
+        let mut roots: Roots<L> = Roots::none();
+        let curve = Curve::Cubic(motion.f);
+        let signs = curve.bernstein_signs();
+        // Just after the start.
+        let mut sign = *signs.iter().find(|sign| sign.is_ne())?;
+        roots.find(curve);
+        for (root, _, after) in roots.iter() {
+            if root.below >= above {
+                break;
+            }
+            if !(root.below < below && root.above <= below) {
+                return None;
+            }
+            sign = after;
+        }
+        Some(sign as i8)
     }
 }
 
@@ -122,3 +161,6 @@ fn is_positive_before<L: Width>(q: &Quadratic<L>, time: &Time<L>) -> bool {
     let before = before.then(time.sign_of(&slope).reverse());
     before.then(c2.sign()) == Ordering::Greater
 }
+
+#[cfg(test)]
+mod tests;

@@ -153,6 +153,10 @@ impl Stages for VertexFace {
         exact::passage_of_face(&as_edges(positions))
     }
 
+    fn side(positions: &Positions, toi: [f64; 2]) -> Option<i8> {
+        exact::side_of_face(&as_edges(positions), toi)
+    }
+
     fn compare_distance(positions: &Positions, radius: Radius, time: f64) -> Ordering {
         exact::compare_distance_of_face(positions, radius, time)
     }

@@ -26,7 +26,11 @@ pub(super) fn contact<K: Stages>(
     let Passage { case, kind } = passage::<K>(positions, cubic.as_ref());
     let ([toi, toi_above], side) = match case {
         _ if neighbours[1] == 0.0 => (neighbours, 0),
-        Case::General => (neighbours, side(&cubic?, neighbours[0])?),
+        Case::General => {
+            let quick = cubic.and_then(|cubic| side(&cubic, neighbours[0]));
+            let side = quick.or_else(|| K::side(positions, neighbours));
+            (neighbours, side?)
+        }
         _ => (neighbours, 0),
     };
     Some(Hit {

@@ -40,12 +40,14 @@ impl Edges {
         }
     }
 
-    /// The lines are nearest at `u = (M x L) . N / N . N` and `v = (M x K) . N / s N . N`.
-    fn insides(&self) -> Pair<2> {
-        let Edges {
-            k, l, m, n, n2, f, ..
-        } = self;
-        let (u, v) = (dot(&cross(m, l), n), dot(&cross(m, k), n));
+    /// The lines are nearest at `u = (M x L) . N / N . N` and `v = (M x K) . N / s N . N`. As
+    /// `N = K x L`, these products are of inner products.
+    fn insides(&self, [kk, kl, ll, km, lm]: [&Poly; 5]) -> Pair<2> {
+        let Edges { n2, f, .. } = self;
+        let minor = |a: &Poly, b: &Poly, c: &Poly, d: &Poly| {
+            Poly::difference(&Poly::product(a, b), &Poly::product(c, d))
+        };
+        let (u, v) = (minor(km, ll, lm, kl), minor(km, kl, lm, kk));
         let sn2 = Poly::product(&self.scale, n2);
         let quotient = |n: &Poly, d: &Poly| Share::Quotient(n.clone(), d.clone());
         let place = [quotient(&u, n2), quotient(&v, &sn2)];
@@ -62,29 +64,38 @@ impl Edges {
 impl Sides<2> for Edges {
     fn pairs(&self) -> Vec<Pair<2>> {
         use Share::{All, None};
-        let Edges { k, l, sl, m, .. } = self;
-        let (a_c, a_d) = (m, &add(m, sl));
-        let (b_c, b_d) = (&sub(a_c, k), &sub(a_d, k));
-        let (c_a, c_b, d_a, d_b) = (&neg(a_c), &neg(b_c), &neg(a_d), &neg(b_d));
+        let Edges {
+            k, l, sl, m, scale, ..
+        } = self;
+        let (kk, kl, ll) = (&dot(k, k), &dot(k, l), &dot(l, l));
+        let (km, lm) = (&dot(k, m), &dot(l, m));
+        let sll = &Poly::product(scale, ll);
+        // The squared ways from A and B to C and D.
+        let (m_l, m_k) = (&add(m, sl), &sub(m, k));
+        let (a_c, a_d) = (&dot(m, m), &dot(m_l, m_l));
+        let b_c = &dot(m_k, m_k);
+        let b_d = &{
+            let way = sub(m_l, k);
+            dot(&way, &way)
+        };
+        let negative = |p: &Poly| Poly::difference(&Poly::default(), p);
+        let d_on_k = &negative(&dot(m_l, k));
+        let (b_on_l, c_on_k) = (&Poly::difference(lm, kl), &negative(km));
         vec![
             Pair::vertices(a_c, [None, None]),
             Pair::vertices(a_d, [None, All]),
             Pair::vertices(b_c, [All, None]),
             Pair::vertices(b_d, [All, All]),
-            Pair::vertex_edge(a_c, a_d, l, |[v, _]| [None, v]),
-            Pair::vertex_edge(b_c, b_d, l, |[v, _]| [All, v]),
-            Pair::vertex_edge(c_a, c_b, k, |[u, _]| [u, None]),
-            Pair::vertex_edge(d_a, d_b, k, |[u, _]| [u, All]),
-            self.insides(),
+            Pair::vertex_edge([a_c, lm, ll, sll], |[v, _]| [None, v]),
+            Pair::vertex_edge([b_c, b_on_l, ll, sll], |[v, _]| [All, v]),
+            Pair::vertex_edge([a_c, c_on_k, kk, kk], |[u, _]| [u, None]),
+            Pair::vertex_edge([a_d, d_on_k, kk, kk], |[u, _]| [u, All]),
+            self.insides([kk, kl, ll, km, lm]),
         ]
     }
 
     fn f(&self) -> &Poly {
         &self.f
-    }
-
-    fn n2(&self) -> &Poly {
-        &self.n2
     }
 
     /// From A to C and D, and from B to D and C.

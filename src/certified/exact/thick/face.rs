@@ -39,12 +39,13 @@ impl Face {
 
     /// The foot of the vertex in the plane has the weights `c = (X x Q) . N` and `d = (P x X) . N`
     /// over `s N . N`: with `h` the height, `X - h N = c P + d Q`, crossed with `Q` or `P` and
-    /// multiplied by `N`.
-    fn inside(&self) -> Pair<3> {
-        let Face {
-            p, q, x, n, n2, f, ..
-        } = self;
-        let (c, d) = (dot(&cross(x, q), n), dot(&cross(p, x), n));
+    /// multiplied by `N`. As `N = P x Q`, these products are of inner products.
+    fn inside(&self, [pp, pq, qq, px, qx]: [&Poly; 5]) -> Pair<3> {
+        let Face { n2, f, .. } = self;
+        let minor = |a: &Poly, b: &Poly, c: &Poly, d: &Poly| {
+            Poly::difference(&Poly::product(a, b), &Poly::product(c, d))
+        };
+        let (c, d) = (minor(px, qq, qx, pq), minor(pp, qx, pq, px));
         let sn2 = Poly::product(&self.scale, n2);
         let b = Poly::difference(&Poly::difference(&sn2, &c), &d);
         let inside = vec![b, c, d];
@@ -58,26 +59,30 @@ impl Sides<3> for Face {
     fn pairs(&self) -> Vec<Pair<3>> {
         use Share::{All, None};
         let Face { p, q, x, scale, .. } = self;
-        let to_b = &neg(x);
+        let (pp, pq, qq) = (&dot(p, p), &dot(p, q), &dot(q, q));
+        let (px, qx) = (&dot(p, x), &dot(q, x));
+        let (spp, sqq) = (&Poly::product(scale, pp), &Poly::product(scale, qq));
+        // The ways from A to C and D, and from C to D.
         let to = |way: &Vector| sub(&times(way, scale), x);
         let (to_c, to_d, last) = (&to(p), &to(q), &sub(q, p));
+        let (b2, c2, d2) = (&dot(x, x), &dot(to_c, to_c), &dot(to_d, to_d));
+        let (last2, c_on_last) = (&dot(last, last), &dot(to_c, last));
+        let s_last2 = &Poly::product(scale, last2);
+        let negative = |p: &Poly| Poly::difference(&Poly::default(), p);
+        let (b_on_p, b_on_q) = (&negative(px), &negative(qx));
         vec![
-            Pair::vertices(to_b, [All, None, None]),
-            Pair::vertices(to_c, [None, All, None]),
-            Pair::vertices(to_d, [None, None, All]),
-            Pair::vertex_edge(to_b, to_c, p, |[c, b]| [b, c, None]),
-            Pair::vertex_edge(to_c, to_d, last, |[d, c]| [None, c, d]),
-            Pair::vertex_edge(to_b, to_d, q, |[d, b]| [b, None, d]),
-            self.inside(),
+            Pair::vertices(b2, [All, None, None]),
+            Pair::vertices(c2, [None, All, None]),
+            Pair::vertices(d2, [None, None, All]),
+            Pair::vertex_edge([b2, b_on_p, pp, spp], |[c, b]| [b, c, None]),
+            Pair::vertex_edge([c2, c_on_last, last2, s_last2], |[d, c]| [None, c, d]),
+            Pair::vertex_edge([b2, b_on_q, qq, sqq], |[d, b]| [b, None, d]),
+            self.inside([pp, pq, qq, px, qx]),
         ]
     }
 
     fn f(&self) -> &Poly {
         &self.f
-    }
-
-    fn n2(&self) -> &Poly {
-        &self.n2
     }
 
     /// From A to B, C and D.

@@ -19,6 +19,7 @@
 //! The radius is an integer, in a unit of its own, and so never rounded. Here all integers are of
 //! any size: what `f64` leaves open is little.
 
+mod at_rest;
 mod edges;
 mod face;
 mod normal;
@@ -31,12 +32,14 @@ use std::cmp::Ordering;
 
 use super::PLACE_ERROR;
 use super::algebraic_time::AlgebraicTime;
+use super::integer::Integer;
 use super::near::{self, Point, in_unit, radius_in_unit, sub, unit};
 use super::passage::{Passage, passage_of_edges};
 use super::poly;
 use crate::certified::motion::Positions;
 use crate::contact::{EdgePlace, EdgePoint, FacePlace, Flags, Hit};
 use crate::query::Radius;
+use at_rest::AtRest;
 pub(super) use edges::Edges;
 pub(super) use face::Face;
 use normal::Polygon;
@@ -75,6 +78,17 @@ struct Approach<const W: usize> {
 }
 
 impl<const W: usize> Approach<W> {
+    /// At the start, with the flags where `N` is 0.
+    fn at_start(first: [f64; W], second: Option<[f64; W]>, flags: Option<Flags>) -> Self {
+        Approach {
+            toi: [0.0; 2],
+            side: 0,
+            first,
+            second,
+            flags: flags.unwrap_or_default(),
+        }
+    }
+
     /// The contact of two sides that pass each other like this without their radius.
     fn hit<P>(self, Passage { case, kind }: Passage, place: P) -> Hit<P> {
         let [toi, toi_above] = self.toi;
@@ -95,13 +109,19 @@ pub(in crate::certified) fn decide_thick_edges(
     positions: &Positions,
     radius: Radius,
 ) -> Option<Hit<EdgePlace>> {
-    let (points, reach) = integers(positions, radius.parts());
     let passage = || passage_of_edges(positions);
-    let at_start = Edges::new(&at_start(&points));
-    match start_approach(&at_start, &reach, || Edges::new(&points)) {
-        Some(approach) => Some(edge_hit(approach, passage())),
-        None => decide_near_edges(&Edges::new(&points), &reach, passage),
+    let at_start = AtRest::edges(&positions.start, radius.parts());
+    let nearest = at_start.nearest_of_edges()?;
+    if at_start.compare(&nearest).is_gt() {
+        let (points, reach) = integers(positions, radius.parts());
+        return decide_near_edges(&Edges::new(&points), &reach, passage);
     }
+    let (first, second) = at_start
+        .overlap_of_edges()
+        .unwrap_or((nearest.values(), None));
+    let flags = || Edges::new(&moving_integers(positions).0).flags(&Time::At(Dyadic::zero()));
+    let approach = Approach::at_start(first, second, at_start.is_flat().then(flags));
+    Some(edge_hit(approach, passage()))
 }
 
 /// The same of a vertex A and a face BCD, of which it is known how they pass each other.
@@ -110,12 +130,15 @@ pub(in crate::certified) fn decide_thick_face(
     radius: Radius,
     passage: impl FnOnce() -> Passage,
 ) -> Option<Hit<FacePlace>> {
-    let (points, reach) = integers(positions, radius.parts());
-    let at_start = Face::new(&at_start(&points));
-    match start_approach(&at_start, &reach, || Face::new(&points)) {
-        Some(approach) => Some(face_hit(approach, passage())),
-        None => decide_near_face(&Face::new(&points), &reach, passage),
+    let at_start = AtRest::face(&positions.start, radius.parts());
+    let nearest = at_start.nearest_of_face()?;
+    if at_start.compare(&nearest).is_gt() {
+        let (points, reach) = integers(positions, radius.parts());
+        return decide_near_face(&Face::new(&points), &reach, passage);
     }
+    let flags = || Face::new(&moving_integers(positions).0).flags(&Time::At(Dyadic::zero()));
+    let approach = Approach::at_start(nearest.values(), None, at_start.is_flat().then(flags));
+    Some(face_hit(approach, passage()))
 }
 
 /// The first contact of two edges, of which it is known how they pass each other.
@@ -161,9 +184,6 @@ trait Sides<const W: usize> {
 
     /// Six times the volume of the four points.
     fn f(&self) -> &Poly;
-
-    /// The square of the normal.
-    fn n2(&self) -> &Poly;
 
     /// All differences of a point of the second side and one of the first.
     fn polygon(&self) -> Polygon;
@@ -225,8 +245,10 @@ pub(in crate::certified) fn compare_distance_of_edges(
     radius: Radius,
     time: f64,
 ) -> Ordering {
-    let (points, reach) = integers_at(positions, radius.parts(), time);
-    compare_distance(&Edges::new(&points), &reach)
+    let (points, unit) = positions_at(positions, time);
+    let at_time = AtRest::edges_in(&points, unit, radius.parts());
+    let nearest = at_time.nearest_of_edges();
+    nearest.map_or(Ordering::Greater, |nearest| at_time.compare(&nearest))
 }
 
 /// The same of a vertex A and a face BCD.
@@ -235,91 +257,51 @@ pub(in crate::certified) fn compare_distance_of_face(
     radius: Radius,
     time: f64,
 ) -> Ordering {
-    let (points, reach) = integers_at(positions, radius.parts(), time);
-    compare_distance(&Face::new(&points), &reach)
+    let (points, unit) = positions_at(positions, time);
+    let at_time = AtRest::face_in(&points, unit, radius.parts());
+    let nearest = at_time.nearest_of_face();
+    nearest.map_or(Ordering::Greater, |nearest| at_time.compare(&nearest))
 }
 
-/// The positions at a time, at rest there, and the radius.
-fn integers_at(positions: &Positions, radii: [f64; 2], time: f64) -> ([Vector; 4], Reach) {
-    let (points, unit) = moving_integers(positions);
+/// The positions at a time in `[0, 1]`, in multiples of 2 to a power.
+fn positions_at(Positions { start, end }: &Positions, time: f64) -> ([Point; 4], i32) {
+    let unit = unit(start.iter().chain(end).flatten());
     let time = Dyadic::from_f64(time);
-    let at_time = |poly: &Poly| Poly::new(&[poly.evaluate_as(1, &time)]);
-    let points = points.map(|point| point.each_ref().map(at_time));
-    let reach = Reach::new(radii, unit - time.exponent as i32, &vector::one());
-    (points, reach)
-}
-
-/// The distance of two sides at rest compared with a radius: that of the nearest features whose
-/// nearest points are inside them.
-fn compare_distance<const W: usize>(sides: &impl Sides<W>, reach: &Reach) -> Ordering {
-    let time = Time::At(Dyadic::zero());
-    let pairs = sides.pairs();
-    let holding = pairs.iter().filter(|pair| pair.holds(&time));
-    let signs = holding.map(|pair| pair.excess_sign(reach, &time));
-    signs.min().unwrap_or(Ordering::Greater)
-}
-
-/// The positions at the start, at rest.
-fn at_start(points: &[Vector; 4]) -> [Vector; 4] {
-    let rest = |poly: &Poly| Poly::new(std::slice::from_ref(poly.coefficient(0)));
-    points.each_ref().map(|point| point.each_ref().map(rest))
-}
-
-/// The contact at the start, if there is one, of two sides that are at rest there: polynomials of
-/// degree 0, which are much less to compute. What is asked of the motion is asked of `moving`.
-fn start_approach<const W: usize, S: Sides<W>>(
-    at_start: &S,
-    reach: &Reach,
-    moving: impl FnOnce() -> S,
-) -> Option<Approach<W>> {
-    let pairs = at_start.pairs();
-    let start = Time::At(Dyadic::zero());
-    let is_near = |pair: &Pair<W>| pair.excess_sign(reach, &start).is_le() && pair.holds(&start);
-    pairs.iter().find(|pair| is_near(pair))?;
-    let (first, second) = match at_start.overlap(&start) {
-        Some(overlap) => overlap,
-        None => (Pair::nearest_at_start(&pairs)?.place.clone(), None),
+    let at_time = |from: Point, to: Point| -> Point {
+        let change = sub(&to, &from);
+        [0, 1, 2].map(|axis: usize| {
+            let moved = Integer::product(&change[axis], &time.numerator);
+            Integer::sum(&from[axis].shifted(time.exponent), &moved)
+        })
     };
-    let flags = match at_start.n2().is_zero() {
-        true => moving().flags(&start),
-        false => Flags::default(),
-    };
-    Some(Approach {
-        toi: [0.0; 2],
-        side: 0,
-        first: first.values(&start),
-        second: second.map(|place| place.values(&start)),
-        flags,
-    })
+    let [[a, b, c, d], [e, f, g, h]] = [in_unit(start, unit), in_unit(end, unit)];
+    let points = [at_time(a, e), at_time(b, f), at_time(c, g), at_time(d, h)];
+    (points, unit - time.exponent as i32)
 }
 
 fn first_approach<const W: usize>(sides: &impl Sides<W>, reach: &Reach) -> Option<Approach<W>> {
     let pairs = sides.pairs();
+    let excesses: Vec<Poly> = pairs.iter().map(|pair| pair.excess(reach)).collect();
     let start = Time::At(Dyadic::zero());
-    let is_near =
-        |pair: &Pair<W>, time: &Time| pair.holds(time) && pair.excess_sign(reach, time).is_le();
+    let is_near = |(pair, excess): &(&Pair<W>, &Poly), time: &Time| {
+        time.sign_of(excess).is_le() && pair.holds(time)
+    };
+    let all = || pairs.iter().zip(&excesses);
     let roots: Vec<Roots>;
-    let (time, toi) = if pairs.iter().any(|pair| is_near(pair, &start)) {
+    let (time, toi) = if all().any(|pair| is_near(&pair, &start)) {
         (start, [0.0; 2])
     } else {
-        roots = pairs
-            .iter()
-            .map(|pair| Roots::new(pair.excess(reach)))
-            .collect();
+        roots = excesses.iter().cloned().map(Roots::new).collect();
         first_root(&pairs, &roots)?
     };
     let (first, second) = match sides.overlap(&time) {
         Some(overlap) => overlap,
         None if toi[1] == 0.0 => (Pair::nearest_at_start(&pairs)?.place.clone(), None),
         // They are as far apart as the radius, and no feature is nearer.
-        None => (
-            pairs
-                .iter()
-                .find(|pair| is_near(pair, &time))?
-                .place
-                .clone(),
-            None,
-        ),
+        None => {
+            let (pair, _) = all().find(|pair| is_near(pair, &time))?;
+            (pair.place.clone(), None)
+        }
     };
     Some(Approach {
         toi,

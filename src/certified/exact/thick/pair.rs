@@ -1,8 +1,6 @@
 //! Two features, one of each side, and when their distance is that of the two sides.
 
-use std::cmp::Ordering;
-
-use super::vector::{Vector, cross, dot, one};
+use super::vector::one;
 use super::{Poly, Reach, Time};
 use crate::certified::exact::dyadic::Dyadic;
 use crate::certified::exact::integer::Integer;
@@ -50,36 +48,33 @@ impl<const W: usize> Place<W> {
 }
 
 impl<const W: usize> Pair<W> {
-    /// Two vertices with this way from one to the other.
-    pub(super) fn vertices(way: &Vector, place: [Share; W]) -> Self {
+    /// Two vertices at this squared distance.
+    pub(super) fn vertices(squared: &Poly, place: [Share; W]) -> Self {
         Pair {
-            numerator: dot(way, way),
+            numerator: squared.clone(),
             denominator: one(),
             inside: Vec::new(),
             place: Place(place),
         }
     }
 
-    /// A vertex `X` and an edge `YZ`, from the ways from `X` to both and a vector `E` of which
-    /// `Z - Y` is a multiple by a factor above 0. The line is `|(Y - X) x E| / |E|` away; the nearest
-    /// point is `(X - Y) . E` and `(Z - X) . E` from the ends, times the same. Both shares of their
-    /// sum are given to `place`.
+    /// A vertex `X` and an edge `YZ`. With the way `w = Y - X` and a vector `E` of which `Z - Y` is a
+    /// multiple by a factor above 0, given are `w . w`, `w . E`, `E . E` and `(Z - Y) . E`. The line is
+    /// `|w x E| / |E|` away, and `|w x E|^2` is `(w . w) (E . E) - (w . E)^2`; the nearest point is
+    /// `-w . E` and `(Z - X) . E` from the ends, times `|E|`. Both shares of their sum are given to
+    /// `place`.
     pub(super) fn vertex_edge(
-        to_y: &Vector,
-        to_z: &Vector,
-        edge: &Vector,
+        [ww, we, ee, step]: [&Poly; 4],
         place: impl FnOnce([Share; 2]) -> [Share; W],
     ) -> Self {
-        let turn = cross(to_y, edge);
-        let share = Poly::difference(&Poly::default(), &dot(to_y, edge));
-        let rest = dot(to_z, edge);
-        let all = Poly::sum(&share, &rest);
-        let quotient = |n: &Poly| Share::Quotient(n.clone(), all.clone());
+        let share = Poly::difference(&Poly::default(), we);
+        let rest = Poly::sum(we, step);
+        let quotient = |n: &Poly| Share::Quotient(n.clone(), step.clone());
         Pair {
-            numerator: dot(&turn, &turn),
+            numerator: Poly::difference(&Poly::product(ww, ee), &Poly::product(we, we)),
             place: Place(place([quotient(&share), quotient(&rest)])),
             inside: vec![share, rest],
-            denominator: dot(edge, edge),
+            denominator: ee.clone(),
         }
     }
 
@@ -101,10 +96,6 @@ impl<const W: usize> Pair<W> {
         let own = self.numerator.shifted(up(-shift));
         let square = square.shifted(up(*shift));
         Poly::difference(&own, &Poly::product(&square, &self.denominator))
-    }
-
-    pub(super) fn excess_sign(&self, reach: &Reach, time: &Time) -> Ordering {
-        time.sign_of(&self.excess(reach))
     }
 
     /// Whether the nearest points of what they span are on the features at a time.
