@@ -224,7 +224,7 @@ impl Tally {
         }
     }
 
-    fn scene(&mut self, seed: u64, kappa: f64, collisions: Collisions<'_>) {
+    fn scene(&mut self, seed: u64, kappa: f64, collisions: Collisions<'_>) -> World {
         let mut collisions = collisions.with_guarded_thickness(kappa).unwrap();
         let mut world = thick_scene(seed);
         for _ in 0..STEPS {
@@ -244,10 +244,11 @@ impl Tally {
                     assert_eq!(before, wires(&world));
                     assert!(!is_touching(&error.reason), "seed {seed}: {error}");
                     self.refused_steps += 1;
-                    return;
+                    return world;
                 }
             }
         }
+        world
     }
 }
 
@@ -270,6 +271,21 @@ fn guard_keeps_a_share_of_the_thickness() {
     // All parts of guard mode took part.
     assert!(tally.prevented > 0 && tally.held > 0 && tally.remeshed > 0 && tally.refused > 0);
     assert!(tally.pairs.iter().all(|count| *count > 0), "{tally:?}");
+}
+
+/// A tangle of chains in which most steps are cut short. Once a segment of a chain that should have
+/// pulled did not, was stretched to twenty times its length, and so on with ever more energy until a
+/// system could not be factored.
+#[test]
+fn guard_does_every_step_of_thick_scenes_that_were_hard() {
+    for seed in [4499] {
+        let mut tally = Tally::default();
+        let world = tally.scene(seed, kappa(seed), collisions(seed));
+        assert_eq!(tally.steps, STEPS, "seed {seed}: {tally:?}");
+        let points = wires(&world).into_iter().flatten();
+        let farthest = points.fold(0.0, |most: f64, (_, point)| most.max(point.coords.amax()));
+        assert!(farthest < 1000.0, "seed {seed}: {farthest} m");
+    }
 }
 
 /// The certified path with half of the radius.

@@ -60,13 +60,26 @@ pub(super) fn leaves_hard_branch(rows: &[Row], x: &[f64]) -> bool {
     leaves(rows.iter().filter(hard), x)
 }
 
-fn leaves<'a>(changing: impl Iterator<Item = &'a Row> + Clone, x: &[f64]) -> bool {
-    let fastest = changing
-        .clone()
-        .fold(0.0, |a: f64, row| a.max(row.speed(x)));
-    let accepted = RESIDUAL * fastest;
-    let mut changing = changing;
+fn leaves<'a>(mut changing: impl Iterator<Item = &'a Row> + Clone, x: &[f64]) -> bool {
+    let accepted = accepted(changing.clone(), x);
     changing.any(|row| row.branch.is_left(row.excess(x), accepted))
+}
+
+/// What the excess of rows may be off by.
+fn accepted<'a>(rows: impl Iterator<Item = &'a Row>, x: &[f64]) -> f64 {
+    RESIDUAL * rows.fold(0.0, |a: f64, row| a.max(row.speed(x)))
+}
+
+/// Lets every segment of a chain that does not count and is too long after the step count, beside
+/// those that do. Returns whether there is one. Where this is repeated it ends: each time there is
+/// one more that counts.
+pub(super) fn count_too_long(rows: &mut [Row], x: &[f64]) -> bool {
+    let accepted = accepted(rows.iter().filter(|row| row.may_change()), x);
+    let mut found = false;
+    for row in rows {
+        found |= row.count_if_too_long(x, accepted);
+    }
+    found
 }
 
 /// Finds the branches of all rows under impulses on velocities, from the velocities of `x` on. If

@@ -162,6 +162,17 @@ impl Row {
         changed
     }
 
+    /// Lets a segment of a chain that does not count and is too long after the step count. Returns
+    /// whether it is one.
+    pub(super) fn count_if_too_long(&mut self, x: &[f64], accepted: f64) -> bool {
+        let may = matches!(self.law, ConstitutiveLaw::TensionOnly) && self.may_change();
+        let is_too_long = may && !self.branch.active && self.excess(x) > accepted;
+        if is_too_long {
+            self.branch = Branch::ACTIVE;
+        }
+        is_too_long
+    }
+
     /// How far velocities are off at a solution because the law is not the branch that was taken, and
     /// because another multiplier was predicted, in m/s; zeros for a law that is not softened.
     pub(super) fn residuals(&self, x: &[f64]) -> [f64; 2] {
