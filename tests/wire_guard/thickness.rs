@@ -284,7 +284,7 @@ fn guard_does_every_step_of_thick_scenes_that_were_hard() {
         assert_eq!(tally.steps, STEPS, "seed {seed}: {tally:?}");
         let points = wires(&world).into_iter().flatten();
         let farthest = points.fold(0.0, |most: f64, (_, point)| most.max(point.coords.amax()));
-        assert!(farthest < 1000.0, "seed {seed}: {farthest} m");
+        assert!(farthest < 20.0, "seed {seed}: {farthest} m");
     }
 }
 

@@ -70,14 +70,14 @@ fn accepted<'a>(rows: impl Iterator<Item = &'a Row>, x: &[f64]) -> f64 {
     RESIDUAL * rows.fold(0.0, |a: f64, row| a.max(row.speed(x)))
 }
 
-/// Lets every segment of a chain that does not count and is too long after the step count, beside
-/// those that do. Returns whether there is one. Where this is repeated it ends: each time there is
-/// one more that counts.
-pub(super) fn count_too_long(rows: &mut [Row], x: &[f64]) -> bool {
+/// Holds every row that has a branch which does not hold and lets it go too far, or drives it; see
+/// [`Row::hold_if_left`]. Returns whether there is one. Where this is repeated it ends: what is held
+/// stays so.
+pub(super) fn hold_what_leaves(rows: &mut [Row], x: &[f64]) -> bool {
     let accepted = accepted(rows.iter().filter(|row| row.may_change()), x);
     let mut found = false;
     for row in rows {
-        found |= row.count_if_too_long(x, accepted);
+        found |= row.hold_if_left(x, accepted);
     }
     found
 }

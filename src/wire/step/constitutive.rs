@@ -61,6 +61,12 @@ impl Branch {
         range: [0.0, f64::INFINITY],
     };
 
+    /// A row that counts whatever its excess is.
+    pub(super) const ALWAYS: Branch = Branch {
+        range: [f64::NEG_INFINITY, f64::INFINITY],
+        ..Branch::ACTIVE
+    };
+
     /// `Sigma` times the multiplier.
     pub(super) fn load(&self, excess: f64, sigma: f64) -> f64 {
         let counts = if self.active { 1.0 } else { 0.0 };
@@ -119,10 +125,7 @@ impl ConstitutiveLaw {
     /// The branch that holds at an excess.
     pub(super) fn branch(&self, excess: f64, sigma: f64) -> Branch {
         match *self {
-            ConstitutiveLaw::Linear => Branch {
-                range: [f64::NEG_INFINITY, f64::INFINITY],
-                ..Branch::ACTIVE
-            },
+            ConstitutiveLaw::Linear => Branch::ALWAYS,
             ConstitutiveLaw::TensionOnly if excess > 0.0 => Branch::ACTIVE,
             ConstitutiveLaw::TensionOnly => Branch::INACTIVE,
             ConstitutiveLaw::Friction { bound, reach, .. } => {

@@ -162,15 +162,26 @@ impl Row {
         changed
     }
 
-    /// Lets a segment of a chain that does not count and is too long after the step count. Returns
-    /// whether it is one.
-    pub(super) fn count_if_too_long(&mut self, x: &[f64], accepted: f64) -> bool {
-        let may = matches!(self.law, ConstitutiveLaw::TensionOnly) && self.may_change();
-        let is_too_long = may && !self.branch.active && self.excess(x) > accepted;
-        if is_too_long {
-            self.branch = Branch::ACTIVE;
-        }
-        is_too_long
+    /// Holds what the branch that was taken lets go too far, or drives: a segment of a chain that
+    /// does not count and would be too long counts, and a wire whose friction has the other branch
+    /// sticks. Returns whether that is so.
+    pub(super) fn hold_if_left(&mut self, x: &[f64], accepted: f64) -> bool {
+        let excess = self.excess(x);
+        let held = match self.law {
+            ConstitutiveLaw::TensionOnly
+                if self.may_change() && !self.branch.active && excess > accepted =>
+            {
+                Branch::ACTIVE
+            }
+            ConstitutiveLaw::Friction { .. }
+                if self.may_change() && self.branch.is_left(excess, accepted) =>
+            {
+                Branch::ALWAYS
+            }
+            _ => return false,
+        };
+        self.branch = held;
+        true
     }
 
     /// How far velocities are off at a solution because the law is not the branch that was taken, and

@@ -1,7 +1,7 @@
 //! The solution of a step: velocities, multipliers, contact impulses, which segments of chains
 //! pull, and which wires slide.
 
-use super::active_set::{count_too_long, find_active_set, violates_branches};
+use super::active_set::{find_active_set, hold_what_leaves, violates_branches};
 use super::budget::Budget;
 use super::capstan::{bound_residual, stop_slip};
 use super::contact_blocks::Swept;
@@ -145,11 +145,12 @@ impl World {
     }
 
     /// Ends a solve whose impulses are those of other branches, or whose branches do not all hold, so
-    /// that it has no more energy than there is. Contacts have no more than with these branches; and
-    /// every segment of a chain that would be too long counts, beside those that were taken to, which
-    /// may push then: a chain that is stretched would have the energy of a spring in the next step.
-    /// Whatever is left to spend, this is done: it takes a few factorisations, and how many is
-    /// returned.
+    /// that it has no more energy than there is. Contacts have no more than with these branches.
+    /// Every segment of a chain that would be too long counts, beside those that were taken to, which
+    /// may push then; and wires stick at contact nodes where they would slide against their friction,
+    /// or farther than there is wire for: what is stretched would have the energy of a spring in the
+    /// next step. Whatever is left to spend, this is done: it takes a few factorisations, and how many
+    /// is returned.
     fn end_cut_short(
         &self,
         system: &mut System,
@@ -161,7 +162,7 @@ impl World {
         const MOST: usize = 20;
         let mut factorisations = 0;
         for _ in 0..MOST {
-            let is_new = count_too_long(&mut system.rows, &candidate.x);
+            let is_new = hold_what_leaves(&mut system.rows, &candidate.x);
             if is_new {
                 system.factor()?;
                 budget.spend(system.multiplications());
