@@ -273,9 +273,9 @@ fn guard_keeps_a_share_of_the_thickness() {
     assert!(tally.pairs.iter().all(|count| *count > 0), "{tally:?}");
 }
 
-/// A tangle of chains in which most steps are cut short. Once a segment of a chain that should have
-/// pulled did not, was stretched to twenty times its length, and so on with ever more energy until a
-/// system could not be factored.
+/// A tangle of chains in which most steps are cut short. Once a wire slid farther over a contact
+/// node than there was wire for and was stretched, and so on with ever more energy until a system
+/// could not be factored.
 #[test]
 fn guard_does_every_step_of_thick_scenes_that_were_hard() {
     for seed in [4499] {

@@ -70,21 +70,21 @@ fn accepted<'a>(rows: impl Iterator<Item = &'a Row>, x: &[f64]) -> f64 {
     RESIDUAL * rows.fold(0.0, |a: f64, row| a.max(row.speed(x)))
 }
 
-/// Holds every row that has a branch which does not hold and lets it go too far, or drives it; see
-/// [`Row::hold_if_left`]. Returns whether there is one. Where this is repeated it ends: what is held
-/// stays so.
-pub(super) fn hold_what_leaves(rows: &mut [Row], x: &[f64]) -> bool {
+/// Lets every wire stick whose friction has another branch than was taken: it may push the wire the
+/// way it slides, or let it slide farther than there is wire for. Returns whether there is one.
+fn stick_what_leaves(rows: &mut [Row], x: &[f64]) -> bool {
     let accepted = accepted(rows.iter().filter(|row| row.may_change()), x);
     let mut found = false;
     for row in rows {
-        found |= row.hold_if_left(x, accepted);
+        found |= row.stick_if_left(x, accepted);
     }
     found
 }
 
 /// Finds the branches of all rows under impulses on velocities, from the velocities of `x` on. If
 /// that takes too much, some rows have a branch that does not hold: a segment of a chain may push,
-/// or may be longer than it should. Momentum is that of the impulses all the same.
+/// or may be longer than it should, and a wire may stick that should slide. Momentum is that of the
+/// impulses all the same.
 ///
 /// # Errors
 ///
@@ -104,7 +104,7 @@ pub(super) fn find_active_set(
             budget.spend(system.multiplications());
             factorisations += 1;
         }
-        let (newton, backward_error) = system.solve(impulses)?;
+        let (newton, mut backward_error) = system.solve(impulses)?;
         budget.spend(system.multiplications_of_solve());
         let is_last = tries == TRIES || budget.is_spent();
         if leaves_branch(&system.rows, &newton) && !is_last {
@@ -117,6 +117,13 @@ pub(super) fn find_active_set(
         let is_last = is_last || updates > BOUNDS || factorisations > SEARCHED;
         if is_last || !capstan::bounds_differ(&system.rows, &x) {
             let is_found = !leaves_branch(&system.rows, &x);
+            // Ends: a wire that sticks is not let go again.
+            while !is_found && stick_what_leaves(&mut system.rows, &x) {
+                system.factor()?;
+                budget.spend(system.multiplications());
+                factorisations += 1;
+                (x, backward_error) = system.solve(impulses)?;
+            }
             return Ok(ActiveSet {
                 x,
                 backward_error,

@@ -120,10 +120,9 @@ impl Blocks {
         Blocks { list, paths }
     }
 
-    /// Takes the multiple of all impulses that is best, at most 1, and returns it: a start that does
-    /// not suit these contacts, or sweeps that do not converge, may have more energy in them than
-    /// there is.
-    pub(super) fn scale_to_best(&mut self) -> f64 {
+    /// Takes the multiple of all impulses that is best, at most 1: a start that does not suit these
+    /// contacts, or sweeps that do not converge, may have more energy in them than there is.
+    pub(super) fn scale_to_best(&mut self) {
         let excess = self.list.iter().map(|block| block.excess(&self.paths));
         let excess: Vec<f64> = excess.flat_map(|e| [e.x, e.y, e.z]).collect();
         let scale = best_multiple(&self.list, &excess);
@@ -135,7 +134,6 @@ impl Blocks {
                 entry.z *= scale;
             }
         }
-        scale
     }
 
     /// Multiplications of a sweep, about.

@@ -82,46 +82,28 @@ pub(super) fn sweep(
         budget.spend((swept.sweeps - FIRST_SWEEPS) * cost);
         swept.is_cut = limit < most && !swept.is_converged(settings);
     }
-    swept.take_impulses(&blocks);
+    for block in &blocks.list {
+        let impulse = block.frame.tr_mul(&block.impulse);
+        for (carrier, weight) in &block.terms {
+            let mut columns = Columns::new();
+            carrier.columns(&(impulse * *weight), &mut columns);
+            swept.columns.extend(columns);
+        }
+        swept.impulses.push(impulse);
+    }
     swept
 }
 
-impl Swept {
-    fn take_impulses(&mut self, blocks: &Blocks) {
-        self.columns.clear();
-        self.impulses.clear();
-        for block in &blocks.list {
-            let impulse = block.frame.tr_mul(&block.impulse);
-            for (carrier, weight) in &block.terms {
-                let mut columns = Columns::new();
-                carrier.columns(&(impulse * *weight), &mut columns);
-                self.columns.extend(columns);
-            }
-            self.impulses.push(impulse);
-        }
-    }
-
-    /// Makes the impulses so much smaller that they have no more energy in them than there is in
-    /// the system as it is factored now, for which they were not swept. Returns whether that was
-    /// less. The residual is what one more sweep would change.
-    pub(super) fn suit(
-        &mut self,
-        world: &World,
-        system: &System,
-        contacts: &[ContactConstraint],
-    ) -> bool {
-        if contacts.is_empty() {
-            return false;
-        }
-        let free = system.solve_free();
-        let mut blocks = Blocks::new(world, system, contacts, &free, &self.impulses);
-        let is_less = blocks.scale_to_best() < 1.0;
-        if is_less {
-            self.take_impulses(&blocks);
-        }
-        self.residual = blocks.relax();
-        is_less
-    }
+/// The largest change of a contact's velocity, in m/s, that one more sweep from these impulses
+/// would make.
+pub(super) fn contact_residual(
+    world: &World,
+    system: &System,
+    contacts: &[ContactConstraint],
+    free: &[f64],
+    impulses: &[Vector],
+) -> f64 {
+    Blocks::new(world, system, contacts, free, impulses).relax()
 }
 
 #[cfg(test)]

@@ -162,26 +162,15 @@ impl Row {
         changed
     }
 
-    /// Holds what the branch that was taken lets go too far, or drives: a segment of a chain that
-    /// does not count and would be too long counts, and a wire whose friction has the other branch
-    /// sticks. Returns whether that is so.
-    pub(super) fn hold_if_left(&mut self, x: &[f64], accepted: f64) -> bool {
-        let excess = self.excess(x);
-        let held = match self.law {
-            ConstitutiveLaw::TensionOnly
-                if self.may_change() && !self.branch.active && excess > accepted =>
-            {
-                Branch::ACTIVE
-            }
-            ConstitutiveLaw::Friction { .. }
-                if self.may_change() && self.branch.is_left(excess, accepted) =>
-            {
-                Branch::ALWAYS
-            }
-            _ => return false,
-        };
-        self.branch = held;
-        true
+    /// Lets a wire stick whose friction has another branch than was taken. Returns whether it has.
+    pub(super) fn stick_if_left(&mut self, x: &[f64], accepted: f64) -> bool {
+        let is_friction = matches!(self.law, ConstitutiveLaw::Friction { .. });
+        let is_left =
+            is_friction && self.may_change() && self.branch.is_left(self.excess(x), accepted);
+        if is_left {
+            self.branch = Branch::ALWAYS;
+        }
+        is_left
     }
 
     /// How far velocities are off at a solution because the law is not the branch that was taken, and

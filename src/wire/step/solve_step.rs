@@ -1,11 +1,11 @@
 //! The solution of a step: velocities, multipliers, contact impulses, which segments of chains
 //! pull, and which wires slide.
 
-use super::active_set::{find_active_set, hold_what_leaves, violates_branches};
+use super::active_set::{find_active_set, violates_branches};
 use super::budget::Budget;
 use super::capstan::{bound_residual, stop_slip};
 use super::contact_blocks::Swept;
-use super::friction::sweep;
+use super::friction::{contact_residual, sweep};
 use super::multipliers;
 use super::order::{self, Block};
 use super::start::Start;
@@ -137,48 +137,16 @@ impl World {
             }
             (candidate.x, candidate.solver.residual) = (active_set.x, active_set.backward_error);
             candidate.solver.cut_short |= !active_set.is_found || budget.is_spent();
-            factorisations += self.end_cut_short(system, contacts, &mut candidate, budget)?;
+            if !contacts.is_empty() {
+                let free = system.solve_free();
+                let impulses = &candidate.swept.impulses;
+                let residual = contact_residual(self, system, contacts, &free, impulses);
+                candidate.solver.contact_residual = residual;
+            }
             break;
         }
         candidate.solver.factorisations = factorisations;
         Ok(candidate)
-    }
-
-    /// Ends a solve whose impulses are those of other branches, or whose branches do not all hold, so
-    /// that it has no more energy than there is. Contacts have no more than with these branches.
-    /// Every segment of a chain that would be too long counts, beside those that were taken to, which
-    /// may push then; and wires stick at contact nodes where they would slide against their friction,
-    /// or farther than there is wire for: what is stretched would have the energy of a spring in the
-    /// next step. Whatever is left to spend, this is done: it takes a few factorisations, and how many
-    /// is returned.
-    fn end_cut_short(
-        &self,
-        system: &mut System,
-        contacts: &[ContactConstraint],
-        candidate: &mut Candidate,
-        budget: &mut Budget,
-    ) -> Result<usize, Reason> {
-        /// One or two are usual.
-        const MOST: usize = 20;
-        let mut factorisations = 0;
-        for _ in 0..MOST {
-            let is_new = hold_what_leaves(&mut system.rows, &candidate.x);
-            if is_new {
-                system.factor()?;
-                budget.spend(system.multiplications());
-                factorisations += 1;
-            }
-            let is_less = candidate.swept.suit(self, system, contacts);
-            if !is_new && !is_less {
-                break;
-            }
-            let (x, residual) = system.solve(&candidate.swept.columns)?;
-            (candidate.x, candidate.solver.residual) = (x, residual);
-        }
-        if !contacts.is_empty() {
-            candidate.solver.contact_residual = candidate.swept.residual;
-        }
-        Ok(factorisations)
     }
 
     /// Solves with the contacts in the system, from predicted impulses. None if that
