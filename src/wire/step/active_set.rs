@@ -70,21 +70,9 @@ fn accepted<'a>(rows: impl Iterator<Item = &'a Row>, x: &[f64]) -> f64 {
     RESIDUAL * rows.fold(0.0, |a: f64, row| a.max(row.speed(x)))
 }
 
-/// Lets every wire stick whose friction has another branch than was taken: it may push the wire the
-/// way it slides, or let it slide farther than there is wire for. Returns whether there is one.
-fn stick_what_leaves(rows: &mut [Row], x: &[f64]) -> bool {
-    let accepted = accepted(rows.iter().filter(|row| row.may_change()), x);
-    let mut found = false;
-    for row in rows {
-        found |= row.stick_if_left(x, accepted);
-    }
-    found
-}
-
 /// Finds the branches of all rows under impulses on velocities, from the velocities of `x` on. If
 /// that takes too much, some rows have a branch that does not hold: a segment of a chain may push,
-/// or may be longer than it should, and a wire may stick that should slide. Momentum is that of the
-/// impulses all the same.
+/// or may be longer than it should. Momentum is that of the impulses all the same.
 ///
 /// # Errors
 ///
@@ -104,7 +92,7 @@ pub(super) fn find_active_set(
             budget.spend(system.multiplications());
             factorisations += 1;
         }
-        let (newton, mut backward_error) = system.solve(impulses)?;
+        let (newton, backward_error) = system.solve(impulses)?;
         budget.spend(system.multiplications_of_solve());
         let is_last = tries == TRIES || budget.is_spent();
         if leaves_branch(&system.rows, &newton) && !is_last {
@@ -117,13 +105,6 @@ pub(super) fn find_active_set(
         let is_last = is_last || updates > BOUNDS || factorisations > SEARCHED;
         if is_last || !capstan::bounds_differ(&system.rows, &x) {
             let is_found = !leaves_branch(&system.rows, &x);
-            // Ends: a wire that sticks is not let go again.
-            while !is_found && stick_what_leaves(&mut system.rows, &x) {
-                system.factor()?;
-                budget.spend(system.multiplications());
-                factorisations += 1;
-                (x, backward_error) = system.solve(impulses)?;
-            }
             return Ok(ActiveSet {
                 x,
                 backward_error,
@@ -132,6 +113,40 @@ pub(super) fn find_active_set(
             });
         }
         search.update(system, &x, budget);
+    }
+}
+
+impl ActiveSet {
+    /// If the branches were not found, lets every wire stick that would slide farther over a contact
+    /// node than there is wire for: what is stretched so has more energy in the next step than there
+    /// was.
+    ///
+    /// # Errors
+    ///
+    /// Those of factoring and solving.
+    pub(super) fn stick_what_slides_too_far(
+        &mut self,
+        system: &mut System,
+        impulses: &[(usize, f64)],
+        budget: &mut Budget,
+    ) -> Result<(), Reason> {
+        // Ends: a wire that sticks is not let go again.
+        while !self.is_found {
+            let rows = system.rows.iter().filter(|row| row.may_change());
+            let accepted = accepted(rows, &self.x);
+            let mut found = false;
+            for row in &mut system.rows {
+                found |= row.stick_if_too_far(&self.x, accepted);
+            }
+            if !found {
+                break;
+            }
+            system.factor()?;
+            budget.spend(system.multiplications());
+            self.factorisations += 1;
+            (self.x, self.backward_error) = system.solve(impulses)?;
+        }
+        Ok(())
     }
 }
 

@@ -73,6 +73,20 @@ impl Branch {
         counts * (excess - self.start) + sigma * self.offset
     }
 
+    /// Whether it is one of friction that lets a wire slide beyond the end at which sliding ends,
+    /// either way, or drives it to that end.
+    pub(super) fn slides_too_far(&self, excess: f64, rounding: f64) -> bool {
+        let along = excess * self.offset.signum();
+        let [inner, outer] = match self.offset < 0.0 {
+            true => [-self.range[1], -self.range[0]],
+            false => self.range,
+        };
+        match self.active {
+            false => along.abs() > outer + rounding,
+            true => self.start != 0.0 && along < inner - rounding,
+        }
+    }
+
     /// Whether an excess is outside of its range by more than rounding.
     pub(super) fn is_left(&self, excess: f64, rounding: f64) -> bool {
         excess < self.range[0] - rounding || excess > self.range[1] + rounding
@@ -181,6 +195,21 @@ mod tests {
             bound,
             reach: [1.0, 2.0],
         }
+    }
+
+    #[test]
+    fn friction_slides_too_far_beyond_the_end_and_on_the_way_to_it() {
+        let law = friction_law(0.2);
+        // Sticks up to 0.1, slides up to 1 and 2.
+        let [back, stuck, forth, end] =
+            [-0.5, 0.05, 0.5, 2.5].map(|excess: f64| law.branch(excess, 0.5));
+        let too_far = |branch: Branch| {
+            [-3.0, -0.5, 0.05, 0.5, 3.0].map(|excess: f64| branch.slides_too_far(excess, 1e-9))
+        };
+        assert_eq!(too_far(back), [true, false, false, false, true]);
+        assert_eq!(too_far(stuck), [false; 5]);
+        assert_eq!(too_far(forth), [true, false, false, false, true]);
+        assert_eq!(too_far(end), [true, true, true, true, false]);
     }
 
     #[test]

@@ -162,15 +162,17 @@ impl Row {
         changed
     }
 
-    /// Lets a wire stick whose friction has another branch than was taken. Returns whether it has.
-    pub(super) fn stick_if_left(&mut self, x: &[f64], accepted: f64) -> bool {
+    /// Lets a wire stick whose friction has a branch that lets it slide too far. Returns whether it
+    /// has.
+    pub(super) fn stick_if_too_far(&mut self, x: &[f64], accepted: f64) -> bool {
         let is_friction = matches!(self.law, ConstitutiveLaw::Friction { .. });
-        let is_left =
-            is_friction && self.may_change() && self.branch.is_left(self.excess(x), accepted);
-        if is_left {
+        let is_too_far = is_friction
+            && self.may_change()
+            && self.branch.slides_too_far(self.excess(x), accepted);
+        if is_too_far {
             self.branch = Branch::ALWAYS;
         }
-        is_left
+        is_too_far
     }
 
     /// How far velocities are off at a solution because the law is not the branch that was taken, and

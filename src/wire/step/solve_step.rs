@@ -127,10 +127,14 @@ impl World {
             }
             clock.lap();
             let impulses = &candidate.swept.columns;
-            let active_set = find_active_set(system, impulses, candidate.x, budget)?;
+            let mut active_set = find_active_set(system, impulses, candidate.x, budget)?;
+            let is_last = round == ROUNDS || contacts.is_empty() || budget.is_spent();
+            if is_last {
+                active_set.stick_what_slides_too_far(system, impulses, budget)?;
+            }
             phases.factor += clock.lap();
             factorisations += active_set.factorisations;
-            if round < ROUNDS && !contacts.is_empty() && !budget.is_spent() {
+            if !is_last {
                 let impulses = candidate.swept.impulses;
                 candidate = self.solve(system, contacts, &impulses, budget, phases)?;
                 continue;
