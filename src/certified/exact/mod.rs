@@ -41,6 +41,7 @@ mod algebraic_time;
 mod bernstein;
 mod bracket;
 mod confined;
+mod coordinates;
 mod curve;
 mod dyadic;
 mod enclosure;
@@ -56,7 +57,6 @@ mod isolate_f64;
 mod locus;
 mod modular;
 mod motion;
-mod near;
 mod passage;
 mod poly;
 mod refine_root;
@@ -74,7 +74,6 @@ mod width;
 use self::motion::Motion;
 pub(super) use face::{case_of_face, decide_face};
 use locus::{Locus, Place};
-pub(super) use near::are_near;
 pub(super) use passage::{Passage, passage_of_edges, passage_of_face, side_of_edges, side_of_face};
 pub(super) use rigid::{
     decide_turning_edges, decide_turning_face, normal_of_turning_edges, normal_of_turning_face,
@@ -82,7 +81,7 @@ pub(super) use rigid::{
 };
 use scaled::Scaled;
 pub(super) use thick::{
-    are_always_parallel, compare_distance_of_edges, compare_distance_of_face,
+    are_always_parallel, are_near, compare_distance_of_edges, compare_distance_of_face,
     contact_of_parallel_edges, decide_thick_edges, decide_thick_face, near_start_of_parallel_edges,
     normal_of_edges_exactly, normal_of_face_exactly, perpendicular_of_edges,
 };

@@ -1,8 +1,8 @@
 //! The motion of a query in the frame of the second side's body, as polynomials with integer
 //! coefficients.
 
+use crate::certified::exact::coordinates::{in_unit, integer, unit};
 use crate::certified::exact::integer::Integer;
-use crate::certified::exact::near::{in_unit, integer, unit};
 use crate::certified::exact::thick::Poly;
 use crate::certified::exact::thick::vector::{Vector, add};
 use crate::certified::rigid::{First, Turning};

@@ -3,13 +3,13 @@
 //! As the differences of a point of the second side and one of the first are `M + v L - u K`, all
 //! squared distances are sums of products of the six inner products of `K`, `L` and `M`. With these
 //! a question takes some fifty products of integers. By vectors of polynomials
-//! ([`Sides`](super::Sides)), which are constants here, it is the same and takes thirty times as
-//! long.
+//! ([`Sides`](super::Sides)), which are constants here, it is the same and takes nine times as many
+//! instructions.
 
 use std::cmp::Ordering;
 
+use crate::certified::exact::coordinates::{self, Point, dot, in_unit, radius_in_unit, sub};
 use crate::certified::exact::integer::{Integer, ratio};
-use crate::certified::exact::near::{self, Point, dot, in_unit, radius_in_unit, sub};
 
 /// Inner products of `K`, `L` and `M`, and the square of the radius.
 pub(super) struct AtRest {
@@ -115,7 +115,7 @@ impl<const W: usize> Search<W> {
 impl AtRest {
     /// Two edges: `K = B - A`, `L = D - C`, `M = C - A`.
     pub(super) fn edges(points: &[[f64; 3]; 4], radii: [f64; 2]) -> Self {
-        let unit = near::unit(points.iter().flatten());
+        let unit = coordinates::unit(points.iter().flatten());
         AtRest::edges_in(&in_unit(points, unit), unit, radii)
     }
 
@@ -127,7 +127,7 @@ impl AtRest {
     /// A vertex A and a face BCD: `K = B - C`, `L = D - B`, `M = B - A`, so that `u` and `v` are the
     /// weights of C and D.
     pub(super) fn face(points: &[[f64; 3]; 4], radii: [f64; 2]) -> Self {
-        let unit = near::unit(points.iter().flatten());
+        let unit = coordinates::unit(points.iter().flatten());
         AtRest::face_in(&in_unit(points, unit), unit, radii)
     }
 
@@ -137,7 +137,7 @@ impl AtRest {
     }
 
     fn of([k, l, m]: [&Point; 3], unit: i32, radii: [f64; 2]) -> Self {
-        let own = near::unit(radii.iter());
+        let own = coordinates::unit(radii.iter());
         let radius = radius_in_unit(radii, own);
         AtRest {
             kk: dot(k, k),

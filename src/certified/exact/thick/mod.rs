@@ -32,8 +32,8 @@ use std::cmp::Ordering;
 
 use super::PLACE_ERROR;
 use super::algebraic_time::AlgebraicTime;
+use super::coordinates::{self, Point, in_unit, radius_in_unit, sub, unit};
 use super::integer::Integer;
-use super::near::{self, Point, in_unit, radius_in_unit, sub, unit};
 use super::passage::{Passage, passage_of_edges};
 use super::poly;
 use crate::certified::motion::Positions;
@@ -209,7 +209,7 @@ pub(super) struct Reach {
 impl Reach {
     /// The radius where the coordinates are in multiples of `2^unit / scale`.
     pub(super) fn new(radii: [f64; 2], unit: i32, scale: &Poly) -> Self {
-        let own = near::unit(radii.iter());
+        let own = coordinates::unit(radii.iter());
         let sum = Poly::new(&[radius_in_unit(radii, own)]);
         let radius = Poly::product(&sum, scale);
         Reach {
@@ -237,6 +237,13 @@ fn moving_integers(Positions { start, end }: &Positions) -> ([Vector; 4], i32) {
         [0, 1, 2].map(|axis: usize| Poly::new(&[start[i][axis].clone(), change[axis].clone()]))
     };
     ([0, 1, 2, 3].map(moving), own)
+}
+
+/// Whether the segments AB and CD are within the sum of two radii of each other.
+pub(in crate::certified) fn are_near(points: &[[f64; 3]; 4], radii: [f64; 2]) -> bool {
+    let at_rest = AtRest::edges(points, radii);
+    let nearest = at_rest.nearest_of_edges();
+    nearest.is_some_and(|nearest| at_rest.compare(&nearest).is_le())
 }
 
 /// The distance of two edges at a time in `[0, 1]` compared with a radius.
