@@ -12,10 +12,11 @@ use super::width::Number;
 
 /// Limbs that are held without allocation.
 ///
-/// So many hold a coefficient of degree 6, a product of six differences of coordinates of 115 bits
-/// each: numbers near 1 beside some near 2^-60. More would have to be copied wherever a number moves;
-/// the values that remainders come to are longer, and on the heap.
-pub(super) const INLINE: usize = 12;
+/// Twelve hold a coefficient of degree 6, a product of six differences of coordinates of 115 bits
+/// each: numbers near 1 beside some near 2^-60. Remainders come to longer values: of coordinates of
+/// ordinary magnitude 16 are too few, and 20 enough (`tests/allocation.rs`). More would have to be
+/// copied wherever a number moves.
+pub(super) const INLINE: usize = 20;
 
 type Limbs = SmallVec<[u64; INLINE]>;
 
