@@ -23,6 +23,7 @@
 use std::cell::{Cell, RefCell};
 use std::cmp::Ordering;
 
+use super::common_factor::common_factor;
 use super::dyadic::Dyadic;
 use super::enclosure::FIRST;
 use super::estimate::between;
@@ -334,18 +335,40 @@ impl<'a, const N: usize> Bracket<'a, N> {
     /// The sign of a polynomial at the root.
     ///
     /// It is narrowed for a while before remainders, whose numbers are many times as long, tell: for
-    /// longer if there is no factor in common, so that it is not 0 there.
+    /// longer if there is no factor in common, so that it is not 0 there. If there may be one, and
+    /// the polynomials are long, that factor tells first whether it is 0.
     pub(super) fn sign_of(&self, q: Poly<N>) -> Ordering {
-        self.plain_sign_of(&q).unwrap_or_else(|| {
-            let bits = most_bits(&q);
-            let limit = if are_coprime(self.poly, &q) {
-                LEAST_EXPONENT + bits + most_bits(self.poly)
-            } else {
-                LEAST_EXPONENT + bits.min(MOST_VAIN_BITS)
-            };
-            self.sign_by_narrowing(&q, limit)
-                .unwrap_or_else(|| self.sturm_sign_of(q))
-        })
+        if let Some(sign) = self.plain_sign_of(&q) {
+            return sign;
+        }
+        let bits = most_bits(&q);
+        let far = LEAST_EXPONENT + bits + most_bits(self.poly);
+        if !are_coprime(self.poly, &q) {
+            let near = LEAST_EXPONENT + bits.min(MOST_VAIN_BITS);
+            if let Some(sign) = self.sign_by_narrowing(&q, near) {
+                return sign;
+            }
+            match self.shares_root(&q) {
+                Some(true) => return Ordering::Equal,
+                Some(false) => {}
+                None => return self.sturm_sign_of(q),
+            }
+        }
+        self.sign_by_narrowing(&q, far)
+            .unwrap_or_else(|| self.sturm_sign_of(q))
+    }
+
+    /// Whether the root is one of what the two polynomials have in common; `None` where that is not
+    /// known.
+    ///
+    /// A divisor of the polynomial has no other root in the bracket, and this one is simple.
+    fn shares_root(&self, q: &Poly<N>) -> Option<bool> {
+        let common = common_factor(self.poly, q)?.divisor;
+        let [low, high] = [&self.low, &self.high].map(|end| common.sign_at(end));
+        if low.is_eq() || high.is_eq() {
+            return None;
+        }
+        Some(low != high)
     }
 
     /// The sign of a polynomial at the root, if it has that in the whole bracket.

@@ -237,13 +237,9 @@ impl Integer {
         *self = rest;
     }
 
-    /// The remainder of a division of the magnitude.
-    pub(super) fn residue(&self, modulus: u64) -> u64 {
-        let limbs = self.limbs.iter().rev();
-        limbs.fold(0, |rest, &limb| {
-            let value = u128::from(rest) << 64 | u128::from(limb);
-            (value % u128::from(modulus)) as u64
-        })
+    /// The limbs of the magnitude, the least significant one first.
+    pub(super) fn limbs(&self) -> &[u64] {
+        &self.limbs
     }
 
     /// How many of its lowest bits are 0; 0 for 0.

@@ -1,58 +1,72 @@
-//! Polynomials modulo a prime: a quick proof that two of them have no common root.
+//! Polynomials modulo numbers of 64 bits: quick proofs that two of them have no common root, and
+//! their greatest common divisor there.
 
 use smallvec::SmallVec;
 
 use super::integer::Integer;
+use super::modulus::Modulus;
 use super::poly::Poly;
 
-/// `2^61 - 1`.
-const PRIME: u64 = (1 << 61) - 1;
+/// Coefficients modulo a number, the constant one first; of degree up to 7 without allocation.
+pub(super) type Residues = SmallVec<[u64; 8]>;
 
-/// Coefficients modulo the prime, the constant one first; of degree up to 7 without allocation.
-type Residues = SmallVec<[u64; 8]>;
-
-/// Whether two polynomials that are not 0 have no common factor; `false` where the prime does not
+/// Whether two polynomials that are not 0 have no common factor; `false` where one prime does not
 /// tell.
-///
-/// If the prime divides neither leading coefficient, a common factor has the same degree modulo the
-/// prime, and divides both there too.
 pub(super) fn are_coprime<const N: usize>(p: &Poly<N>, q: &Poly<N>) -> bool {
-    are_coprime_modulo::<PRIME, N>(p, q)
+    are_coprime_modulo(Modulus::MERSENNE, p, q)
 }
 
-/// The same by a prime below `2^62`.
-fn are_coprime_modulo<const P: u64, const N: usize>(p: &Poly<N>, q: &Poly<N>) -> bool {
-    let (mut p, mut q) = (residues::<P, N>(p), residues::<P, N>(q));
-    let keep_degree = |r: &[u64]| r.last().is_some_and(|leading| *leading != 0);
-    if !keep_degree(&p) || !keep_degree(&q) {
-        return false;
-    }
+fn are_coprime_modulo<const N: usize>(modulus: Modulus, p: &Poly<N>, q: &Poly<N>) -> bool {
+    let (p, q) = (residues(modulus, p), residues(modulus, q));
+    greatest_divisor(modulus, p, q).is_some_and(|divisor| divisor.len() == 1)
+}
+
+/// The greatest common divisor, with leading coefficient 1, of two polynomials that are not 0;
+/// `None` where a leading coefficient on the way has no inverse.
+///
+/// Where all have one, so they have modulo each prime factor of the modulus, and the divisor is the
+/// greatest one there. A common factor of the polynomials themselves keeps its degree, as their
+/// leading coefficients are not 0 there, and divides both there too: the divisor has at least its
+/// degree.
+pub(super) fn greatest_divisor(
+    modulus: Modulus,
+    mut p: Residues,
+    mut q: Residues,
+) -> Option<Residues> {
+    modulus.inverse(*p.last()?)?;
     // Euclid's algorithm. Ends: what is left of `p` is shorter than `q`.
-    while q.len() > 1 {
-        let inverse = power::<P>(q[q.len() - 1], P - 2);
+    loop {
+        let inverse = modulus.inverse(*q.last()?)?;
+        for own in &mut q {
+            *own = modulus.times(*own, inverse);
+        }
         // Ends: the leading coefficient becomes 0 and is trimmed.
         while p.len() >= q.len() {
-            let factor = times::<P>(p[p.len() - 1], inverse);
+            let factor = p[p.len() - 1];
             let shift = p.len() - q.len();
             for (own, other) in p[shift..].iter_mut().zip(&q) {
-                *own = plus::<P>(*own, P - times::<P>(factor, *other));
+                *own = modulus.minus(*own, modulus.times(factor, *other));
             }
             trim(&mut p);
         }
+        if p.is_empty() {
+            return Some(q);
+        }
         std::mem::swap(&mut p, &mut q);
     }
-    q.len() == 1
 }
 
-fn residues<const P: u64, const N: usize>(p: &Poly<N>) -> Residues {
+/// The coefficients modulo a number.
+pub(super) fn residues<const N: usize>(modulus: Modulus, p: &Poly<N>) -> Residues {
     let coefficients = p.coefficients().iter();
-    coefficients.map(residue::<P>).collect()
+    coefficients.map(|c| residue(modulus, c)).collect()
 }
 
-fn residue<const P: u64>(integer: &Integer) -> u64 {
-    let magnitude = integer.residue(P);
+/// An integer modulo a number.
+pub(super) fn residue(modulus: Modulus, integer: &Integer) -> u64 {
+    let magnitude = modulus.residue(integer.limbs());
     if integer.sign().is_lt() {
-        plus::<P>(0, P - magnitude)
+        modulus.minus(0, magnitude)
     } else {
         magnitude
     }
@@ -61,27 +75,6 @@ fn residue<const P: u64>(integer: &Integer) -> u64 {
 fn trim(p: &mut Residues) {
     let length = p.iter().rposition(|&c| c != 0).map_or(0, |at| at + 1);
     p.truncate(length);
-}
-
-fn plus<const P: u64>(a: u64, b: u64) -> u64 {
-    (a + b) % P
-}
-
-fn times<const P: u64>(a: u64, b: u64) -> u64 {
-    (u128::from(a) * u128::from(b) % u128::from(P)) as u64
-}
-
-fn power<const P: u64>(mut base: u64, mut exponent: u64) -> u64 {
-    let mut power = 1;
-    // Ends: after 64 turns at most.
-    while exponent > 0 {
-        if exponent & 1 == 1 {
-            power = times::<P>(power, base);
-        }
-        base = times::<P>(base, base);
-        exponent >>= 1;
-    }
-    power
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use super::width::Number;
 
 /// A polynomial, of which `N` coefficients are held in place; 0 where moving it costs more than
 /// finding it on the heap.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Poly<const N: usize = 4> {
     /// Up to the leading one, which is not 0.
     coefficients: SmallVec<[Integer; N]>,
@@ -118,7 +118,7 @@ impl<const N: usize> Poly<N> {
     ///
     /// Times its leading coefficient `l`, the polynomial is a multiple over the integers of that
     /// multiple of the divisor whose leading coefficient is `l` too (Gauss's lemma).
-    pub(super) fn quotient(mut self, divisor: &Self) -> Self {
+    pub(super) fn quotient(self, divisor: &Self) -> Self {
         let (Some(leading), Some(other)) = (self.coefficients.last(), divisor.coefficients.last())
         else {
             return Self::default();
@@ -129,17 +129,33 @@ impl<const N: usize> Poly<N> {
             coefficient.mul_assign(&leading);
             coefficient.divide_exactly(&other);
         }
-        self.coefficients
-            .iter_mut()
-            .for_each(|c| c.mul_assign(&leading));
+        self.times(&leading).divide_by(&divisor)
+    }
+
+    /// The quotient of the polynomial, times the magnitude of the leading coefficient of `divisor`,
+    /// and `divisor`, which is not 0; `None` if it has a remainder or is not one of integers.
+    pub(super) fn divided(&self, divisor: &Self) -> Option<Self> {
+        let multiple = self
+            .clone()
+            .times(&divisor.coefficients.last()?.magnitude());
+        let quotient = multiple.clone().divide_by(divisor);
+        (Self::product(&quotient, divisor) == multiple).then_some(quotient)
+    }
+
+    /// The quotient by a divisor over the integers; any polynomial by another one.
+    fn divide_by(mut self, divisor: &Self) -> Self {
         let degree = divisor.degree();
+        let Some(leading) = divisor.coefficients.last() else {
+            return Self::default();
+        };
+        let magnitude = leading.magnitude();
         let mut quotient = SmallVec::new();
         // Ends: each turn takes a coefficient away.
         while self.coefficients.len() > degree
             && let Some(mut own) = self.coefficients.pop()
         {
-            own.divide_exactly(&leading);
-            if divisor.coefficients[degree].sign().is_lt() {
+            own.divide_exactly(&magnitude);
+            if leading.sign().is_lt() {
                 own.negate();
             }
             let shift = self.coefficients.len() - degree;
@@ -151,6 +167,13 @@ impl<const N: usize> Poly<N> {
         }
         quotient.reverse();
         Self::of(quotient)
+    }
+
+    /// `factor` times the polynomial.
+    fn times(mut self, factor: &Integer) -> Self {
+        let used = self.coefficients.iter_mut();
+        used.for_each(|coefficient| coefficient.mul_assign(factor));
+        self
     }
 
     /// `2^shift` times the polynomial.

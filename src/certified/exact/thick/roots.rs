@@ -7,10 +7,9 @@ use smallvec::SmallVec;
 use super::{Poly, Time};
 use crate::certified::exact::bernstein::{Piece, bernstein};
 use crate::certified::exact::bracket::Bracket;
+use crate::certified::exact::common_factor::square_free;
 use crate::certified::exact::dyadic::Dyadic;
 use crate::certified::exact::integer::Integer;
-use crate::certified::exact::modular::are_coprime;
-use crate::certified::exact::remainders::Remainders;
 use crate::certified::exact::two_roots::{Found, two_or_none};
 
 /// How often the step is halved before multiple roots are made simple: these never part.
@@ -138,18 +137,6 @@ impl Cell {
             high,
             before: piece.first_sign(),
         }
-    }
-}
-
-/// The polynomial divided by its greatest common divisor with its derivative.
-fn square_free(poly: Poly) -> Poly {
-    let derivative = poly.derivative();
-    if are_coprime(&poly, &derivative) {
-        return poly;
-    }
-    match Remainders::new(poly.clone(), derivative).last() {
-        Some(divisor) if divisor.degree() > 0 => poly.quotient(&divisor),
-        _ => poly,
     }
 }
 
