@@ -22,6 +22,7 @@ pub mod scaled;
 pub mod shadow;
 pub mod shape;
 pub mod shrink;
+pub mod slowest;
 pub mod subject;
 mod vector;
 

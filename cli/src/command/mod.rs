@@ -44,6 +44,7 @@ mod resume;
 mod shell;
 mod shrink;
 mod simulate;
+mod slowest;
 mod sources;
 mod subjects;
 mod sweep;
@@ -75,6 +76,7 @@ enum Command {
     Advance(advance::Advance),
     MeshStep(mesh_step::MeshStep),
     Shrink(shrink::Shrink),
+    Slowest(slowest::Slowest),
     Replay(replay::Replay),
     Vectors(vectors::Vectors),
     Sweep(sweep::Sweep),
@@ -187,6 +189,7 @@ impl Cli {
             Command::Advance(advance) => advance.run(),
             Command::MeshStep(step) => step.run(),
             Command::Shrink(shrink) => shrink.run(),
+            Command::Slowest(slowest) => slowest.run(),
             Command::Replay(replay) => replay.run(),
             Command::Vectors(vectors) => vectors.run(),
             Command::Sweep(sweep) => sweep.run(),

@@ -301,7 +301,8 @@ fn tolerance(text: &str) -> Result<Tolerance, String> {
     })
 }
 
-fn seconds(text: &str) -> Result<f64, String> {
+/// Reads a time, of a day at most.
+pub(super) fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(seconds) if seconds > 0.0 && seconds <= 86_400.0 => Ok(seconds),
         _ => Err("not a number above 0, of at most 86400".to_owned()),

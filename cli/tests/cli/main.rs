@@ -22,6 +22,7 @@ mod program;
 mod run;
 mod shrink;
 mod simulate;
+mod slowest;
 mod states;
 mod sweep;
 mod vectors;

@@ -1,0 +1,55 @@
+//! `slowest`.
+
+use crate::run::{code, lines, stderr, stdout, tunnelproof, with_input};
+
+#[test]
+fn slowest_prints_queries_that_certify_reads_with_their_times() {
+    let output = tunnelproof(&["slowest", "--seconds", "0.3", "--count", "3"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let ids = lines(&output).into_iter().map(|line| line["id"].clone());
+    assert!(ids.eq(["slowest-1", "slowest-2", "slowest-3"]));
+    let summary = stderr(&output);
+    let said: Vec<_> = summary.lines().collect();
+    assert_eq!(said.len(), 4, "{summary}");
+    assert!(said[0].starts_with("certified: ") && said[0].ends_with(" queries tried"));
+    for (line, place) in said[1..].iter().zip(1..) {
+        assert!(line.starts_with(&format!("slowest-{place}: ")), "{line}");
+        assert!(line.ends_with("s, right"), "{line}");
+    }
+    let certified = ["certify", "--strict", "--subject", "certified", "-"];
+    let judged = with_input(&certified, &stdout(&output));
+    assert_eq!(code(&judged), 0, "{}", stderr(&judged));
+}
+
+#[test]
+fn slowest_says_what_is_wrong_and_what_a_subject_does_not_take() {
+    let published = [
+        "slowest",
+        "--subject",
+        "shadow-published",
+        "--seconds",
+        "0.3",
+    ];
+    let output = tunnelproof(&[&published[..], &["--family", "point_on_line"]].concat());
+    assert_eq!(code(&output), 0);
+    assert!(
+        !stderr(&output).contains("not judged"),
+        "{}",
+        stderr(&output)
+    );
+    let output = tunnelproof(&[&published[..], &["--family", "thick_uniform"]].concat());
+    assert_eq!((code(&output), stdout(&output).as_str()), (1, ""));
+    assert_eq!(
+        stderr(&output),
+        "shadow-published takes no query of these families\n"
+    );
+    for [option, value] in [
+        ["--seconds", "0"],
+        ["--count", "0"],
+        ["--permit", "late=1e-9"],
+    ] {
+        let output = tunnelproof(&["slowest", option, value]);
+        assert_eq!(code(&output), 2);
+        assert!(stderr(&output).contains(option), "{}", stderr(&output));
+    }
+}
