@@ -79,8 +79,9 @@ pub mod thesis;
 pub mod wire;
 
 pub use certified::{
-    Advance, Batch, BatchError, Blocked, Clearance, ClearanceError, Kind, Normal, Proximity,
-    advance, classify, decide, decide_discrete, decide_exactly, decide_rigid, interpolate,
+    Advance, Batch, BatchError, Blocked, Clearance, ClearanceError, Kind, Normal, Precision,
+    Proximity, advance, advance_in, classify, decide, decide_discrete, decide_exactly,
+    decide_rigid, interpolate, interpolate_in,
 };
 pub use contact::{
     Case, Contact, ContactKind, ContactPoint, EdgePlace, EdgePoint, FacePlace, Flags, Hit,

@@ -10,7 +10,9 @@ use num_bigint::Sign;
 use num_rational::BigRational;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tunnelproof::certified::{Blocked, Clearance, advance, decide, interpolate};
+use tunnelproof::certified::{
+    Advance, Blocked, Clearance, Kind, Precision, advance_in, decide, interpolate_in,
+};
 use tunnelproof::query::{EdgeEdge, Point, Query, QueryKind, Radius, VertexFace};
 use tunnelproof_reference::generate;
 use tunnelproof_reference::oracle::decide_query;
@@ -120,19 +122,47 @@ fn query(kind: QueryKind, start: [Point; 4], end: [Point; 4], radius: Radius) ->
     }
 }
 
+/// The numbers that positions are stored in, and what is kept.
+#[derive(Clone, Copy)]
+struct Asked(Precision, Clearance);
+
+/// Whether it is an `f32`.
+fn is_single(x: f64) -> bool {
+    f64::from(x as f32) == x
+}
+
+/// The same with coordinates that are `f32`, if none of them is too large.
+fn in_single(q: &Query) -> Option<Query> {
+    let rounded = |points: &[Point; 4]| points.map(|p| p.map(|x| f64::from(x as f32)));
+    let (start, end) = (rounded(q.start()), rounded(q.end()));
+    let all = start.iter().chain(&end).flat_map(|p| p.iter());
+    let is_finite = all.clone().all(|x| x.is_finite());
+    is_finite.then(|| query(q.kind(), start, end, q.radius()))
+}
+
 /// Advances, and asks the oracle about what is stored. Returns the stored points.
-fn judge(q: &Query, clearance: Clearance, id: &str, tally: &mut Tally) -> [Point; 4] {
+fn judge(q: &Query, Asked(precision, clearance): Asked, id: &str, tally: &mut Tally) -> [Point; 4] {
+    fn asked<K: Kind>(query: &K, clearance: Clearance, of: Precision) -> (Advance, Option<f64>) {
+        let moved = advance_in(query, clearance, of).unwrap();
+        (moved, decide(query).map(|hit| hit.toi))
+    }
     let (moved, toi) = match q {
-        Query::EdgeEdge(e) => (advance(e, clearance).unwrap(), decide(e).map(|hit| hit.toi)),
-        Query::VertexFace(f) => (advance(f, clearance).unwrap(), decide(f).map(|hit| hit.toi)),
+        Query::EdgeEdge(query) => asked(query, clearance, precision),
+        Query::VertexFace(query) => asked(query, clearance, precision),
     };
     tally.pairs += 1;
     assert!((0.0..=1.0).contains(&moved.step), "{id}: {moved:?}");
     for (i, point) in moved.points.iter().enumerate() {
         assert_eq!(
             *point,
-            interpolate(&q.start()[i], &q.end()[i], moved.step),
+            interpolate_in(&q.start()[i], &q.end()[i], moved.step, precision),
             "{id}"
+        );
+        let ends = [q.start()[i], q.end()[i]];
+        let was_single = ends.iter().flat_map(|p| p.iter()).all(|x| is_single(*x));
+        assert!(
+            precision == Precision::F64 || !was_single || point.iter().all(|x| is_single(*x)),
+            "{id}: {moved:?}"
         );
     }
     match moved.blocked {
@@ -171,7 +201,11 @@ fn judge(q: &Query, clearance: Clearance, id: &str, tally: &mut Tally) -> [Point
     if let (true, Some(Blocked::Ahead), Some(toi)) = (is_of_radius, moved.blocked, toi) {
         assert!(moved.step <= toi, "{id}: {moved:?} {toi}");
         if id.starts_with("uniform") || id.starts_with("face_uniform") {
-            assert!(moved.step >= 0.999_999 * toi, "{id}: {moved:?} {toi}");
+            let least = match precision {
+                Precision::F32 => 0.999,
+                _ => 0.999_999,
+            };
+            assert!(moved.step >= least * toi, "{id}: {moved:?} {toi}");
         }
     }
     moved.points
@@ -182,6 +216,8 @@ fn advance_stores_positions_that_are_apart_on_every_family() {
     const BLOCK: u64 = 1000;
     /// Every so many queries with a clearance, too.
     const OTHERS: u64 = 16;
+    /// Every so many rounded to `f32`.
+    const SINGLE: u64 = 2;
     let mut all = Tally::default();
     for family in generate::all() {
         let count = count_of(family.name());
@@ -191,10 +227,24 @@ fn advance_stores_positions_that_are_apart_on_every_family() {
             for index in block * BLOCK..count.min((block + 1) * BLOCK) {
                 let q = family.query(11, index);
                 let id = format!("{}:11:{index}", family.name());
-                judge(&q, Clearance::None, &id, &mut tally);
+                let mut asked = |q: &Query, precision, clearance| {
+                    judge(q, Asked(precision, clearance), &id, &mut tally);
+                };
+                asked(&q, Precision::F64, Clearance::None);
                 if index % OTHERS == 0 {
-                    judge(&q, Clearance::Distance(1e-3), &id, &mut tally);
-                    judge(&q, Clearance::Share(0.1), &id, &mut tally);
+                    asked(&q, Precision::F64, Clearance::Distance(1e-3));
+                    asked(&q, Precision::F64, Clearance::Share(0.1));
+                    // Coordinates that are not `f32`.
+                    asked(&q, Precision::F32, Clearance::None);
+                }
+                if index % SINGLE == 0
+                    && let Some(q) = in_single(&q)
+                {
+                    asked(&q, Precision::F32, Clearance::None);
+                    if index % OTHERS == 0 {
+                        asked(&q, Precision::F32, Clearance::Distance(1e-3));
+                        asked(&q, Precision::F32, Clearance::Share(0.1));
+                    }
                 }
             }
             tally
@@ -234,6 +284,14 @@ fn advance_never_passes_through_however_many_steps_follow() {
 }
 
 fn walk(number: u64, steps: u64) -> Tally {
+    let precision = match number % 16 {
+        0..8 => Precision::F64,
+        _ => Precision::F32,
+    };
+    let stored = |p: Point| match precision {
+        Precision::F32 => p.map(|x| f64::from(x as f32)),
+        _ => p,
+    };
     let rng = &mut ChaCha8Rng::seed_from_u64(number);
     let mut tally = Tally::default();
     let radius = Radius::from(if number % 4 < 2 { 0.0 } else { 0.05 });
@@ -268,12 +326,12 @@ fn walk(number: u64, steps: u64) -> Tally {
             };
             let mut beside =
                 |x: f64, home: f64| x + 1e-4 * (home - x) + rng.random_range(-1e-3..1e-3);
-            *point = p(beside(point.x, home.x), beside(point.y, home.y), z);
+            *point = stored(p(beside(point.x, home.x), beside(point.y, home.y), z));
         }
         let q = query(kind, points, targets, radius);
         points = judge(
             &q,
-            clearance,
+            Asked(precision, clearance),
             &format!("walk {number}, step {step}"),
             &mut tally,
         );

@@ -6,7 +6,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tunnelproof::mesh::{Feature, Mesh, MeshError, MeshStep, Pair, Thickness};
 use tunnelproof::query::{EdgeEdge, Point, Query, Radius, VertexFace};
-use tunnelproof::{Blocked, Clearance, decide_exactly, interpolate};
+use tunnelproof::{Blocked, Clearance, Precision, decide_exactly, interpolate};
 use tunnelproof_reference::oracle::decide_query;
 
 type Position = [f64; 3];
@@ -401,7 +401,12 @@ fn mesh_folded_through_itself_never_passes() {
         })
         .collect();
     let mesh = Mesh::new((SIDE * SIDE) as usize, &[], &faces).unwrap();
-    for thickness in [0.0, 0.01] {
+    let all = [
+        (0.0, Precision::F64),
+        (0.01, Precision::F64),
+        (0.01, Precision::F32),
+    ];
+    for (thickness, precision) in all {
         let rng = &mut ChaCha8Rng::seed_from_u64(3);
         let flat: Vec<Position> = (0..SIDE * SIDE)
             .map(|k| [f64::from(k / SIDE) - 4.0, f64::from(k % SIDE) - 4.0, 0.0])
@@ -434,7 +439,14 @@ fn mesh_folded_through_itself_never_passes() {
                 position[axis] += 0.05 * (wanted - position[axis]);
                 position[2] += 0.05 * (height - position[2]);
             }
-            let made = mesh.step(&start, &end, thickness).unwrap();
+            if precision == Precision::F32 {
+                end = end.iter().map(|p| p.map(|x| f64::from(x as f32))).collect();
+            }
+            let made = mesh
+                .step_in(&start, &end, thickness, Clearance::None, precision)
+                .unwrap();
+            let mut stored = made.positions.iter().flatten();
+            assert!(precision == Precision::F64 || stored.all(|&x| f64::from(x as f32) == x));
             stopped += usize::from(made.step < 1.0);
             moved += made.step;
             let pairs = near_pairs(&mesh, &start, &made.positions, thickness);

@@ -243,6 +243,17 @@ int32_t tunnelproof_advance_vertex_face(const double *points, const double *radi
                                         double clearance, double share,
                                         tunnelproof_advance *advance);
 
+/* The same for engines that store float: a coordinate that is a float at both ends of the motion is
+ * one in `advance->points`, so that a cast to float changes nothing, and the proof is of what is
+ * stored. There is less room: two sides that are nearer than some 2^-21 of their coordinates may be
+ * TUNNELPROOF_NEAR. */
+int32_t tunnelproof_advance_edge_edge_f32(const double *points, const double *radii,
+                                          double clearance, double share,
+                                          tunnelproof_advance *advance);
+int32_t tunnelproof_advance_vertex_face_f32(const double *points, const double *radii,
+                                            double clearance, double share,
+                                            tunnelproof_advance *advance);
+
 /* Vertices, edges and faces by their indices: cloth, bodies, wires and points. Every edge may meet
  * every edge, and every vertex every face. A vertex in no edge is a point, which may also meet
  * edges and points. Parts that share a vertex never meet. */
@@ -404,6 +415,11 @@ typedef struct tunnelproof_step {
 int32_t tunnelproof_mesh_step(const tunnelproof_mesh *mesh, const tunnelproof_motion *motion,
                               double clearance, double share, tunnelproof_step *step,
                               tunnelproof_error *error);
+
+/* The same for engines that store float, as tunnelproof_advance_edge_edge_f32. */
+int32_t tunnelproof_mesh_step_f32(const tunnelproof_mesh *mesh, const tunnelproof_motion *motion,
+                                  double clearance, double share, tunnelproof_step *step,
+                                  tunnelproof_error *error);
 
 /* The version of the library, "0.1.0". */
 const char *tunnelproof_version(void);

@@ -2,7 +2,9 @@
 
 use std::mem::MaybeUninit;
 
-use tunnelproof::{Advance as EngineAdvance, Blocked, Clearance, EdgeEdge, VertexFace};
+use tunnelproof::{
+    Advance as EngineAdvance, Blocked, Clearance, EdgeEdge, Precision, VertexFace, advance_in,
+};
 use tunnelproof_float_env::with_default;
 
 use crate::{CLEARANCE, NULL, Query, query};
@@ -55,10 +57,11 @@ fn advance<Q: Query>(
     points: &[f64; 24],
     radii: [f64; 2],
     clearance: Option<Clearance>,
+    precision: Precision,
 ) -> Result<Advance, i32> {
     let query = query::<Q>(points, radii)?;
     let clearance = clearance.ok_or(CLEARANCE)?;
-    match tunnelproof::advance(&query, clearance) {
+    match advance_in(&query, clearance, precision) {
         Ok(advance) => Ok(advance.into()),
         Err(_) => Err(CLEARANCE),
     }
@@ -73,6 +76,7 @@ unsafe fn advance_at<Q: Query>(
     points: *const f64,
     radii: *const f64,
     clearance: Option<Clearance>,
+    precision: Precision,
     out: *mut Advance,
 ) -> i32 {
     // SAFETY: not null, it points to 24 numbers, of which nobody changes one during the call.
@@ -84,7 +88,8 @@ unsafe fn advance_at<Q: Query>(
     let (Some(points), Some(out)) = (points, out) else {
         return NULL;
     };
-    match advance::<Q>(points, radii.copied().unwrap_or_default(), clearance) {
+    let radii = radii.copied().unwrap_or_default();
+    match advance::<Q>(points, radii, clearance, precision) {
         Ok(advance) => out.write(advance).blocked,
         Err(refused) => refused,
     }
@@ -103,9 +108,10 @@ pub unsafe extern "C" fn tunnelproof_advance_edge_edge(
     share: f64,
     advance: *mut Advance,
 ) -> i32 {
+    let clearance = || clearance(distance, share);
     // SAFETY: the caller's promise is the same.
     with_default(|| unsafe {
-        advance_at::<EdgeEdge>(points, radii, clearance(distance, share), advance)
+        advance_at::<EdgeEdge>(points, radii, clearance(), Precision::F64, advance)
     })
 }
 
@@ -122,8 +128,49 @@ pub unsafe extern "C" fn tunnelproof_advance_vertex_face(
     share: f64,
     advance: *mut Advance,
 ) -> i32 {
+    let clearance = || clearance(distance, share);
     // SAFETY: the caller's promise is the same.
     with_default(|| unsafe {
-        advance_at::<VertexFace>(points, radii, clearance(distance, share), advance)
+        advance_at::<VertexFace>(points, radii, clearance(), Precision::F64, advance)
+    })
+}
+
+/// `tunnelproof_advance_edge_edge_f32`.
+///
+/// # Safety
+///
+/// As the header says of its pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tunnelproof_advance_edge_edge_f32(
+    points: *const f64,
+    radii: *const f64,
+    distance: f64,
+    share: f64,
+    advance: *mut Advance,
+) -> i32 {
+    let clearance = || clearance(distance, share);
+    // SAFETY: the caller's promise is the same.
+    with_default(|| unsafe {
+        advance_at::<EdgeEdge>(points, radii, clearance(), Precision::F32, advance)
+    })
+}
+
+/// `tunnelproof_advance_vertex_face_f32`.
+///
+/// # Safety
+///
+/// As the header says of its pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tunnelproof_advance_vertex_face_f32(
+    points: *const f64,
+    radii: *const f64,
+    distance: f64,
+    share: f64,
+    advance: *mut Advance,
+) -> i32 {
+    let clearance = || clearance(distance, share);
+    // SAFETY: the caller's promise is the same.
+    with_default(|| unsafe {
+        advance_at::<VertexFace>(points, radii, clearance(), Precision::F32, advance)
     })
 }

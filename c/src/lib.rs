@@ -23,7 +23,10 @@ mod mesh;
 mod subject;
 mod turning;
 
-pub use advance::{Advance, tunnelproof_advance_edge_edge, tunnelproof_advance_vertex_face};
+pub use advance::{
+    Advance, tunnelproof_advance_edge_edge, tunnelproof_advance_edge_edge_f32,
+    tunnelproof_advance_vertex_face, tunnelproof_advance_vertex_face_f32,
+};
 pub use mesh::*;
 pub use subject::{tunnelproof_certified_edge_edge, tunnelproof_certified_vertex_face};
 pub use turning::*;

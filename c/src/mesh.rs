@@ -6,6 +6,7 @@ use std::ptr;
 use std::slice;
 
 use tunnelproof::mesh::{Feature, MeshContact, MeshError, Pair as EnginePair, Thickness};
+use tunnelproof::{Clearance, Precision};
 use tunnelproof_float_env::with_default;
 
 use crate::advance::{blocked, clearance};
@@ -311,10 +312,14 @@ impl<'a> Question<'a> {
         Ok(mesh.is_free(self.start, self.end, self.thickness)?)
     }
 
-    fn step(&self, distance: f64, share: f64) -> Result<tunnelproof::mesh::MeshStep, Error> {
-        let clearance = clearance(distance, share).ok_or(Error::new(CLEARANCE, c"clearance"))?;
+    fn step(
+        &self,
+        clearance: Option<Clearance>,
+        precision: Precision,
+    ) -> Result<tunnelproof::mesh::MeshStep, Error> {
+        let clearance = clearance.ok_or(Error::new(CLEARANCE, c"clearance"))?;
         let mesh = &self.mesh.0;
-        Ok(mesh.step_with_clearance(self.start, self.end, self.thickness, clearance)?)
+        Ok(mesh.step_in(self.start, self.end, self.thickness, clearance, precision)?)
     }
 }
 
@@ -532,7 +537,45 @@ pub unsafe extern "C" fn tunnelproof_mesh_step(
 ) -> i32 {
     with_default(|| {
         // SAFETY: the caller's promise is the same.
-        let stepped = unsafe { step(mesh, motion, distance, share, out) };
+        let stepped = unsafe {
+            step(
+                mesh,
+                motion,
+                clearance(distance, share),
+                Precision::F64,
+                out,
+            )
+        };
+        // SAFETY: the caller's promise is the same.
+        unsafe { answered(stepped, error) }
+    })
+}
+
+/// `tunnelproof_mesh_step_f32`.
+///
+/// # Safety
+///
+/// As the header says of its pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tunnelproof_mesh_step_f32(
+    mesh: *const Mesh,
+    motion: *const Motion,
+    distance: f64,
+    share: f64,
+    out: *mut Step,
+    error: *mut Error,
+) -> i32 {
+    with_default(|| {
+        // SAFETY: the caller's promise is the same.
+        let stepped = unsafe {
+            step(
+                mesh,
+                motion,
+                clearance(distance, share),
+                Precision::F32,
+                out,
+            )
+        };
         // SAFETY: the caller's promise is the same.
         unsafe { answered(stepped, error) }
     })
@@ -546,8 +589,8 @@ pub unsafe extern "C" fn tunnelproof_mesh_step(
 unsafe fn step(
     mesh: *const Mesh,
     motion: *const Motion,
-    distance: f64,
-    share: f64,
+    clearance: Option<Clearance>,
+    precision: Precision,
     out: *mut Step,
 ) -> Result<i32, Error> {
     // SAFETY: not null, it points to a step that nobody else uses, with its buffers set.
@@ -558,7 +601,7 @@ unsafe fn step(
     if out.positions.is_null() && mesh.0.vertex_count() > 0 {
         return Err(Error::null(c"positions"));
     }
-    let step = question.step(distance, share)?;
+    let step = question.step(clearance, precision)?;
     out.step.write(step.step);
     out.limit_count.write(step.limits.len());
     out.near_count.write(step.near.len());

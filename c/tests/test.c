@@ -291,6 +291,7 @@ static void advanced(void) {
   const double radii[2] = {0.25, 0.25};
   tunnelproof_advance moved;
   double points[24];
+  int i;
   memcpy(points, falling, sizeof points);
 
   CHECK(tunnelproof_advance_edge_edge(falling, NULL, 0, 0, &moved) == TUNNELPROOF_AHEAD);
@@ -313,6 +314,16 @@ static void advanced(void) {
   CHECK(tunnelproof_advance_edge_edge(points, NULL, 0, 0, &moved) == TUNNELPROOF_TOUCHING);
   CHECK(moved.step == 0 && moved.is_proved == 0);
 
+  /* Stored as float, and no less apart. */
+  CHECK(tunnelproof_advance_edge_edge_f32(falling, radii, 0, 0.3, &moved) == TUNNELPROOF_AHEAD);
+  for (i = 0; i < 12; i++) CHECK((double)(float)moved.points[i] == moved.points[i]);
+  memcpy(points, falling, sizeof points);
+  memcpy(points + 12, moved.points, sizeof moved.points);
+  CHECK(tunnelproof_decide_edge_edge(points, moved.kept, NULL) == TUNNELPROOF_MISS);
+  CHECK(tunnelproof_advance_vertex_face_f32(through, NULL, 0.1, 0, &moved) == TUNNELPROOF_AHEAD);
+  CHECK(moved.points[2] > 0.1 && (double)(float)moved.points[2] == moved.points[2]);
+
+  CHECK(tunnelproof_advance_edge_edge_f32(falling, NULL, 0, 0, NULL) == TUNNELPROOF_NULL);
   CHECK(tunnelproof_advance_edge_edge(falling, NULL, 0, 0, NULL) == TUNNELPROOF_NULL);
   CHECK(tunnelproof_advance_edge_edge(falling, NULL, 1, 0.5, &moved) == TUNNELPROOF_CLEARANCE);
   CHECK(tunnelproof_advance_vertex_face(through, NULL, 0, 1, &moved) == TUNNELPROOF_CLEARANCE);
@@ -386,6 +397,12 @@ static void steps_of_a_mesh(const tunnelproof_mesh *mesh) {
   CHECK(tunnelproof_mesh_step(mesh, &motion, 2, 0, &step, NULL) == 0);
   CHECK(step.near_count > 1 && near_pairs[0].pair.vertices[0] == 3);
   CHECK(near_pairs[0].kept[0] + near_pairs[0].kept[1] > 0.89);
+
+  /* Stored as float. */
+  memcpy(x, at_first, sizeof x);
+  CHECK(tunnelproof_mesh_step_f32(mesh, &motion, 0.25, 0, &step, NULL) == 0);
+  CHECK(step.step > 0 && step.step < 1);
+  for (i = 0; i < 18; i++) CHECK((double)(float)x[i] == x[i]);
 }
 
 static void refused_of_a_mesh(tunnelproof_mesh *mesh) {

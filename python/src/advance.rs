@@ -4,7 +4,7 @@ use numpy::{PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use tunnelproof::{Advance, Blocked, Clearance, Query};
+use tunnelproof::{Advance, Blocked, Clearance, Precision, Query, QueryKind, advance_in};
 use tunnelproof_float_env::with_default;
 
 use crate::columns::Columns;
@@ -20,22 +20,26 @@ pub(crate) fn advance<'py>(
     radii: PyReadonlyArray2<'py, f64>,
     clearance: f64,
     share: Option<f64>,
+    precision: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
-    with_default(|| advanced(py, kind, Rows::new(&points, &radii)?, clearance, share))
+    with_default(|| {
+        let rows = Rows::new(&points, &radii)?;
+        let kind = queries::kind(kind)?;
+        let clearance = self::clearance(clearance, share)?;
+        advanced(py, kind, rows, clearance, self::precision(precision)?)
+    })
 }
 
 fn advanced<'py>(
     py: Python<'py>,
-    kind: &str,
+    kind: QueryKind,
     rows: Rows,
-    clearance: f64,
-    share: Option<f64>,
+    clearance: Clearance,
+    precision: Precision,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let kind = queries::kind(kind)?;
-    let clearance = self::clearance(clearance, share)?;
     let advanced = |query: &Query| match query {
-        Query::EdgeEdge(query) => tunnelproof::advance(query, clearance),
-        Query::VertexFace(query) => tunnelproof::advance(query, clearance),
+        Query::EdgeEdge(query) => advance_in(query, clearance, precision),
+        Query::VertexFace(query) => advance_in(query, clearance, precision),
     };
     let queries = py.detach(|| rows.queries(kind))?;
     let advances = each(py, &queries, advanced)?.into_iter();
@@ -62,6 +66,17 @@ pub(crate) fn clearance(distance: f64, share: Option<f64>) -> PyResult<Clearance
         Some(share) if distance == 0.0 => Ok(Clearance::Share(share)),
         Some(share) => Err(PyValueError::new_err(format!(
             "clearance is {distance} and share is {share}; give one of them"
+        ))),
+    }
+}
+
+/// A precision from its name in Python.
+pub(crate) fn precision(name: &str) -> PyResult<Precision> {
+    match name {
+        "f64" => Ok(Precision::F64),
+        "f32" => Ok(Precision::F32),
+        _ => Err(PyValueError::new_err(format!(
+            "precision is {name:?}, neither \"f64\" nor \"f32\""
         ))),
     }
 }

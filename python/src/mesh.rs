@@ -167,6 +167,7 @@ impl Mesh {
     }
 
     /// The fields of `MeshStep`.
+    #[expect(clippy::too_many_arguments, reason = "those of Python")]
     fn step<'py>(
         &self,
         py: Python<'py>,
@@ -175,6 +176,7 @@ impl Mesh {
         thickness: Thicknesses<'py>,
         clearance: f64,
         share: Option<f64>,
+        precision: &str,
     ) -> PyResult<Bound<'py, PyDict>> {
         let Question {
             start,
@@ -182,7 +184,8 @@ impl Mesh {
             thickness,
         } = Question::new(&start, &end, &thickness)?;
         let clearance: Clearance = with_default(|| advance::clearance(clearance, share))?;
-        let step = || self.0.step_with_clearance(start, end, thickness, clearance);
+        let precision = advance::precision(precision)?;
+        let step = || self.0.step_in(start, end, thickness, clearance, precision);
         let step = py.detach(|| with_default(step));
         let MeshStep {
             step,

@@ -130,6 +130,43 @@ def test_groups_are_left_out_and_have_a_thickness_each():
     assert not tunnelproof.Mesh(**settings, left_out=[(0, 0)]).is_free(start, end)
 
 
+def is_single(numbers):
+    return numbers.astype(np.float32).astype(np.float64) == numbers
+
+
+@pytest.mark.parametrize("kind", ["edge-edge", "vertex-face"])
+def test_points_stored_in_f32_keep_what_they_say(kind):
+    family = "thick_uniform" if kind == "edge-edge" else "thick_face_uniform"
+    points, radii = tunnelproof.queries(family, 2000, seed=4)
+    points = points.astype(np.float32).astype(np.float64)
+    moved = tunnelproof.advance(kind, points, radii, precision="f32")
+    assert is_single(moved.points).all()
+    assert not is_single(tunnelproof.advance(kind, points, radii).points).all()
+    proved = ~np.isnan(moved.kept[:, 0])
+    assert proved.sum() > 1000
+    stored = np.concatenate([points[:, :4], moved.points], axis=1)
+    assert not tunnelproof.exact(kind, stored[proved], moved.kept[proved]).hit.any()
+
+
+def test_meshes_store_f32_where_that_is_asked():
+    mesh = tunnelproof.Mesh(faces=[[0, 1, 2], [3, 4, 5]])
+    start = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0], [1, 1, 1], [2, 1, 1], [1, 2, 1]], float)
+    end = start.copy()
+    end[3:, 2] = -1.7
+    end = end.astype(np.float32).astype(np.float64)
+    single = mesh.step(start, end, precision="f32")
+    double = mesh.step(start, end)
+    assert is_single(single.positions).all() and not is_single(double.positions).all()
+    assert 0 < single.step < double.step and double.step - single.step < 1e-5
+    assert mesh.is_free(start, single.positions)
+    for refused in [
+        lambda: mesh.step(start, end, precision="f16"),
+        lambda: tunnelproof.advance("edge-edge", np.zeros((0, 8, 3)), precision="f16"),
+    ]:
+        with pytest.raises(ValueError, match="precision is \"f16\""):
+            refused()
+
+
 @pytest.mark.parametrize("kind", ["edge-edge", "vertex-face"])
 @pytest.mark.parametrize("settings", [{}, {"clearance": 0.01}, {"share": 0.5}])
 def test_stored_points_of_a_pair_keep_what_they_say(kind, settings):

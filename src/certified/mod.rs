@@ -91,7 +91,10 @@ pub use narrow::Certified;
 pub use normal::{HasNormal, Normal};
 pub use rigid::{RigidKind, decide_rigid, decide_rigid_exactly};
 pub use stage::Stage;
-pub use step::{Advance, Blocked, Clearance, ClearanceError, advance, interpolate};
+pub use step::{
+    Advance, Blocked, Clearance, ClearanceError, Precision, advance, advance_in, interpolate,
+    interpolate_in,
+};
 pub(crate) use step::{
     Limit, first_toi, halved, is_apart_until, is_apart_with_room, limit, rounding_of, stored,
 };

@@ -29,6 +29,12 @@
 //!
 //! So `u (X + 3 D) (1 + 2^-20) + 2^-1070` is larger: the factor covers the rounding of the bound
 //! itself, and the last term the underflow of both (`u a` and `u b` are each off by at most `h`). Where `a = b` the error is 0.
+//!
+//! # Positions in `f32`
+//!
+//! [`Precision::F32`] rounds what is computed so to the nearest `f32`, where both ends are `f32`
+//! themselves: a number between them rounds to one between them, so nothing overflows. With
+//! `v = 2^-24` it is off by at most `v X` more, and by `2^-150` where it underflows.
 
 use std::fmt;
 
@@ -82,13 +88,25 @@ impl fmt::Display for ClearanceError {
 
 impl std::error::Error for ClearanceError {}
 
+/// The numbers in which positions are stored.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Precision {
+    /// `f64`.
+    #[default]
+    F64,
+    /// `f32`: a coordinate that is an `f32` at both ends of the motion is stored as one. Any other
+    /// is stored as an `f64`.
+    F32,
+}
+
 /// A step that is proved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Advance {
     /// How much of the step is made, from 0 to 1.
     pub step: f64,
-    /// The points A, B, C and D to store: those of [`interpolate`] at this step.
+    /// The points A, B, C and D to store: those of [`interpolate_in`] at this step.
     pub points: [Point; 4],
     /// Straight motion from the start to these points keeps a distance above this, both ends
     /// included. `None` where no step is proved, so that the points stay.
@@ -152,13 +170,50 @@ pub enum Blocked {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn advance<K: Kind>(query: &K, clearance: Clearance) -> Result<Advance, ClearanceError> {
+    advance_in(query, clearance, Precision::F64)
+}
+
+/// [`advance`], with positions that are stored in `f32` where that is asked.
+///
+/// The guarantee is the same, and about the numbers that are stored: if all coordinates of the query
+/// are `f32`, so are those of [`Advance::points`], and `as f32` changes none of them. There is less
+/// room: two sides that are nearer than some 2^-22 of their coordinates are [`Near`](Blocked::Near).
+///
+/// # Errors
+///
+/// As [`advance`].
+///
+/// # Example
+///
+/// ```
+/// use tunnelproof::{Clearance, EdgeEdge, Point, Precision, advance_in, decide};
+///
+/// let p = |x: f32, y: f32, z: f32| Point::new(x.into(), y.into(), z.into());
+/// let start = [p(-1.0, 0.0, 0.0), p(1.0, 0.0, 0.0), p(0.0, -1.0, 0.7), p(0.0, 1.0, 0.7)];
+/// let mut end = start;
+/// end[2].z = -1.0;
+/// end[3].z = -1.0;
+/// let query = EdgeEdge::new(start, end, 0.0)?;
+/// let moved = advance_in(&query, Clearance::None, Precision::F32)?;
+/// let z = moved.points[2].z as f32;
+/// assert_eq!(f64::from(z), moved.points[2].z);
+/// assert!(z > 0.0 && z < 1e-6);
+/// assert!(decide(&EdgeEdge::new(start, moved.points, 0.0)?).is_none());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn advance_in<K: Kind>(
+    query: &K,
+    clearance: Clearance,
+    precision: Precision,
+) -> Result<Advance, ClearanceError> {
     debug_assert_eq!(environment::check(), Ok(()));
     let clearance = clearance.checked()?;
     let positions = Positions::of(query.start(), query.end());
-    let (step, kept, blocked) = furthest::<K>(&positions, query.radius(), clearance);
+    let (step, kept, blocked) = furthest::<K>(&positions, query.radius(), clearance, precision);
+    let (start, end) = (query.start(), query.end());
     Ok(Advance {
         step,
-        points: std::array::from_fn(|i| interpolate(&query.start()[i], &query.end()[i], step)),
+        points: std::array::from_fn(|i| interpolate_in(&start[i], &end[i], step, precision)),
         kept,
         blocked,
     })
@@ -172,13 +227,34 @@ pub fn advance<K: Kind>(query: &K, clearance: Clearance) -> Result<Advance, Clea
 /// The proof of [`advance`] is of the positions that this function gives. A step outside of
 /// `[0, 1]` counts as the nearer one of the two; NaN gives NaN where the point moves.
 pub fn interpolate(start: &Point, end: &Point, step: f64) -> Point {
-    stored(&(*start).into(), &(*end).into(), step).into()
+    interpolate_in(start, end, step, Precision::F64)
 }
 
-/// As [`interpolate`].
+/// The position to store at a step, as [`interpolate`] gives it, rounded to the nearest `f32` where
+/// that is asked and both ends are `f32`: that of the proof of [`advance_in`].
+pub fn interpolate_in(start: &Point, end: &Point, step: f64, precision: Precision) -> Point {
+    stored(&(*start).into(), &(*end).into(), step, precision).into()
+}
+
+/// As [`interpolate_in`].
 #[inline(always)]
-pub(crate) fn stored(start: &[f64; 3], end: &[f64; 3], step: f64) -> [f64; 3] {
-    [0, 1, 2].map(|i| coordinate(start[i], end[i], step))
+pub(crate) fn stored(
+    start: &[f64; 3],
+    end: &[f64; 3],
+    step: f64,
+    precision: Precision,
+) -> [f64; 3] {
+    [0, 1, 2].map(|i| coordinate_in(start[i], end[i], step, precision))
+}
+
+#[inline(always)]
+fn coordinate_in(start: f64, end: f64, step: f64, precision: Precision) -> f64 {
+    let between = coordinate(start, end, step);
+    let is_single = |x: f64| f64::from(x as f32) == x;
+    match precision {
+        Precision::F32 if is_single(start) && is_single(end) => f64::from(between as f32),
+        _ => between,
+    }
 }
 
 #[inline(always)]
@@ -212,6 +288,20 @@ fn rounding(start: f64, end: f64) -> f64 {
     let size = start.abs().max(end.abs());
     let difference = (end * U - start * U).abs();
     ((size * U + 3.0 * difference) * SLACK) + UNDERFLOW
+}
+
+/// More than the error of [`coordinate_in`], at any step.
+#[inline(always)]
+fn rounding_in(start: f64, end: f64, precision: Precision) -> f64 {
+    /// 2^-24, and more than what multiplication and sums lose.
+    const V: f64 = f32::EPSILON as f64 / 2.0 * (1.0 + 1.0 / 1_048_576.0);
+    /// 2^-149.
+    const UNDERFLOW: f64 = f32::from_bits(1) as f64;
+    let double = rounding(start, end);
+    match precision {
+        Precision::F32 if start != end => start.abs().max(end.abs()) * V + UNDERFLOW + double,
+        _ => double,
+    }
 }
 
 impl Clearance {
@@ -260,8 +350,8 @@ impl Limit {
     }
 
     /// As far as a decision proves it.
-    pub(crate) fn decided<K: Kind>(mut self, positions: &Positions) -> Self {
-        let radius = with_room::<K::Stages>(positions, self.kept);
+    pub(crate) fn decided<K: Kind>(mut self, positions: &Positions, precision: Precision) -> Self {
+        let radius = with_room::<K::Stages>(positions, self.kept, precision);
         if let Some(radius) = radius {
             let toi = first_toi::<K>(positions, radius);
             self.until = self.until.max(toi.unwrap_or(1.0));
@@ -275,6 +365,7 @@ pub(crate) fn limit<K: Kind>(
     positions: &Positions,
     radius: Radius,
     clearance: Clearance,
+    precision: Precision,
 ) -> Option<Limit> {
     let starts_within =
         |kept: Radius| !kept.is_zero() && starts_within::<K::Stages>(positions, kept);
@@ -307,7 +398,7 @@ pub(crate) fn limit<K: Kind>(
             continue;
         }
         let toi = hit.map(|hit| hit.toi);
-        let radius = with_room::<K::Stages>(positions, kept);
+        let radius = with_room::<K::Stages>(positions, kept, precision);
         let until = radius.map_or(0.0, |radius| {
             apart_until::<K::Stages>(&positions.points(), radius)
         });
@@ -324,15 +415,24 @@ pub(crate) fn limit<K: Kind>(
 /// Whether rounded positions at any step certainly keep a distance above this, as far as planes
 /// prove it.
 #[inline(always)]
-pub(crate) fn is_apart_with_room<K: Kind>(positions: &Positions, kept: Radius) -> bool {
-    with_room::<K::Stages>(positions, kept)
+pub(crate) fn is_apart_with_room<K: Kind>(
+    positions: &Positions,
+    kept: Radius,
+    precision: Precision,
+) -> bool {
+    with_room::<K::Stages>(positions, kept, precision)
         .is_some_and(|radius| apart_until::<K::Stages>(&positions.points(), radius) >= 1.0)
 }
 
 /// Whether straight motion to the rounded positions at a step keeps a distance above this.
-pub(crate) fn is_apart_until<K: Kind>(positions: &Positions, kept: Radius, step: f64) -> bool {
+pub(crate) fn is_apart_until<K: Kind>(
+    positions: &Positions,
+    kept: Radius,
+    step: f64,
+    precision: Precision,
+) -> bool {
     let Positions { start, end } = positions;
-    let at = |i: usize| stored(&start[i], &end[i], step);
+    let at = |i: usize| stored(&start[i], &end[i], step, precision);
     let stored = Positions {
         start: *start,
         end: [at(0), at(1), at(2), at(3)],
@@ -350,24 +450,26 @@ fn furthest<K: Kind>(
     positions: &Positions,
     radius: Radius,
     clearance: Clearance,
+    precision: Precision,
 ) -> (f64, Option<Radius>, Option<Blocked>) {
-    let Some(mut limit) = limit::<K>(positions, radius, clearance) else {
+    let Some(mut limit) = limit::<K>(positions, radius, clearance, precision) else {
         return (0.0, None, Some(Blocked::Touching));
     };
     let Some(toi) = limit.toi else {
         return (1.0, Some(limit.kept), None);
     };
     if limit.is_rough() {
-        limit = limit.decided::<K>(positions);
+        limit = limit.decided::<K>(positions, precision);
     }
     let Limit { kept, until, .. } = limit;
     if until > 0.0 {
         return (until, Some(kept), Some(Blocked::Ahead));
     }
     let Positions { start, end } = positions;
-    let moves = |step: f64| (0..4).any(|i| stored(&start[i], &end[i], step) != start[i]);
+    let moves = |step: f64| (0..4).any(|i| stored(&start[i], &end[i], step, precision) != start[i]);
+    let is_apart = |step: f64| is_apart_until::<K>(positions, kept, step, precision);
     // Ends: there are so many halvings and no more.
-    let step = halved(toi).find(|&step| moves(step) && is_apart_until::<K>(positions, kept, step));
+    let step = halved(toi).find(|&step| moves(step) && is_apart(step));
     (
         step.unwrap_or(0.0),
         step.and(Some(kept)),
@@ -392,9 +494,13 @@ pub(crate) fn first_toi<K: Kind>(positions: &Positions, radius: Radius) -> Optio
 
 /// At least a distance and the sum of the rounding errors of both sides.
 #[inline(always)]
-fn with_room<K: Stages>(positions: &Positions, kept: Radius) -> Option<Radius> {
+fn with_room<K: Stages>(
+    positions: &Positions,
+    kept: Radius,
+    precision: Precision,
+) -> Option<Radius> {
     let Positions { start, end } = positions;
-    let of = |i: usize| rounding_of(&start[i], &end[i]);
+    let of = |i: usize| rounding_of(&start[i], &end[i], precision);
     let side = |points: std::ops::Range<usize>| points.map(of).fold(0.0, f64::max);
     let room = (side(0..K::FIRST) + side(K::FIRST..4)) * (1.0 + 8.0 * f64::EPSILON);
     with(kept, room)
@@ -403,8 +509,8 @@ fn with_room<K: Stages>(positions: &Positions, kept: Radius) -> Option<Radius> {
 /// More than the rounding error of a position: the sum of those along the axes is at least their
 /// Euclidean sum.
 #[inline(always)]
-pub(crate) fn rounding_of(start: &[f64; 3], end: &[f64; 3]) -> f64 {
-    let [x, y, z] = [0, 1, 2].map(|i| rounding(start[i], end[i]));
+pub(crate) fn rounding_of(start: &[f64; 3], end: &[f64; 3], precision: Precision) -> f64 {
+    let [x, y, z] = [0, 1, 2].map(|i| rounding_in(start[i], end[i], precision));
     x + y + z
 }
 

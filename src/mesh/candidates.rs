@@ -3,7 +3,7 @@
 use super::error::MeshError;
 use super::topology::{Feature, Mesh, Pair, Thickness, half};
 use super::tree::{Bounds, Grid, Lane, Meets, Task, Tree};
-use crate::certified::{Positions, rounding_of};
+use crate::certified::{Positions, Precision, rounding_of};
 use crate::environment;
 use crate::query::Radius;
 
@@ -130,7 +130,7 @@ struct Swept {
 }
 
 impl Swept {
-    fn new(question: &Question, is_rounded: bool) -> Self {
+    fn new(question: &Question, rounded: Option<Precision>) -> Self {
         let at = |vertex: usize| (&question.start[vertex], &question.end[vertex]);
         let count = question.mesh.vertices;
         Swept {
@@ -141,8 +141,8 @@ impl Swept {
                     high: [0, 1, 2].map(|i| start[i].max(end[i])),
                 }
             }),
-            rounding: mapped(count, SHARE, |vertex| match (at(vertex), is_rounded) {
-                ((start, end), true) => rounding_of(start, end),
+            rounding: mapped(count, SHARE, |vertex| match (at(vertex), rounded) {
+                ((start, end), Some(precision)) => rounding_of(start, end, precision),
                 _ => 0.0,
             }),
         }
@@ -171,11 +171,11 @@ impl Swept {
 }
 
 impl<'a> Candidates<'a> {
-    /// All pairs that come within the thickness and a distance beyond it; with `is_rounded` also if
-    /// positions on the way are rounded.
-    pub(super) fn new(question: Question<'a>, beyond: f64, is_rounded: bool) -> Self {
+    /// All pairs that come within the thickness and a distance beyond it, also if positions on the
+    /// way are `rounded`.
+    pub(super) fn new(question: Question<'a>, beyond: f64, rounded: Option<Precision>) -> Self {
         let mesh = question.mesh;
-        let swept = Swept::new(&question, is_rounded);
+        let swept = Swept::new(&question, rounded);
         let grid = Grid::new(&swept.around());
         let lane = |vertices: &[u32]| {
             let kept = question.thickness.of(mesh, vertices) + beyond;

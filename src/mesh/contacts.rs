@@ -43,7 +43,7 @@ impl Mesh {
         thickness: impl Into<Thickness<'a>>,
     ) -> Result<Option<MeshContact>, MeshError> {
         let question = Question::new(self, start, end, thickness.into())?;
-        let candidates = Candidates::new(question, 0.0, false);
+        let candidates = Candidates::new(question, 0.0, None);
         let parts = candidates.visit(
             |first: &mut Option<(f64, Candidate)>, candidate, vertices| {
                 // Nothing is earlier than the start, and of several contacts there the first counts.
@@ -73,7 +73,7 @@ impl Mesh {
         thickness: impl Into<Thickness<'a>>,
     ) -> Result<Vec<MeshContact>, MeshError> {
         let question = Question::new(self, start, end, thickness.into())?;
-        let candidates = Candidates::new(question, 0.0, false);
+        let candidates = Candidates::new(question, 0.0, None);
         let parts = candidates.visit(|found: &mut Vec<_>, candidate, vertices| {
             if question.toi(candidate.kind, vertices).is_some() {
                 found.extend(
@@ -100,7 +100,7 @@ impl Mesh {
         thickness: impl Into<Thickness<'a>>,
     ) -> Result<bool, MeshError> {
         let question = Question::new(self, start, end, thickness.into())?;
-        let candidates = Candidates::new(question, 0.0, false);
+        let candidates = Candidates::new(question, 0.0, None);
         let is_free = AtomicBool::new(true);
         candidates.visit(|(): &mut (), candidate, vertices| {
             let is_open = is_free.load(Ordering::Relaxed);

@@ -10,7 +10,8 @@ use super::candidates::{Candidate, Candidates, PairKind, Position, Question};
 use super::error::MeshError;
 use super::topology::{Mesh, Pair, Thickness};
 use crate::certified::{
-    Blocked, Clearance, Limit, Positions, halved, is_apart_until, is_apart_with_room, limit, stored,
+    Blocked, Clearance, Limit, Positions, Precision, halved, is_apart_until, is_apart_with_room,
+    limit, stored,
 };
 use crate::query::{EdgeEdge, Radius, VertexFace};
 
@@ -20,8 +21,8 @@ use crate::query::{EdgeEdge, Radius, VertexFace};
 pub struct MeshStep {
     /// How much of the step is made, from 0 to 1.
     pub step: f64,
-    /// The positions to store: those of [`interpolate`](crate::interpolate) at this step, so the end
-    /// itself at 1 and the start at 0.
+    /// The positions to store: those of [`interpolate_in`](crate::interpolate_in) at this step, so
+    /// the end itself at 1 and the start at 0.
     pub positions: Vec<[f64; 3]>,
     /// The pairs for which the step is no larger, in order; none if it is a whole one.
     pub limits: Vec<MeshLimit>,
@@ -99,13 +100,34 @@ impl Mesh {
         thickness: impl Into<Thickness<'a>>,
         clearance: Clearance,
     ) -> Result<MeshStep, MeshError> {
+        self.step_in(start, end, thickness, clearance, Precision::F64)
+    }
+
+    /// [`step_with_clearance`](Self::step_with_clearance), with positions that are stored in `f32`
+    /// where that is asked.
+    ///
+    /// The guarantee is the same, and about the numbers that are stored: if all positions at the
+    /// start and at the end are `f32`, so are those of [`MeshStep::positions`], and `as f32` changes
+    /// none of them. There is less room, as [`advance_in`](crate::advance_in) says.
+    ///
+    /// # Errors
+    ///
+    /// As [`step_with_clearance`](Self::step_with_clearance).
+    pub fn step_in<'a>(
+        &self,
+        start: &[Position],
+        end: &[Position],
+        thickness: impl Into<Thickness<'a>>,
+        clearance: Clearance,
+        precision: Precision,
+    ) -> Result<MeshStep, MeshError> {
         let clearance = clearance.checked()?;
         let question = Question::new(self, start, end, thickness.into())?;
         let beyond = match clearance {
             Clearance::Distance(distance) => distance,
             _ => 0.0,
         };
-        let candidates = Candidates::new(question, beyond, true);
+        let candidates = Candidates::new(question, beyond, Some(precision));
         let parts = candidates.visit(|found: &mut Found, candidate, vertices| {
             found.counts[candidate.kind as usize] += 1;
             let positions = question.positions(vertices);
@@ -114,10 +136,10 @@ impl Mesh {
                 kind: candidate.kind,
                 positions,
             };
-            if !pair.is_apart_with_room(radius, beyond) {
+            if !pair.is_apart_with_room(radius, beyond, precision) {
                 found
                     .close
-                    .push((*candidate, pair.limit(radius, clearance)));
+                    .push((*candidate, pair.limit(radius, clearance, precision)));
             }
         });
         let mut counts = [0; 2];
@@ -127,7 +149,7 @@ impl Mesh {
             close.extend(found.close);
         }
         close.sort_unstable_by_key(|(candidate, _)| *candidate);
-        let (step, limits) = question.furthest(&mut close);
+        let (step, limits) = question.furthest(&mut close, precision);
         let shown = |(candidate, blocked): (Candidate, Blocked)| MeshLimit {
             pair: question.pair(&candidate),
             blocked,
@@ -141,7 +163,7 @@ impl Mesh {
         Ok(MeshStep {
             step,
             positions: positions
-                .map(|(start, end)| stored(start, end, step))
+                .map(|(start, end)| stored(start, end, step, precision))
                 .collect(),
             limits: limits.into_iter().map(shown).collect(),
             near,
@@ -155,6 +177,7 @@ impl Question<'_> {
     fn furthest(
         &self,
         close: &mut [(Candidate, Option<Limit>)],
+        precision: Precision,
     ) -> (f64, Vec<(Candidate, Blocked)>) {
         let touching: Vec<_> = close
             .iter()
@@ -171,7 +194,7 @@ impl Question<'_> {
         {
             return (1.0, Vec::new());
         }
-        self.decide_least(close);
+        self.decide_least(close, precision);
         let limits = close.iter();
         let limits =
             limits.filter_map(|(candidate, limit)| limit.as_ref().map(|limit| (candidate, limit)));
@@ -193,10 +216,12 @@ impl Question<'_> {
         let mut failing = Vec::new();
         for step in halved(largest) {
             let fails = |(candidate, limit): &&(&Candidate, &Limit)| {
-                !self.motion(candidate).is_apart_until(limit.kept, step)
+                !self
+                    .motion(candidate)
+                    .is_apart_until(limit.kept, step, precision)
             };
             let now: Vec<_> = tight.iter().filter(fails).collect();
-            if now.is_empty() && self.moves(step) {
+            if now.is_empty() && self.moves(step, precision) {
                 let near = failing.iter().copied();
                 let mut all: Vec<_> = ends(step).chain(near).collect();
                 all.sort_unstable_by_key(|(candidate, _)| *candidate);
@@ -220,7 +245,7 @@ impl Question<'_> {
 
     /// Decides the limits that planes leave rough, as long as they are the least: the others do not
     /// matter. Those of 0 are the least of all.
-    fn decide_least(&self, close: &mut [(Candidate, Option<Limit>)]) {
+    fn decide_least(&self, close: &mut [(Candidate, Option<Limit>)], precision: Precision) {
         let mut order: Vec<usize> = (0..close.len()).collect();
         let until =
             |(_, limit): &(Candidate, Option<Limit>)| limit.map_or(1.0, |limit| limit.until);
@@ -235,7 +260,7 @@ impl Question<'_> {
                 break;
             }
             if limit.is_rough() {
-                *limit = self.motion(candidate).decided(*limit);
+                *limit = self.motion(candidate).decided(*limit, precision);
             }
             if limit.until > 0.0 {
                 least = limit.until.min(least);
@@ -251,9 +276,9 @@ impl Question<'_> {
     }
 
     /// Whether any position at a step is another one than at the start.
-    fn moves(&self, step: f64) -> bool {
+    fn moves(&self, step: f64, precision: Precision) -> bool {
         let mut both = self.start.iter().zip(self.end);
-        both.any(|(start, end)| stored(start, end, step) != *start)
+        both.any(|(start, end)| stored(start, end, step, precision) != *start)
     }
 }
 
@@ -265,7 +290,7 @@ struct PairOf {
 
 impl PairOf {
     #[inline(always)]
-    fn is_apart_with_room(&self, radius: Radius, beyond: f64) -> bool {
+    fn is_apart_with_room(&self, radius: Radius, beyond: f64, precision: Precision) -> bool {
         let kept = match beyond == 0.0 {
             true => radius,
             false => {
@@ -278,30 +303,30 @@ impl PairOf {
             }
         };
         match self.kind {
-            PairKind::Edges => is_apart_with_room::<EdgeEdge>(&self.positions, kept),
-            PairKind::Face => is_apart_with_room::<VertexFace>(&self.positions, kept),
+            PairKind::Edges => is_apart_with_room::<EdgeEdge>(&self.positions, kept, precision),
+            PairKind::Face => is_apart_with_room::<VertexFace>(&self.positions, kept, precision),
         }
     }
 
     #[inline(never)]
-    fn limit(&self, radius: Radius, clearance: Clearance) -> Option<Limit> {
+    fn limit(&self, radius: Radius, clearance: Clearance, precision: Precision) -> Option<Limit> {
         match self.kind {
-            PairKind::Edges => limit::<EdgeEdge>(&self.positions, radius, clearance),
-            PairKind::Face => limit::<VertexFace>(&self.positions, radius, clearance),
+            PairKind::Edges => limit::<EdgeEdge>(&self.positions, radius, clearance, precision),
+            PairKind::Face => limit::<VertexFace>(&self.positions, radius, clearance, precision),
         }
     }
 
-    fn decided(&self, limit: Limit) -> Limit {
+    fn decided(&self, limit: Limit, precision: Precision) -> Limit {
         match self.kind {
-            PairKind::Edges => limit.decided::<EdgeEdge>(&self.positions),
-            PairKind::Face => limit.decided::<VertexFace>(&self.positions),
+            PairKind::Edges => limit.decided::<EdgeEdge>(&self.positions, precision),
+            PairKind::Face => limit.decided::<VertexFace>(&self.positions, precision),
         }
     }
 
-    fn is_apart_until(&self, kept: Radius, step: f64) -> bool {
+    fn is_apart_until(&self, kept: Radius, step: f64, precision: Precision) -> bool {
         match self.kind {
-            PairKind::Edges => is_apart_until::<EdgeEdge>(&self.positions, kept, step),
-            PairKind::Face => is_apart_until::<VertexFace>(&self.positions, kept, step),
+            PairKind::Edges => is_apart_until::<EdgeEdge>(&self.positions, kept, step, precision),
+            PairKind::Face => is_apart_until::<VertexFace>(&self.positions, kept, step, precision),
         }
     }
 }

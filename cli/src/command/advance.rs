@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use serde::Serialize;
-use tunnelproof::certified::{self, Clearance, ClearanceError};
+use tunnelproof::certified::{Clearance, ClearanceError, Precision, advance_in};
 use tunnelproof::query::Query;
 use tunnelproof_cli::report::step::{blocked_name, rounded_down};
 use tunnelproof_reference::certify::batch::map_in_order;
@@ -23,6 +23,7 @@ Examples:
   tunnelproof advance queries.jsonl
   tunnelproof advance --clearance 0.001 --kind edge-edge unit-tests/edge-edge/*.csv
   tunnelproof advance figure:4.3 lattice:1:4711
+  tunnelproof advance --precision f32 queries.jsonl
   head -1 queries.jsonl | tunnelproof advance -
 
 A line of JSON for each query:
@@ -55,13 +56,13 @@ struct Line<'a> {
 
 impl Advance {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
-        let clearance = self.keep.clearance();
+        let (clearance, precision) = (self.keep.clearance(), self.keep.precision());
         let mut output = BufWriter::new(io::stdout().lock());
         for file in &self.files {
             let entries = entries(file, self.reading.options())?;
             map_in_order(
                 entries.map(|entry| entry.map_err(Failure::from)),
-                |entry| Ok(line(&entry, clearance)?),
+                |entry| Ok(line(&entry, clearance, precision)?),
                 |lines: Vec<String>| write_lines(&mut output, &lines),
             )?;
         }
@@ -78,10 +79,14 @@ fn entries(name: &str, options: ReadOptions) -> Result<Entries, Failure> {
     Ok(Box::new(std::iter::once(Ok(entry))))
 }
 
-fn line(entry: &Entry, clearance: Clearance) -> Result<String, ClearanceError> {
+fn line(
+    entry: &Entry,
+    clearance: Clearance,
+    precision: Precision,
+) -> Result<String, ClearanceError> {
     let moved = match &entry.query {
-        Query::EdgeEdge(query) => certified::advance(query, clearance)?,
-        Query::VertexFace(query) => certified::advance(query, clearance)?,
+        Query::EdgeEdge(query) => advance_in(query, clearance, precision)?,
+        Query::VertexFace(query) => advance_in(query, clearance, precision)?,
     };
     let line = Line {
         id: &entry.id,

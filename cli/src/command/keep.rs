@@ -1,7 +1,8 @@
-//! How far two sides are kept apart during a step.
+//! How far two sides are kept apart during a step, and in which numbers positions are stored.
 
 use clap::Args;
-use tunnelproof::certified::Clearance;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use tunnelproof::certified::{Clearance, Precision};
 
 use super::not_negative;
 
@@ -15,9 +16,17 @@ pub(super) struct Keep {
     /// the start: from 0 to below 1
     #[arg(long, value_name = "S", value_parser = share, allow_negative_numbers = true, conflicts_with = "clearance")]
     share: Option<f64>,
+    /// The numbers that positions are stored in: with f32, a coordinate that is an f32 at both ends
+    /// is one in the positions to store
+    #[arg(long, value_name = "PRECISION", default_value = "f64", value_parser = precision())]
+    precision: Precision,
 }
 
 impl Keep {
+    pub(super) fn precision(&self) -> Precision {
+        self.precision
+    }
+
     pub(super) fn clearance(&self) -> Clearance {
         match (self.clearance, self.share) {
             (Some(distance), _) => Clearance::Distance(distance),
@@ -25,6 +34,13 @@ impl Keep {
             (None, None) => Clearance::None,
         }
     }
+}
+
+fn precision() -> impl TypedValueParser<Value = Precision> {
+    PossibleValuesParser::new(["f64", "f32"]).map(|name| match name.as_str() {
+        "f32" => Precision::F32,
+        _ => Precision::F64,
+    })
 }
 
 fn share(text: &str) -> Result<f64, String> {

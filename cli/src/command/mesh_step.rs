@@ -115,7 +115,8 @@ impl MeshStep {
         let first = mesh.first_contact(start, end, self.radius)?;
         let first_seconds = clock.elapsed().as_secs_f64();
         let clock = Instant::now();
-        let step = mesh.step_with_clearance(start, end, self.radius, clearance)?;
+        let precision = self.keep.precision();
+        let step = mesh.step_in(start, end, self.radius, clearance, precision)?;
         let seconds = Seconds {
             first_contact: first_seconds,
             step: clock.elapsed().as_secs_f64(),

@@ -1,15 +1,15 @@
 //! Certified steps against the oracle.
 
-use tunnelproof::certified::{Advance, Kind};
-use tunnelproof::certified::{Clearance, advance, interpolate};
+use tunnelproof::certified::{Advance, Clearance, Kind, Precision, advance_in, interpolate_in};
 use tunnelproof::mesh::{Feature, Mesh, Pair};
 use tunnelproof::query::{EdgeEdge, Point, Query, QueryKind, Radius, VertexFace};
 use tunnelproof_reference::oracle::decide_query;
+use tunnelproof_reference::shape::Shape;
 
 use super::judges::is_ordinary;
 
-/// What a pair of sides keeps if it advances, with each sort of clearance, and what a mesh of the
-/// two does.
+/// What a pair of sides keeps if it advances, with each sort of clearance and stored in `f64` and in
+/// `f32`, and what a mesh of the two does.
 pub(super) fn check(query: &Query) -> Option<String> {
     // Radii of another size than the coordinates leave long integers alone, which take seconds.
     if !is_ordinary(query) {
@@ -22,16 +22,37 @@ pub(super) fn check(query: &Query) -> Option<String> {
         Clearance::Distance(0.01 * size),
         Clearance::Share(0.1),
     ];
-    let wrong = clearances.into_iter().find_map(|clearance| match query {
-        Query::EdgeEdge(pair) => wrong(query, pair, clearance),
-        Query::VertexFace(pair) => wrong(query, pair, clearance),
+    let doubles = clearances.map(|clearance| (*query, clearance, Precision::F64));
+    let singles = clearances.map(|clearance| (in_single(query), clearance, Precision::F32));
+    let mut all = doubles.into_iter().chain(singles);
+    let wrong = all.find_map(|(query, clearance, precision)| match &query {
+        Query::EdgeEdge(pair) => wrong(&query, pair, clearance, precision),
+        Query::VertexFace(pair) => wrong(&query, pair, clearance, precision),
     });
-    wrong.or_else(|| wrong_of_mesh(query))
+    let wrong = wrong.or_else(|| wrong_of_mesh(query, Precision::F64));
+    wrong.or_else(|| wrong_of_mesh(&in_single(query), Precision::F32))
+}
+
+/// The query with the coordinates rounded to `f32` that are not too large.
+fn in_single(query: &Query) -> Query {
+    let mut shape = Shape::new(query);
+    for number in &mut shape.numbers {
+        let single = f64::from(*number as f32);
+        if single.is_finite() {
+            *number = single;
+        }
+    }
+    shape.query().unwrap_or(*query)
 }
 
 /// What is wrong with the advance of a pair.
-fn wrong<K: Kind>(query: &Query, pair: &K, clearance: Clearance) -> Option<String> {
-    let moved = match advance(pair, clearance) {
+fn wrong<K: Kind>(
+    query: &Query,
+    pair: &K,
+    clearance: Clearance,
+    precision: Precision,
+) -> Option<String> {
+    let moved = match advance_in(pair, clearance, precision) {
         Ok(moved) => moved,
         Err(error) => return Some(error.to_string()),
     };
@@ -42,7 +63,7 @@ fn wrong<K: Kind>(query: &Query, pair: &K, clearance: Clearance) -> Option<Strin
         blocked,
         ..
     } = moved;
-    let stored = |i: usize| interpolate(&query.start()[i], &query.end()[i], step);
+    let stored = |i: usize| interpolate_in(&query.start()[i], &query.end()[i], step, precision);
     if !(0.0..=1.0).contains(&step) || points != [0, 1, 2, 3].map(stored) {
         return Some("points are not those of the step".to_owned());
     }
@@ -56,7 +77,7 @@ fn wrong<K: Kind>(query: &Query, pair: &K, clearance: Clearance) -> Option<Strin
 }
 
 /// The same of the two sides as a mesh.
-fn wrong_of_mesh(query: &Query) -> Option<String> {
+fn wrong_of_mesh(query: &Query, precision: Precision) -> Option<String> {
     let (mesh, pair) = match query.kind() {
         QueryKind::EdgeEdge => (
             Mesh::new(4, &[[0, 1], [2, 3]], &[]),
@@ -71,7 +92,8 @@ fn wrong_of_mesh(query: &Query) -> Option<String> {
     let pair = Pair { first, second };
     let thickness = query.radius().rounded();
     let [start, end] = [query.start(), query.end()].map(|points| points.map(<[f64; 3]>::from));
-    let step = mesh.and_then(|mesh| mesh.step(&start, &end, thickness));
+    let step =
+        mesh.and_then(|mesh| mesh.step_in(&start, &end, thickness, Clearance::None, precision));
     let step = match step {
         Ok(step) => step,
         Err(error) => return Some(error.to_string()),

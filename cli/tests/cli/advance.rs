@@ -47,6 +47,21 @@ fn advance_keeps_a_clearance_or_a_share() {
 }
 
 #[test]
+fn advance_stores_f32_where_that_is_asked() {
+    let z = |options: &[&str]| {
+        let output = with_input(&[&["advance"], options, &["-"]].concat(), CROSSING);
+        assert_eq!(code(&output), 0, "{}", stderr(&output));
+        lines(&output).remove(0)["points"][2][2].as_f64().unwrap()
+    };
+    let is_single = |x: f64| f64::from(x as f32) == x;
+    let [double, single] = [z(&[]), z(&["--precision", "f32"])];
+    assert!(is_single(single) && single > double);
+    assert!(single < 1e-5, "{single}");
+    let refused = with_input(&["advance", "--precision", "f16", "-"], CROSSING);
+    assert_eq!(code(&refused), 2);
+}
+
+#[test]
 fn advance_of_what_touches_keeps_nothing() {
     let points = [ORIGIN; 8].join(",");
     let touching = format!(r#"{{"id":"t","kind":"vertex-face","points":[{points}]}}"#);

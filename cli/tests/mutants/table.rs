@@ -183,6 +183,13 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         culprit: Culprit::Step,
+        file: "src/certified/step.rs",
+        text: "start.abs().max(end.abs()) * V + UNDERFLOW + double",
+        replacement: "double",
+        fault: "positions that are stored in f32 have the room of those in f64",
+    },
+    Mutant {
+        culprit: Culprit::Step,
         file: "src/mesh/candidates.rs",
         text: "if !is_shared && !self.question.mesh.is_left_out(a, b) {",
         replacement: "if !is_shared && a[0] != 0 && !self.question.mesh.is_left_out(a, b) {",

@@ -15,6 +15,7 @@ TurningKind = Literal[
     "turning-edge-turning-edge",
     "turning-vertex-turning-face",
 ]
+Precision = Literal["f64", "f32"]
 Floats = npt.NDArray[np.float64]
 Bools = npt.NDArray[np.bool_]
 Codes = npt.NDArray[np.int8]

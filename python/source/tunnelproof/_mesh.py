@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _tunnelproof
-from ._arrays import Codes, Floats, Indices, index_array, position_array, reals
+from ._arrays import Codes, Floats, Indices, Precision, index_array, position_array, reals
 from ._html import table
 from ._kinds import Blocked, ContactKind, Feature
 
@@ -264,6 +264,7 @@ class Mesh:
         *,
         clearance: float = 0.0,
         share: float | None = None,
+        precision: Precision = "f64",
     ) -> MeshStep:
         """The largest step, within rounding, that keeps all pairs apart by more than the thickness
         and the clearance, and the positions to store.
@@ -284,10 +285,12 @@ class Mesh:
         :param clearance: what is kept beyond the thickness, in metres.
         :param share: instead of a clearance. A pair that would come within the thickness keeps this
             share of what it has beyond it at the start; from 0 to below 1.
-        :raises ValueError: as :meth:`first_contact`, and for a clearance or a share that means
-            nothing.
+        :param precision: the numbers that positions are stored in, as for :func:`advance`.
+        :raises ValueError: as :meth:`first_contact`, for a clearance or a share that means nothing,
+            and for another precision.
         """
-        fields = self._mesh.step(*_question(start, end, thickness), float(clearance), share)
+        question = _question(start, end, thickness)
+        fields = self._mesh.step(*question, float(clearance), share, precision)
         limits, near = MeshLimits(**fields.pop("limits")), NearPairs(**fields.pop("near"))
         return MeshStep(limits=limits, near=near, **fields)
 

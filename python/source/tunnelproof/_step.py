@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy.typing as npt
 
 from . import _tunnelproof
-from ._arrays import Codes, Floats, Kind, query_arrays
+from ._arrays import Codes, Floats, Kind, Precision, query_arrays
 from ._html import table
 from ._kinds import Blocked
 
@@ -42,6 +42,7 @@ def advance(
     *,
     clearance: float = 0.0,
     share: float | None = None,
+    precision: Precision = "f64",
 ) -> Advances:
     """The largest step, within rounding, that keeps the two sides of each query apart, and the
     positions to store.
@@ -60,7 +61,12 @@ def advance(
     :param clearance: what is kept beyond the radius, in metres.
     :param share: instead of a clearance. Two sides that would come within the radius keep this
         share of what they have beyond it at the start; from 0 to below 1.
-    :raises ValueError: as :func:`decide`, and for a clearance or a share that means nothing.
+    :param precision: the numbers that positions are stored in. With ``"f32"`` a coordinate that is
+        a float32 at both ends of the motion is one in ``points``, so that ``astype(np.float32)``
+        changes nothing, and what is stored keeps what is said. There is less room: two sides that
+        are nearer than some 2**-21 of their coordinates may be :attr:`Blocked.NEAR`.
+    :raises ValueError: as :func:`decide`, for a clearance or a share that means nothing, and for
+        another precision.
 
     >>> falling = [[-1, 0, 0], [1, 0, 0], [0.5, -1, 1], [0.5, 1, 1],
     ...            [-1, 0, 0], [1, 0, 0], [0.5, -1, -3], [0.5, 1, -3]]
@@ -69,5 +75,5 @@ def advance(
     (array([0.2]), array([ 0.5, -1. ,  0.2]))
     """
     arrays = query_arrays(points, radius)
-    columns = _tunnelproof.advance(kind, *arrays, float(clearance), share)
+    columns = _tunnelproof.advance(kind, *arrays, float(clearance), share, precision)
     return Advances(points=columns.pop("points").reshape(-1, 4, 3), **columns)

@@ -1,7 +1,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from ._arrays import Floats, Indices, Kind, TurningKind
+from ._arrays import Floats, Indices, Kind, Precision, TurningKind
 
 VERSION: str
 
@@ -36,10 +36,16 @@ class Mesh:
         thickness: float | Floats,
         clearance: float,
         share: float | None,
+        precision: Precision,
     ) -> dict[str, Any]: ...
 
 def advance(
-    kind: Kind, points: Floats, radii: Floats, clearance: float, share: float | None
+    kind: Kind,
+    points: Floats,
+    radii: Floats,
+    clearance: float,
+    share: float | None,
+    precision: Precision,
 ) -> dict[str, Any]: ...
 
 def decide(
