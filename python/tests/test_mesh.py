@@ -151,9 +151,9 @@ def test_points_stored_in_f32_keep_what_they_say(kind):
 def test_meshes_store_f32_where_that_is_asked():
     mesh = tunnelproof.Mesh(faces=[[0, 1, 2], [3, 4, 5]])
     start = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0], [1, 1, 1], [2, 1, 1], [1, 2, 1]], float)
+    start[:3, 2] = np.float32(0.1)
     end = start.copy()
-    end[3:, 2] = -1.7
-    end = end.astype(np.float32).astype(np.float64)
+    end[3:, 2] = np.float32(-1.7)
     single = mesh.step(start, end, precision="f32")
     double = mesh.step(start, end)
     assert is_single(single.positions).all() and not is_single(double.positions).all()
