@@ -132,6 +132,8 @@ BY_HAND = [
     ("normal/bounded", "Bounded", "normal"),
     ("step", None, "coordinate"),
     ("step", None, "rounding"),
+    ("step", None, "coordinate_in"),
+    ("step", None, "rounding_in"),
     ("step", None, "with_room"),
     ("thick/mod", "Moving", "is_ordinary"),
     ("thick/mod", "Moving", "is_within"),

@@ -33,8 +33,10 @@
 //! # Positions in `f32`
 //!
 //! [`Precision::F32`] rounds what is computed so to the nearest `f32`, where both ends are `f32`
-//! themselves: a number between them rounds to one between them, so nothing overflows. With
-//! `v = 2^-24` it is off by at most `v X` more, and by `2^-150` where it underflows.
+//! themselves: a number between them rounds to one between them, so nothing overflows. What is
+//! computed is at most `X`, so with `v = 2^-24` it is off by at most `v X` more, and by `2^-150`
+//! where it underflows. The factor on `v` covers what the roundings of the bound lose, less than
+//! `2^-50 v X`, and `2^-149` is twice what is needed.
 
 use std::fmt;
 
@@ -294,12 +296,12 @@ fn rounding(start: f64, end: f64) -> f64 {
 #[inline(always)]
 fn rounding_in(start: f64, end: f64, precision: Precision) -> f64 {
     /// 2^-24, and more than what multiplication and sums lose.
-    const V: f64 = f32::EPSILON as f64 / 2.0 * (1.0 + 1.0 / 1_048_576.0);
+    const V: f64 = 1.0 / 16_777_216.0 * (1.0 + 1.0 / 1_048_576.0);
     /// 2^-149.
-    const UNDERFLOW: f64 = f32::from_bits(1) as f64;
+    const LEAST: f64 = 1.401298464324817e-45;
     let double = rounding(start, end);
     match precision {
-        Precision::F32 if start != end => start.abs().max(end.abs()) * V + UNDERFLOW + double,
+        Precision::F32 if start != end => start.abs().max(end.abs()) * V + LEAST + double,
         _ => double,
     }
 }

@@ -184,7 +184,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     Mutant {
         culprit: Culprit::Step,
         file: "src/certified/step.rs",
-        text: "start.abs().max(end.abs()) * V + UNDERFLOW + double",
+        text: "start.abs().max(end.abs()) * V + LEAST + double",
         replacement: "double",
         fault: "positions that are stored in f32 have the room of those in f64",
     },
