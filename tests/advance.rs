@@ -10,9 +10,8 @@ use num_bigint::Sign;
 use num_rational::BigRational;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tunnelproof::certified::{
-    Advance, Blocked, Clearance, Kind, Precision, advance_in, decide, interpolate_in,
-};
+use tunnelproof::certified::{Blocked, Clearance, Precision, advance_in, decide, interpolate_in};
+use tunnelproof::mesh::Mesh;
 use tunnelproof::query::{EdgeEdge, Point, Query, QueryKind, Radius, VertexFace};
 use tunnelproof_reference::generate;
 use tunnelproof_reference::oracle::decide_query;
@@ -131,24 +130,37 @@ fn is_single(x: f64) -> bool {
     f64::from(x as f32) == x
 }
 
-/// The same with coordinates that are `f32`, if none of them is too large.
+/// The same from a start that is `f32`, if no coordinate of it is too large.
 fn in_single(q: &Query) -> Option<Query> {
-    let rounded = |points: &[Point; 4]| points.map(|p| p.map(|x| f64::from(x as f32)));
-    let (start, end) = (rounded(q.start()), rounded(q.end()));
-    let all = start.iter().chain(&end).flat_map(|p| p.iter());
-    let is_finite = all.clone().all(|x| x.is_finite());
-    is_finite.then(|| query(q.kind(), start, end, q.radius()))
+    let start = q.start().map(|p| p.map(|x| f64::from(x as f32)));
+    let is_finite = start.iter().flat_map(|p| p.iter()).all(|x| x.is_finite());
+    is_finite.then(|| query(q.kind(), start, *q.end(), q.radius()))
+}
+
+/// The motion that is made: with `f32`, towards ends that are rounded.
+fn towards(q: &Query, precision: Precision) -> Query {
+    let target = |x: f64| match (precision, x as f32) {
+        (Precision::F64, _) => x,
+        (_, single) if single.is_infinite() => f64::from(f32::MAX.copysign(single)),
+        (_, single) => single.into(),
+    };
+    query(
+        q.kind(),
+        *q.start(),
+        q.end().map(|p| p.map(target)),
+        q.radius(),
+    )
 }
 
 /// Advances, and asks the oracle about what is stored. Returns the stored points.
 fn judge(q: &Query, Asked(precision, clearance): Asked, id: &str, tally: &mut Tally) -> [Point; 4] {
-    fn asked<K: Kind>(query: &K, clearance: Clearance, of: Precision) -> (Advance, Option<f64>) {
-        let moved = advance_in(query, clearance, of).unwrap();
-        (moved, decide(query).map(|hit| hit.toi))
-    }
-    let (moved, toi) = match q {
-        Query::EdgeEdge(query) => asked(query, clearance, precision),
-        Query::VertexFace(query) => asked(query, clearance, precision),
+    let moved = match q {
+        Query::EdgeEdge(query) => advance_in(query, clearance, precision).unwrap(),
+        Query::VertexFace(query) => advance_in(query, clearance, precision).unwrap(),
+    };
+    let toi = match towards(q, precision) {
+        Query::EdgeEdge(query) => decide(&query).map(|hit| hit.toi),
+        Query::VertexFace(query) => decide(&query).map(|hit| hit.toi),
     };
     tally.pairs += 1;
     assert!((0.0..=1.0).contains(&moved.step), "{id}: {moved:?}");
@@ -158,15 +170,22 @@ fn judge(q: &Query, Asked(precision, clearance): Asked, id: &str, tally: &mut Ta
             interpolate_in(&q.start()[i], &q.end()[i], moved.step, precision),
             "{id}"
         );
-        let ends = [q.start()[i], q.end()[i]];
-        let was_single = ends.iter().flat_map(|p| p.iter()).all(|x| is_single(*x));
+        let both = q.start()[i].iter().zip(point.iter());
         assert!(
-            precision == Precision::F64 || !was_single || point.iter().all(|x| is_single(*x)),
+            precision == Precision::F64
+                || both.clone().all(|(a, x)| !is_single(*a) || is_single(*x)),
             "{id}: {moved:?}"
         );
     }
+    assert!(
+        moved.blocked.is_none() || moved.step == 0.0 || moved.points != *q.start(),
+        "{id}: {moved:?} moves nothing"
+    );
     match moved.blocked {
-        None => assert_eq!(moved.step, 1.0, "{id}"),
+        None => {
+            let end = *towards(q, precision).end();
+            assert_eq!((moved.step, moved.points), (1.0, end), "{id}");
+        }
         Some(Blocked::Ahead) => tally.ahead += 1,
         Some(Blocked::Near) => {
             tally.near += 1;
@@ -257,6 +276,71 @@ fn advance_stores_positions_that_are_apart_on_every_family() {
     println!("all: {all}");
 }
 
+/// With a little more than the room that rounding needs a step is no shorter than with less: a few
+/// steps are tried either way, of a pair and of a mesh of it.
+#[test]
+fn advance_with_hardly_room_goes_as_far_as_without() {
+    let p = Point::new;
+    let face = [
+        p(-1000., -1000., 0.),
+        p(1000., -1000., 0.),
+        p(0., 1000., 0.),
+    ];
+    let start = [p(64., 64., 2.), face[0], face[1], face[2]];
+    let end = [p(164., 164., 1.9999760389328003), face[0], face[1], face[2]];
+    let mesh = Mesh::new(4, &[], &[[1, 2, 3]]).unwrap();
+    let [from, to] = [start, end].map(|points| points.map(<[f64; 3]>::from));
+    let mut blocked = Vec::new();
+    for radius in [
+        1.9999803304680321,
+        1.9999803304481658,
+        1.99998033,
+        1.99998,
+        1.99997,
+    ] {
+        let query = VertexFace::new(start, end, radius).unwrap();
+        let moved = advance_in(&query, Clearance::None, Precision::F32).unwrap();
+        blocked.push(moved.blocked);
+        assert!(moved.step > 0.2, "{radius}: {moved:?}");
+        let step = mesh.step_in(&from, &to, radius, Clearance::None, Precision::F32);
+        let step = step.unwrap();
+        assert!(step.step > 0.2, "{radius}: {step:?}");
+        for points in [
+            moved.points,
+            [0, 1, 2, 3].map(|i| Point::from(step.positions[i])),
+        ] {
+            let stored = query_of_face(start, points, radius);
+            assert!(decide_query(&stored).hit.is_none(), "{radius}: {points:?}");
+        }
+    }
+    assert_eq!(blocked[..2], [Some(Blocked::Near); 2]);
+}
+
+fn query_of_face(start: [Point; 4], end: [Point; 4], radius: f64) -> Query {
+    query(QueryKind::VertexFace, start, end, radius.into())
+}
+
+/// What is too little to move any stored number is no step.
+#[test]
+fn advance_that_moves_nothing_is_no_step() {
+    let p = Point::new;
+    let face = [p(0., 0., 0.), p(1., 0., 0.), p(0., 1., 0.)];
+    let start = [
+        p(0.25, 0.25, 1.00000011920928955),
+        face[0],
+        face[1],
+        face[2],
+    ];
+    let end = [p(0.25, 0.25, 1.), face[0], face[1], face[2]];
+    let query = VertexFace::new(start, end, 1.00000003576278687).unwrap();
+    let moved = advance_in(&query, Clearance::None, Precision::F32).unwrap();
+    let expected = (0.0, start, None, Some(Blocked::Near));
+    assert_eq!(
+        (moved.step, moved.points, moved.kept, moved.blocked),
+        expected
+    );
+}
+
 /// The sign of the volume of the four points: on which side of the first the second is.
 fn volume(points: &[Point; 4]) -> Sign {
     let exact = points.map(|p| [p.x, p.y, p.z].map(|x| BigRational::from_float(x).unwrap()));
@@ -287,10 +371,6 @@ fn walk(number: u64, steps: u64) -> Tally {
     let precision = match number % 16 {
         0..8 => Precision::F64,
         _ => Precision::F32,
-    };
-    let stored = |p: Point| match precision {
-        Precision::F32 => p.map(|x| f64::from(x as f32)),
-        _ => p,
     };
     let rng = &mut ChaCha8Rng::seed_from_u64(number);
     let mut tally = Tally::default();
@@ -326,7 +406,7 @@ fn walk(number: u64, steps: u64) -> Tally {
             };
             let mut beside =
                 |x: f64, home: f64| x + 1e-4 * (home - x) + rng.random_range(-1e-3..1e-3);
-            *point = stored(p(beside(point.x, home.x), beside(point.y, home.y), z));
+            *point = p(beside(point.x, home.x), beside(point.y, home.y), z);
         }
         let q = query(kind, points, targets, radius);
         points = judge(

@@ -439,9 +439,6 @@ fn mesh_folded_through_itself_never_passes() {
                 position[axis] += 0.05 * (wanted - position[axis]);
                 position[2] += 0.05 * (height - position[2]);
             }
-            if precision == Precision::F32 {
-                end = end.iter().map(|p| p.map(|x| f64::from(x as f32))).collect();
-            }
             let made = mesh
                 .step_in(&start, &end, thickness, Clearance::None, precision)
                 .unwrap();

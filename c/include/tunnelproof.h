@@ -200,8 +200,8 @@ int64_t tunnelproof_decide_turning_vertex_turning_face_batch(const double *local
 enum tunnelproof_blocked {
   /* A larger step would bring the two sides nearer than is kept, or a rounding error of that. */
   TUNNELPROOF_AHEAD = 1,
-  /* The two sides come nearer, and start so near to what is kept that no rounded positions tried
-   * were proved. */
+  /* The two sides come nearer, and start so near to what is kept that rounding has no room. A few
+   * steps were tried; the largest of them that is proved is made, or none. */
   TUNNELPROOF_NEAR = 2,
   /* The two sides touch at the start, radius or not: no motion from there is apart. */
   TUNNELPROOF_TOUCHING = 3
@@ -243,10 +243,10 @@ int32_t tunnelproof_advance_vertex_face(const double *points, const double *radi
                                         double clearance, double share,
                                         tunnelproof_advance *advance);
 
-/* The same for engines that store float: a coordinate that is a float at both ends of the motion is
- * one in `advance->points`, so that a cast to float changes nothing, and the proof is of what is
- * stored. There is less room: two sides that are nearer than some 2^-21 of their coordinates may be
- * TUNNELPROOF_NEAR. */
+/* The same for engines that store float. If the coordinates at the start are floats, so are those of
+ * `advance->points`: a cast to float changes nothing, and the proof is of what is stored. The end
+ * may have more digits, as it is rounded to float first. There is less room: two sides that are
+ * nearer than some 2^-21 of their coordinates, beyond what they keep, may be TUNNELPROOF_NEAR. */
 int32_t tunnelproof_advance_edge_edge_f32(const double *points, const double *radii,
                                           double clearance, double share,
                                           tunnelproof_advance *advance);
@@ -416,7 +416,8 @@ int32_t tunnelproof_mesh_step(const tunnelproof_mesh *mesh, const tunnelproof_mo
                               double clearance, double share, tunnelproof_step *step,
                               tunnelproof_error *error);
 
-/* The same for engines that store float, as tunnelproof_advance_edge_edge_f32. */
+/* The same for engines that store float: if the positions at the start are floats, so are those of
+ * the step, as tunnelproof_advance_edge_edge_f32 says. */
 int32_t tunnelproof_mesh_step_f32(const tunnelproof_mesh *mesh, const tunnelproof_motion *motion,
                                   double clearance, double share, tunnelproof_step *step,
                                   tunnelproof_error *error);

@@ -32,11 +32,11 @@
 //!
 //! # Positions in `f32`
 //!
-//! [`Precision::F32`] rounds what is computed so to the nearest `f32`, where both ends are `f32`
-//! themselves: a number between them rounds to one between them, so nothing overflows. What is
+//! [`Precision::F32`] rounds the ends of the motion to `f32` first, and what is computed then to the
+//! nearest `f32`, where the start is one too: a number between them rounds to one between them, so nothing overflows. What is
 //! computed is at most `X`, so with `v = 2^-24` it is off by at most `v X` more, and by `2^-150`
 //! where it underflows. The factor on `v` covers what the roundings of the bound lose, less than
-//! `2^-50 v X`, and `2^-149` is twice what is needed.
+//! `2^-50 v X`, and `2^-149`, twice what is needed, what they lose where it underflows.
 
 use std::fmt;
 
@@ -97,9 +97,29 @@ pub enum Precision {
     /// `f64`.
     #[default]
     F64,
-    /// `f32`: a coordinate that is an `f32` at both ends of the motion is stored as one. Any other
-    /// is stored as an `f64`.
+    /// `f32`. The motion is towards the nearest `f32` of each coordinate at its end, and what starts
+    /// at an `f32` is stored as one. A coordinate that starts elsewhere is stored as an `f64`, but at
+    /// the end.
     F32,
+}
+
+impl Precision {
+    /// Whether what is between two numbers is stored as an `f32`.
+    #[inline(always)]
+    fn is_single(self, start: f64, end: f64) -> bool {
+        let is_single = |x: f64| f64::from(x as f32) == x;
+        self == Precision::F32 && is_single(start) && is_single(end)
+    }
+
+    /// The number that a coordinate moves to. What is not finite stays so.
+    pub(crate) fn target(self, x: f64) -> f64 {
+        match self {
+            Precision::F32 if x.is_finite() => {
+                f64::from(x.clamp(f32::MIN.into(), f32::MAX.into()) as f32)
+            }
+            _ => x,
+        }
+    }
 }
 
 /// A step that is proved.
@@ -123,8 +143,8 @@ pub struct Advance {
 pub enum Blocked {
     /// A larger step would bring the two sides nearer than is kept, or a rounding error of that.
     Ahead,
-    /// The two sides come nearer, and start so near to what is kept that no rounded positions
-    /// tried were proved.
+    /// The two sides come nearer, and start so near to what is kept that rounding has no room. A few
+    /// steps were tried; the largest of them that is proved is made, or none.
     Near,
     /// The two sides touch at the start, radius or not: no motion from there is apart.
     Touching,
@@ -177,9 +197,11 @@ pub fn advance<K: Kind>(query: &K, clearance: Clearance) -> Result<Advance, Clea
 
 /// [`advance`], with positions that are stored in `f32` where that is asked.
 ///
-/// The guarantee is the same, and about the numbers that are stored: if all coordinates of the query
-/// are `f32`, so are those of [`Advance::points`], and `as f32` changes none of them. There is less
-/// room: two sides that are nearer than some 2^-22 of their coordinates are [`Near`](Blocked::Near).
+/// The guarantee is the same, and about the numbers that are stored: if all coordinates of
+/// `query.start()` are `f32`, so are those of [`Advance::points`], and `as f32` changes none of them.
+/// A whole step ends at the nearest `f32` of each coordinate of `query.end()`, or the largest where
+/// that is beyond it. There is less room: two sides that are nearer than some 2^-21 of their
+/// coordinates, beyond what they keep, may be [`Near`](Blocked::Near).
 ///
 /// # Errors
 ///
@@ -210,9 +232,10 @@ pub fn advance_in<K: Kind>(
 ) -> Result<Advance, ClearanceError> {
     debug_assert_eq!(environment::check(), Ok(()));
     let clearance = clearance.checked()?;
-    let positions = Positions::of(query.start(), query.end());
+    let start = query.start();
+    let end = query.end().map(|point| point.map(|x| precision.target(x)));
+    let positions = Positions::of(start, &end);
     let (step, kept, blocked) = furthest::<K>(&positions, query.radius(), clearance, precision);
-    let (start, end) = (query.start(), query.end());
     Ok(Advance {
         step,
         points: std::array::from_fn(|i| interpolate_in(&start[i], &end[i], step, precision)),
@@ -232,13 +255,15 @@ pub fn interpolate(start: &Point, end: &Point, step: f64) -> Point {
     interpolate_in(start, end, step, Precision::F64)
 }
 
-/// The position to store at a step, as [`interpolate`] gives it, rounded to the nearest `f32` where
-/// that is asked and both ends are `f32`: that of the proof of [`advance_in`].
+/// The position to store at a step, that of the proof of [`advance_in`]. With [`Precision::F32`] it
+/// is what [`interpolate`] gives between the start and the nearest `f32` of the end, rounded to the
+/// nearest `f32` where the start is one.
 pub fn interpolate_in(start: &Point, end: &Point, step: f64, precision: Precision) -> Point {
-    stored(&(*start).into(), &(*end).into(), step, precision).into()
+    let end = end.map(|x| precision.target(x));
+    stored(&(*start).into(), &end.into(), step, precision).into()
 }
 
-/// As [`interpolate_in`].
+/// As [`interpolate_in`], with an end that is its own [target](Precision::target).
 #[inline(always)]
 pub(crate) fn stored(
     start: &[f64; 3],
@@ -252,10 +277,9 @@ pub(crate) fn stored(
 #[inline(always)]
 fn coordinate_in(start: f64, end: f64, step: f64, precision: Precision) -> f64 {
     let between = coordinate(start, end, step);
-    let is_single = |x: f64| f64::from(x as f32) == x;
-    match precision {
-        Precision::F32 if is_single(start) && is_single(end) => f64::from(between as f32),
-        _ => between,
+    match precision.is_single(start, end) {
+        true => f64::from(between as f32),
+        false => between,
     }
 }
 
@@ -300,9 +324,9 @@ fn rounding_in(start: f64, end: f64, precision: Precision) -> f64 {
     /// 2^-149.
     const LEAST: f64 = 1.401298464324817e-45;
     let double = rounding(start, end);
-    match precision {
-        Precision::F32 if start != end => start.abs().max(end.abs()) * V + LEAST + double,
-        _ => double,
+    match start != end && precision.is_single(start, end) {
+        true => start.abs().max(end.abs()) * V + LEAST + double,
+        false => double,
     }
 }
 
@@ -343,6 +367,9 @@ pub(crate) struct Limit {
     /// Rounded positions do so up to this step, as far as planes prove it; 0 if they prove it of
     /// none.
     pub(crate) until: f64,
+    /// Whether that is less than half of the time of impact by a decision: there is hardly room for
+    /// rounding, and larger steps may be proved one by one.
+    pub(crate) is_short: bool,
 }
 
 impl Limit {
@@ -358,6 +385,7 @@ impl Limit {
             let toi = first_toi::<K>(positions, radius);
             self.until = self.until.max(toi.unwrap_or(1.0));
         }
+        self.is_short = self.toi.is_some_and(|toi| self.until < 0.5 * toi);
         self
     }
 }
@@ -409,6 +437,7 @@ pub(crate) fn limit<K: Kind>(
             is_whole: rank == 0,
             toi,
             until,
+            is_short: false,
         });
     }
     None
@@ -463,20 +492,28 @@ fn furthest<K: Kind>(
     if limit.is_rough() {
         limit = limit.decided::<K>(positions, precision);
     }
-    let Limit { kept, until, .. } = limit;
-    if until > 0.0 {
-        return (until, Some(kept), Some(Blocked::Ahead));
-    }
+    let Limit {
+        kept,
+        until,
+        is_short,
+        ..
+    } = limit;
     let Positions { start, end } = positions;
     let moves = |step: f64| (0..4).any(|i| stored(&start[i], &end[i], step, precision) != start[i]);
+    let is_proved = until > 0.0 && moves(until);
+    let ahead = (until, Some(kept), Some(Blocked::Ahead));
+    if is_proved && !is_short {
+        return ahead;
+    }
     let is_apart = |step: f64| is_apart_until::<K>(positions, kept, step, precision);
     // Ends: there are so many halvings and no more.
-    let step = halved(toi).find(|&step| moves(step) && is_apart(step));
-    (
-        step.unwrap_or(0.0),
-        step.and(Some(kept)),
-        Some(Blocked::Near),
-    )
+    let mut larger = halved(toi).take_while(|&step| step > until);
+    let step = larger.find(|&step| moves(step) && is_apart(step));
+    match step {
+        Some(step) => (step, Some(kept), Some(Blocked::Near)),
+        None if is_proved => ahead,
+        None => (0.0, None, Some(Blocked::Near)),
+    }
 }
 
 /// The first contact of a motion within a radius.

@@ -107,8 +107,9 @@ impl Mesh {
     /// where that is asked.
     ///
     /// The guarantee is the same, and about the numbers that are stored: if all positions at the
-    /// start and at the end are `f32`, so are those of [`MeshStep::positions`], and `as f32` changes
-    /// none of them. There is less room, as [`advance_in`](crate::advance_in) says.
+    /// start are `f32`, so are those of [`MeshStep::positions`], and `as f32` changes none of them. A
+    /// whole step ends at the `f32` nearest to `end`. There is less room, as
+    /// [`advance_in`](crate::advance_in) says.
     ///
     /// # Errors
     ///
@@ -122,6 +123,8 @@ impl Mesh {
         precision: Precision,
     ) -> Result<MeshStep, MeshError> {
         let clearance = clearance.checked()?;
+        let targets = (precision != Precision::F64).then(|| targets(end, precision));
+        let end = targets.as_deref().unwrap_or(end);
         let question = Question::new(self, start, end, thickness.into())?;
         let beyond = match clearance {
             Clearance::Distance(distance) => distance,
@@ -172,6 +175,12 @@ impl Mesh {
     }
 }
 
+/// What positions at the end of a motion become.
+fn targets(end: &[Position], precision: Precision) -> Vec<Position> {
+    let of = |position: &Position| position.map(|x| precision.target(x));
+    end.iter().map(of).collect()
+}
+
 impl Question<'_> {
     /// The step of a mesh by the limits of its pairs, and those that end it.
     fn furthest(
@@ -198,9 +207,9 @@ impl Question<'_> {
         let limits = close.iter();
         let limits =
             limits.filter_map(|(candidate, limit)| limit.as_ref().map(|limit| (candidate, limit)));
-        // Those that have no room for rounding, or none for a part of the step, are decided at each
+        // Those that have hardly room for rounding, or none for a part of the step, are decided at each
         // step that is tried.
-        let is_tight = |limit: &Limit| limit.until == 0.0 || limit.toi.is_none();
+        let is_tight = |limit: &Limit| limit.until == 0.0 || limit.toi.is_none() || limit.is_short;
         let (tight, roomy): (Vec<_>, Vec<_>) = limits.partition(|(_, limit)| is_tight(limit));
         let roomy_step = roomy.iter().map(|(_, limit)| limit.until);
         let tight_step = tight.iter().filter_map(|(_, limit)| limit.toi);
@@ -213,8 +222,12 @@ impl Question<'_> {
                 .filter(move |(_, limit)| limit.toi.is_some_and(|toi| toi <= step));
             ahead.chain(near.map(|(candidate, _)| (**candidate, Blocked::Near)))
         };
+        // What those with hardly room prove at least.
+        let short = tight.iter().filter(|(_, limit)| limit.is_short);
+        let least = short.map(|(_, limit)| limit.until).reduce(f64::min);
+        let least = least.map(|least| least.min(largest));
         let mut failing = Vec::new();
-        for step in halved(largest) {
+        for step in halved(largest).chain(least) {
             let fails = |(candidate, limit): &&(&Candidate, &Limit)| {
                 !self
                     .motion(candidate)
@@ -262,7 +275,7 @@ impl Question<'_> {
             if limit.is_rough() {
                 *limit = self.motion(candidate).decided(*limit, precision);
             }
-            if limit.until > 0.0 {
+            if limit.until > 0.0 && !limit.is_short {
                 least = limit.until.min(least);
             }
         }

@@ -33,7 +33,8 @@ from the start to them keeps a distance above kept. kept is null if no step is p
 points stay.
 
 blocked is null for a whole step. ahead: a larger step would come too near. near: the two start so
-near that no rounded positions were proved. touching: they touch at the start.")]
+near to what is kept that rounding has no room; the largest of a few steps that is proved is made, or
+none. touching: they touch at the start.")]
 pub(super) struct Advance {
     /// Files of queries (.jsonl, .json or .csv); - is the standard input. Or single queries:
     /// figure:NAME, FAMILY:SEED:INDEX, PATH.csv#INDEX, PATH.jsonl#ID, PATH.json#ID

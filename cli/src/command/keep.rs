@@ -16,8 +16,8 @@ pub(super) struct Keep {
     /// the start: from 0 to below 1
     #[arg(long, value_name = "S", value_parser = share, allow_negative_numbers = true, conflicts_with = "clearance")]
     share: Option<f64>,
-    /// The numbers that positions are stored in: with f32, a coordinate that is an f32 at both ends
-    /// is one in the positions to store
+    /// Store positions in these numbers. With f32, coordinates that start at an f32 are stored as
+    /// f32, and those at the end are rounded to f32 first
     #[arg(long, value_name = "PRECISION", default_value = "f64", value_parser = precision())]
     precision: Precision,
 }

@@ -1,6 +1,7 @@
 //! `slowest`: the queries that a subject takes longest on.
 
 use std::process::ExitCode;
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use clap::Args;
@@ -11,6 +12,7 @@ use tunnelproof_reference::shrink::Disagreement;
 use tunnelproof_reference::slowest::{Costly, Search, time};
 
 use super::Failure;
+use super::keeping::{interrupted, interruption};
 use super::output::print;
 use super::sources::family;
 use super::subjects::{Asked, Permit, Programs, asked, seconds};
@@ -21,18 +23,20 @@ use super::subjects::{Asked, Permit, Programs, asked, seconds};
 Examples:
   tunnelproof slowest
   tunnelproof slowest --subject additive --family uniform,lattice --seconds 300
-  tunnelproof slowest --subject lib:./my_ccd.so --count 4 > slowest.jsonl
+  tunnelproof slowest --subject lib:./libmy_ccd.so --count 4 > slowest.jsonl
   tunnelproof slowest | tunnelproof certify --subject certified,additive -
 
-Several climbs go on side by side, as many as --count. Each begins at the slowest of 64 queries of the
-families, changes a few numbers of its query at a time, by other exponents and bits, or so that
-positions coincide, and keeps what takes longer each time it is asked; it begins anew after 2000 changes in a row that do
-not. One thread works, so that nothing else disturbs the clock; the least of four measurements counts,
-and that of a program has its pipe in it.
+Searches side by side, as many as --count, each begin at the slowest of 64 queries of the families.
+Each changes a few numbers of its query at a time: other exponents, other bits, positions that
+coincide. It keeps a change if the query takes longer each of four times. After 2000 changes in a row
+that are not kept it begins anew. One thread works, so that nothing else disturbs the clock.
 
-The queries are printed as lines that eval, explain and certify read, the slowest first. The times,
-and whether the answers are right, stand on the standard error. As times vary, so does what is found:
-the seed alone does not repeat it.")]
+The time is the smallest of the four. That of a program or a library includes the time to ask it, some
+0.1 ms. Queries on which it crashes are passed over; certify finds these.
+
+The queries are printed as lines that eval, explain and certify read, the slowest first. Their times,
+and what certify says of the answers, are written to the standard error. Ctrl-C ends the search and
+prints what was found. Times vary, so the seed alone does not repeat what is found.")]
 pub(super) struct Slowest {
     /// Who is timed: a subject by its name, cmd: and the command of a program, or lib: and the path
     /// of a shared library
@@ -45,7 +49,7 @@ pub(super) struct Slowest {
     /// Families of queries that climbs begin at; by default all of linear motion
     #[arg(long, value_delimiter = ',', value_parser = family())]
     family: Vec<&'static Family>,
-    /// How many queries are looked for
+    /// How many slow queries to find, by as many searches
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=1000))]
     count: u16,
     /// How long to search, in seconds
@@ -69,14 +73,18 @@ impl Slowest {
         let mut search = Search::new(&families, self.seed, count, |query| time(subject, query));
         let limit = Duration::from_secs_f64(self.seconds);
         let start = Instant::now();
-        // Each climb has a query, so that there is something to print.
+        let stop = interruption()?;
+        // Each search has a query, so that there is something to print.
         while search.asked() < count as u64 || start.elapsed() < limit {
+            if stop.load(Ordering::Relaxed) {
+                break;
+            }
             search.turn();
         }
         let asked = search.asked();
         let found = search.costliest();
         if found.is_empty() {
-            eprintln!("{} takes no query of these families", subject.name());
+            eprintln!("{} answers no query of these families", subject.name());
             return Ok(ExitCode::FAILURE);
         }
         eprintln!("{}: {asked} queries tried", subject.name());
@@ -95,6 +103,9 @@ impl Slowest {
             };
             eprintln!("{id}: {cost:.2?}, {judged}");
         }
-        Ok(ExitCode::SUCCESS)
+        match stop.load(Ordering::Relaxed) {
+            true => Ok(interrupted()),
+            false => Ok(ExitCode::SUCCESS),
+        }
     }
 }

@@ -41,7 +41,7 @@ fn slowest_says_what_is_wrong_and_what_a_subject_does_not_take() {
     assert_eq!((code(&output), stdout(&output).as_str()), (1, ""));
     assert_eq!(
         stderr(&output),
-        "shadow-published takes no query of these families\n"
+        "shadow-published answers no query of these families\n"
     );
     for [option, value] in [
         ["--seconds", "0"],

@@ -23,8 +23,8 @@ class Blocked(IntEnum):
     AHEAD = 1
     """A larger step would bring the two sides nearer than is kept, or a rounding error of that."""
     NEAR = 2
-    """The two sides come nearer, and start so near to what is kept that no rounded positions tried
-    were proved."""
+    """The two sides come nearer, and start so near to what is kept that rounding has no room. A few
+    steps were tried; the largest of them that is proved is made, or none."""
     TOUCHING = 3
     """The two sides touch at the start, radius or not: no motion from there is apart."""
 

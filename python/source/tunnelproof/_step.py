@@ -61,10 +61,11 @@ def advance(
     :param clearance: what is kept beyond the radius, in metres.
     :param share: instead of a clearance. Two sides that would come within the radius keep this
         share of what they have beyond it at the start; from 0 to below 1.
-    :param precision: the numbers that positions are stored in. With ``"f32"`` a coordinate that is
-        a float32 at both ends of the motion is one in ``points``, so that ``astype(np.float32)``
-        changes nothing, and what is stored keeps what is said. There is less room: two sides that
-        are nearer than some 2**-21 of their coordinates may be :attr:`Blocked.NEAR`.
+    :param precision: the numbers that positions are stored in. With ``"f32"`` and float32
+        coordinates at the start, those of ``points`` are float32 too: ``astype(np.float32)``
+        changes nothing, and the guarantee is about these numbers. The end may have more digits, as
+        it is rounded to float32 first. There is less room: two sides that are nearer than some
+        2**-21 of their coordinates, beyond what they keep, may be :attr:`Blocked.NEAR`.
     :raises ValueError: as :func:`decide`, for a clearance or a share that means nothing, and for
         another precision.
 

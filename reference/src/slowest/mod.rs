@@ -14,7 +14,7 @@ use tunnelproof::query::Query;
 
 use crate::generate::{Family, stream};
 use crate::shape::Shape;
-use crate::subject::{NoAnswer, Subject};
+use crate::subject::{LapseKind, NoAnswer, Subject};
 
 mod change;
 
@@ -163,13 +163,15 @@ fn cost_above<C: Copy + PartialOrd>(
     than.is_none_or(|than| least > than).then_some(least)
 }
 
-/// How long a subject takes for its answer, or to fail; `None` for a query that it does not take.
+/// How long a subject takes for its answer, or is waited for; `None` for a query that it does not take
+/// or fails on in another way: a program that crashes is started again, which is no time of its own.
 pub fn time(subject: &dyn Subject, query: &Query) -> Option<Duration> {
     let start = Instant::now();
     let answers = subject.answers(std::slice::from_ref(query));
     let time = start.elapsed();
-    match answers.first() {
-        Some(Err(NoAnswer::Unsupported(_))) | None => None,
-        Some(_) => Some(time),
+    match answers.first()? {
+        Ok(_) => Some(time),
+        Err(NoAnswer::Lapse(lapse)) if lapse.kind == LapseKind::Hung => Some(time),
+        Err(_) => None,
     }
 }

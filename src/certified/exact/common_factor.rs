@@ -37,8 +37,8 @@ pub(super) fn common_factor<const N: usize>(p: &Poly<N>, q: &Poly<N>) -> Option<
     by_moduli(p, q, Modulus::below_2_62())
 }
 
-/// A multiple of the polynomial divided by its greatest common divisor with its derivative: the same
-/// roots, each of them simple.
+/// A multiple, of either sign, of the polynomial divided by its greatest common divisor with its
+/// derivative: the same roots, each of them simple.
 pub(super) fn square_free<const N: usize>(poly: Poly<N>) -> Poly<N> {
     let derivative = poly.derivative();
     if derivative.is_zero() || are_coprime(&poly, &derivative) {
@@ -65,8 +65,8 @@ fn by_moduli<const N: usize>(
 ) -> Option<Common<N>> {
     let leading = p.coefficients().last()?;
     let mut lifted: Option<Lifted> = None;
-    // Ends: the moduli do. All but those with one of finitely many prime factors leave the degree as
-    // it is, and soon the coefficients are those of the divisor.
+    // Ends: the moduli do. Those that are primes have no factor in common, there are millions, and all
+    // but finitely many leave the degree as it is. Soon the coefficients are those of the divisor.
     for modulus in moduli {
         let [own, other] = [p, q].map(|poly| residues(modulus, poly));
         let factor = own.last().copied()?;

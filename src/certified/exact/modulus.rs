@@ -45,10 +45,11 @@ impl Modulus {
         limbs.iter().rev().fold(0, join) % self.modulus
     }
 
-    /// A number of 64 bits that is the same modulo the number as one below `2^97`.
+    /// A number of 64 bits that is the same modulo the number as one below `2^96 + 2^64`.
     fn folded(self, value: u128) -> u64 {
-        // Below 2^65, as the upper limb is below 2^33 - 1 and the factor below 2^32; then below
-        // 2^64 + 2^32; and what is left, if that is 2^64 or more, is below 2^33.
+        // The upper limb is at most 2^32 and the factor below that, so the first turn leaves less
+        // than 2^65; the second one less than 2^64 + 2^32; and what is left of that, if it is 2^64 or
+        // more, is below 2^32.
         let twice = self.fold_once(self.fold_once(value));
         twice as u64 + (twice >> 64) as u64 * self.fold
     }
