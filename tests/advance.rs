@@ -326,13 +326,13 @@ fn advance_that_moves_nothing_is_no_step() {
     let p = Point::new;
     let face = [p(0., 0., 0.), p(1., 0., 0.), p(0., 1., 0.)];
     let start = [
-        p(0.25, 0.25, 1.00000011920928955),
+        p(0.25, 0.25, 1.000_000_119_209_289_6),
         face[0],
         face[1],
         face[2],
     ];
     let end = [p(0.25, 0.25, 1.), face[0], face[1], face[2]];
-    let query = VertexFace::new(start, end, 1.00000003576278687).unwrap();
+    let query = VertexFace::new(start, end, 1.000_000_035_762_787).unwrap();
     let moved = advance_in(&query, Clearance::None, Precision::F32).unwrap();
     let expected = (0.0, start, None, Some(Blocked::Near));
     assert_eq!(

@@ -67,7 +67,7 @@ fn advance<Q: Query>(
     }
 }
 
-/// Reads the arguments of a query.
+/// Reads the arguments of a query, and writes the answer.
 ///
 /// # Safety
 ///
@@ -75,7 +75,7 @@ fn advance<Q: Query>(
 unsafe fn advance_at<Q: Query>(
     points: *const f64,
     radii: *const f64,
-    clearance: Option<Clearance>,
+    [distance, share]: [f64; 2],
     precision: Precision,
     out: *mut Advance,
 ) -> i32 {
@@ -89,7 +89,8 @@ unsafe fn advance_at<Q: Query>(
         return NULL;
     };
     let radii = radii.copied().unwrap_or_default();
-    match advance::<Q>(points, radii, clearance, precision) {
+    let advance = || advance::<Q>(points, radii, clearance(distance, share), precision);
+    match with_default(advance) {
         Ok(advance) => out.write(advance).blocked,
         Err(refused) => refused,
     }
@@ -108,11 +109,8 @@ pub unsafe extern "C" fn tunnelproof_advance_edge_edge(
     share: f64,
     advance: *mut Advance,
 ) -> i32 {
-    let clearance = || clearance(distance, share);
     // SAFETY: the caller's promise is the same.
-    with_default(|| unsafe {
-        advance_at::<EdgeEdge>(points, radii, clearance(), Precision::F64, advance)
-    })
+    unsafe { advance_at::<EdgeEdge>(points, radii, [distance, share], Precision::F64, advance) }
 }
 
 /// `tunnelproof_advance_vertex_face`.
@@ -128,11 +126,8 @@ pub unsafe extern "C" fn tunnelproof_advance_vertex_face(
     share: f64,
     advance: *mut Advance,
 ) -> i32 {
-    let clearance = || clearance(distance, share);
     // SAFETY: the caller's promise is the same.
-    with_default(|| unsafe {
-        advance_at::<VertexFace>(points, radii, clearance(), Precision::F64, advance)
-    })
+    unsafe { advance_at::<VertexFace>(points, radii, [distance, share], Precision::F64, advance) }
 }
 
 /// `tunnelproof_advance_edge_edge_f32`.
@@ -148,11 +143,8 @@ pub unsafe extern "C" fn tunnelproof_advance_edge_edge_f32(
     share: f64,
     advance: *mut Advance,
 ) -> i32 {
-    let clearance = || clearance(distance, share);
     // SAFETY: the caller's promise is the same.
-    with_default(|| unsafe {
-        advance_at::<EdgeEdge>(points, radii, clearance(), Precision::F32, advance)
-    })
+    unsafe { advance_at::<EdgeEdge>(points, radii, [distance, share], Precision::F32, advance) }
 }
 
 /// `tunnelproof_advance_vertex_face_f32`.
@@ -168,9 +160,6 @@ pub unsafe extern "C" fn tunnelproof_advance_vertex_face_f32(
     share: f64,
     advance: *mut Advance,
 ) -> i32 {
-    let clearance = || clearance(distance, share);
     // SAFETY: the caller's promise is the same.
-    with_default(|| unsafe {
-        advance_at::<VertexFace>(points, radii, clearance(), Precision::F32, advance)
-    })
+    unsafe { advance_at::<VertexFace>(points, radii, [distance, share], Precision::F32, advance) }
 }

@@ -535,20 +535,11 @@ pub unsafe extern "C" fn tunnelproof_mesh_step(
     out: *mut Step,
     error: *mut Error,
 ) -> i32 {
-    with_default(|| {
-        // SAFETY: the caller's promise is the same.
-        let stepped = unsafe {
-            step(
-                mesh,
-                motion,
-                clearance(distance, share),
-                Precision::F64,
-                out,
-            )
-        };
-        // SAFETY: the caller's promise is the same.
-        unsafe { answered(stepped, error) }
-    })
+    let clearance = || clearance(distance, share);
+    // SAFETY: the caller's promise is the same.
+    let step = || unsafe { step(mesh, motion, clearance(), Precision::F64, out) };
+    // SAFETY: the caller's promise is the same.
+    with_default(|| unsafe { answered(step(), error) })
 }
 
 /// `tunnelproof_mesh_step_f32`.
@@ -565,20 +556,11 @@ pub unsafe extern "C" fn tunnelproof_mesh_step_f32(
     out: *mut Step,
     error: *mut Error,
 ) -> i32 {
-    with_default(|| {
-        // SAFETY: the caller's promise is the same.
-        let stepped = unsafe {
-            step(
-                mesh,
-                motion,
-                clearance(distance, share),
-                Precision::F32,
-                out,
-            )
-        };
-        // SAFETY: the caller's promise is the same.
-        unsafe { answered(stepped, error) }
-    })
+    let clearance = || clearance(distance, share);
+    // SAFETY: the caller's promise is the same.
+    let step = || unsafe { step(mesh, motion, clearance(), Precision::F32, out) };
+    // SAFETY: the caller's promise is the same.
+    with_default(|| unsafe { answered(step(), error) })
 }
 
 /// Reads the arguments of a step, and writes what is answered.

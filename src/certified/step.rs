@@ -232,13 +232,12 @@ pub fn advance_in<K: Kind>(
 ) -> Result<Advance, ClearanceError> {
     debug_assert_eq!(environment::check(), Ok(()));
     let clearance = clearance.checked()?;
-    let start = query.start();
     let end = query.end().map(|point| point.map(|x| precision.target(x)));
-    let positions = Positions::of(start, &end);
+    let positions = Positions::of(query.start(), &end);
     let (step, kept, blocked) = furthest::<K>(&positions, query.radius(), clearance, precision);
     Ok(Advance {
         step,
-        points: std::array::from_fn(|i| interpolate_in(&start[i], &end[i], step, precision)),
+        points: positions.stored(step, precision).map(Point::from),
         kept,
         blocked,
     })
@@ -272,6 +271,13 @@ pub(crate) fn stored(
     precision: Precision,
 ) -> [f64; 3] {
     [0, 1, 2].map(|i| coordinate_in(start[i], end[i], step, precision))
+}
+
+impl Positions {
+    /// The positions to store at a step.
+    fn stored(&self, step: f64, precision: Precision) -> [[f64; 3]; 4] {
+        std::array::from_fn(|i| stored(&self.start[i], &self.end[i], step, precision))
+    }
 }
 
 #[inline(always)]
@@ -462,11 +468,9 @@ pub(crate) fn is_apart_until<K: Kind>(
     step: f64,
     precision: Precision,
 ) -> bool {
-    let Positions { start, end } = positions;
-    let at = |i: usize| stored(&start[i], &end[i], step, precision);
     let stored = Positions {
-        start: *start,
-        end: [at(0), at(1), at(2), at(3)],
+        start: positions.start,
+        end: positions.stored(step, precision),
     };
     first_toi::<K>(&stored, kept).is_none()
 }
@@ -498,8 +502,7 @@ fn furthest<K: Kind>(
         is_short,
         ..
     } = limit;
-    let Positions { start, end } = positions;
-    let moves = |step: f64| (0..4).any(|i| stored(&start[i], &end[i], step, precision) != start[i]);
+    let moves = |step: f64| positions.stored(step, precision) != positions.start;
     let is_proved = until > 0.0 && moves(until);
     let ahead = (until, Some(kept), Some(Blocked::Ahead));
     if is_proved && !is_short {

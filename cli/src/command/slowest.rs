@@ -46,7 +46,7 @@ pub(super) struct Slowest {
     programs: Programs,
     #[command(flatten)]
     permit: Permit,
-    /// Families of queries that climbs begin at; by default all of linear motion
+    /// Families of queries that searches begin at; by default all of linear motion
     #[arg(long, value_delimiter = ',', value_parser = family())]
     family: Vec<&'static Family>,
     /// How many slow queries to find, by as many searches
@@ -83,7 +83,8 @@ impl Slowest {
         }
         let asked = search.asked();
         let found = search.costliest();
-        if found.is_empty() {
+        let is_stopped = stop.load(Ordering::Relaxed);
+        if found.is_empty() && !is_stopped {
             eprintln!("{} answers no query of these families", subject.name());
             return Ok(ExitCode::FAILURE);
         }
@@ -103,7 +104,7 @@ impl Slowest {
             };
             eprintln!("{id}: {cost:.2?}, {judged}");
         }
-        match stop.load(Ordering::Relaxed) {
+        match is_stopped {
             true => Ok(interrupted()),
             false => Ok(ExitCode::SUCCESS),
         }

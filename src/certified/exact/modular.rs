@@ -78,4 +78,4 @@ fn trim(p: &mut Residues) {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -1,14 +1,7 @@
 use proptest::prelude::*;
 
+use super::super::modular::tests::poly;
 use super::*;
-
-fn poly(coefficients: &[i64]) -> Poly<0> {
-    let coefficients: Vec<_> = coefficients
-        .iter()
-        .map(|&c| Integer::from(i128::from(c)))
-        .collect();
-    Poly::new(&coefficients)
-}
 
 /// Whether they are multiples of each other.
 fn are_multiples(p: &Poly<0>, q: &Poly<0>) -> bool {

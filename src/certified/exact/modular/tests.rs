@@ -3,7 +3,8 @@ use proptest::prelude::*;
 use super::super::remainders::Remainders;
 use super::*;
 
-fn poly(coefficients: &[i64]) -> Poly<0> {
+/// A polynomial without coefficients in place.
+pub(in super::super) fn poly(coefficients: &[i64]) -> Poly<0> {
     let coefficients: Vec<_> = coefficients
         .iter()
         .map(|&c| Integer::from(i128::from(c)))

@@ -1,15 +1,8 @@
 use num_bigint::BigInt;
 use proptest::prelude::*;
 
+use super::super::modular::tests::poly;
 use super::*;
-
-fn poly(coefficients: &[i64]) -> Poly<0> {
-    let coefficients: Vec<_> = coefficients
-        .iter()
-        .map(|&c| Integer::from(i128::from(c)))
-        .collect();
-    Poly::new(&coefficients)
-}
 
 fn times(a: &[i64], b: &[i64]) -> Vec<i64> {
     let mut product = vec![0; a.len() + b.len() - 1];
