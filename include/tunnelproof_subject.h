@@ -36,6 +36,29 @@ TUNNELPROOF_EXPORT int tunnelproof_edge_edge(const double points[24], const doub
 /* The same of a vertex A and a face BCD. */
 TUNNELPROOF_EXPORT int tunnelproof_vertex_face(const double points[24], const double radius[2], double *toi);
 
+/*
+ * The same where bodies turn. A body is points in its own frame (local) and two poses: x y z of its centre and w x y z of a
+ * quaternion, at the start of the step and at its end, by a turn of at most 90 degrees. In between, centre and quaternion each move on a
+ * straight line; the quaternion is taken for the orientation of its direction, and with the sign at the end that makes the turn
+ * the shorter one. It need not have length 1. radius and toi: as above.
+ */
+
+/* An edge AB, by its ends at the start and at the end, and an edge of a body. */
+TUNNELPROOF_EXPORT int tunnelproof_edge_turning_edge(const double points[12], const double local[6], const double poses[14],
+                                                     const double radius[2], double *toi);
+
+/* A vertex A, at the start and at the end, and a face of a body. */
+TUNNELPROOF_EXPORT int tunnelproof_vertex_turning_face(const double points[6], const double local[9], const double poses[14],
+                                                       const double radius[2], double *toi);
+
+/* An edge of one body and an edge of another one. local: the ends of the first, then of the second; poses: the same. */
+TUNNELPROOF_EXPORT int tunnelproof_turning_edge_turning_edge(const double local[12], const double poses[28],
+                                                             const double radius[2], double *toi);
+
+/* A vertex of one body and a face of another one. */
+TUNNELPROOF_EXPORT int tunnelproof_turning_vertex_turning_face(const double local[12], const double poses[28],
+                                                               const double radius[2], double *toi);
+
 /* The shapes of a cast. */
 #define TUNNELPROOF_SPHERE 0
 #define TUNNELPROOF_SEGMENT 1

@@ -2,7 +2,7 @@
 
 use tunnelproof::rigid::RigidQuery;
 use tunnelproof_reference::answer::ExactAnswer;
-use tunnelproof_reference::generate::{RIGID_FAMILIES, RigidFamily};
+use tunnelproof_reference::generate::{RigidFamily, all_rigid};
 use tunnelproof_reference::oracle::decide_rigid_query;
 use tunnelproof_reference::{difference, field};
 
@@ -22,9 +22,7 @@ fn seed() -> u64 {
 /// The families to judge; `TUNNELPROOF_RIGID_FAMILIES` names those whose names contain it.
 fn families() -> impl Iterator<Item = &'static RigidFamily> {
     let asked = std::env::var("TUNNELPROOF_RIGID_FAMILIES").unwrap_or_default();
-    RIGID_FAMILIES
-        .iter()
-        .filter(move |family| family.name().contains(&asked))
+    all_rigid().filter(move |family| family.name().contains(&asked))
 }
 
 fn second(query: &RigidQuery) -> ExactAnswer {

@@ -24,7 +24,7 @@ use tunnelproof_reference::subject::Subject;
 use super::certificate::Certificate;
 use super::resume::Resumed;
 use super::sources::{AnyFamily, any_family, of_files};
-use super::subjects::{Answering, AskedList, Permit, Programs, asked_list};
+use super::subjects::{Answering, AskedList, Permit, Programs, asked_list, check_turning};
 use super::{Failure, Reading, output, progress};
 
 /// Judge subjects against the exact answer
@@ -220,8 +220,7 @@ impl Certify {
         };
         self.permit.grant(&mut answering)?;
         if self.turning || self.family.iter().any(AnyFamily::turns) {
-            self.permit.refuse_near()?;
-            self.programs.check_turning(&answering)?;
+            check_turning(&answering)?;
         }
         Ok(answering)
     }

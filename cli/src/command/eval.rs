@@ -15,7 +15,7 @@ use tunnelproof_reference::subject::Subject;
 
 use super::output::standard_output;
 use super::sources::of_files;
-use super::subjects::{Asked, Programs, asked};
+use super::subjects::{Asked, Programs, asked, check_turning};
 use super::{Failure, Reading};
 
 /// Answer every query of files, a line of JSON each
@@ -80,7 +80,7 @@ impl Eval {
     /// The same of bodies that turn.
     fn run_turning(self) -> Result<ExitCode, Failure> {
         let answering = self.programs.start(&self.subject)?;
-        self.programs.check_turning(slice::from_ref(&answering))?;
+        check_turning(slice::from_ref(&answering))?;
         let mut output = BufWriter::new(io::stdout().lock());
         for path in &self.files {
             map_chunks_in_order(

@@ -15,7 +15,7 @@ use tunnelproof_reference::report::boxes;
 use tunnelproof_reference::report::explanation::Explanation;
 
 use super::output::{OutputFile, print};
-use super::subjects::{Answering, AskedList, Programs, asked_list};
+use super::subjects::{Answering, AskedList, Programs, asked_list, check_turning};
 use super::{Failure, Reading, certify};
 
 /// Explain the exact answer to one query, and what every subject says
@@ -96,7 +96,7 @@ impl Explain {
             file.write(&picture::draw_turning(&entry.id, &entry.query, &answer))?;
         }
         let more = self.programs.start_all(&self.subject)?;
-        self.programs.check_turning(&more)?;
+        check_turning(&more)?;
         let programs = more.iter().filter(|more| more.program().is_some());
         let subjects = registry::turning_subjects().into_iter();
         let subjects = subjects.chain(programs.map(Answering::subject));

@@ -16,7 +16,7 @@ use tunnelproof_reference::registry;
 use tunnelproof_reference::shrink::{Disagreement, MOST_CALLS, Shrunk, Truth};
 
 use super::output::print;
-use super::subjects::{Asked, Permit, Programs, asked};
+use super::subjects::{Asked, Permit, Programs, asked, check_turning};
 use super::{Failure, Reading};
 
 /// Find the smallest query on which a subject is wrong in the same way
@@ -70,8 +70,7 @@ impl Shrink {
         let mut answering = self.programs.start(&self.subject)?;
         self.permit.grant(slice::from_mut(&mut answering))?;
         if self.is_turning() {
-            self.permit.refuse_near()?;
-            self.programs.check_turning(slice::from_ref(&answering))?;
+            check_turning(slice::from_ref(&answering))?;
         }
         let disagreement = Disagreement {
             subject: answering.subject(),

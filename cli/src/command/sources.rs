@@ -6,7 +6,7 @@ use tunnelproof_cli::sweep::{Domain, DomainError, Precision};
 use tunnelproof_reference::certify::source::{AnySource, Source, TurningSource};
 use tunnelproof_reference::corpus::folder;
 use tunnelproof_reference::generate::{
-    self, FAMILIES, Family, RIGID_FAMILIES, RigidFamily, rigid_by_name,
+    self, FAMILIES, Family, RigidFamily, all_rigid, rigid_by_name,
 };
 
 use super::{Failure, Reading};
@@ -149,7 +149,7 @@ impl AnyFamily {
 }
 
 pub(super) fn any_family() -> impl TypedValueParser<Value = AnyFamily> {
-    let turning = RIGID_FAMILIES.iter().map(RigidFamily::name);
+    let turning = all_rigid().map(RigidFamily::name);
     PossibleValuesParser::new(generate::all().map(Family::name).chain(turning)).try_map(|name| {
         let linear = generate::by_name(&name).map(AnyFamily::Linear);
         let turning = || rigid_by_name(&name).map(AnyFamily::Turning);

@@ -60,6 +60,26 @@ const COMMAND: &str = "cmd:";
 /// library in it.
 const LIBRARY: &str = "lib:";
 
+/// That these can be asked about bodies that turn.
+///
+/// # Errors
+///
+/// A subject that is known to take none.
+pub(super) fn check_turning(answering: &[Answering]) -> Result<(), Failure> {
+    let takers = registry::turning_subjects().map(|subject| subject.name());
+    let mut names = answering.iter().map(|one| one.subject().name());
+    match names.find(|name| registry::by_name(name).is_some() && !takers.contains(name)) {
+        None => Ok(()),
+        Some(name) => Err(Failure::Program {
+            name: name.to_owned(),
+            reason: format!(
+                "takes no queries of bodies that turn; {} do, and programs (cmd:, lib:)",
+                takers.join(", ")
+            ),
+        }),
+    }
+}
+
 /// The command of a process that hosts a library, which is seen to have what it needs.
 fn hosted(path: &str, time_limit: Duration) -> Result<Command, String> {
     if path.is_empty() {
@@ -117,42 +137,6 @@ impl Programs {
         Ok(Answering::Program(Box::new(program)))
     }
 
-    /// That the programs among these can be asked about bodies that turn.
-    ///
-    /// # Errors
-    ///
-    /// A subject that is known to take none, a library, or a program that reads the binary form.
-    pub(super) fn check_turning(&self, answering: &[Answering]) -> Result<(), Failure> {
-        let takers = registry::turning_subjects().map(|subject| subject.name());
-        for name in answering.iter().map(|one| one.subject().name()) {
-            if registry::by_name(name).is_some() && !takers.contains(&name) {
-                return Err(Failure::Program {
-                    name: name.to_owned(),
-                    reason: format!(
-                        "takes no queries of bodies that turn; {} do, and programs (cmd:)",
-                        takers.join(", ")
-                    ),
-                });
-            }
-        }
-        let mut programs = answering.iter().filter_map(Answering::program);
-        let refused = programs.find_map(|program| {
-            let name = program.name();
-            let reason = match name.starts_with(LIBRARY) {
-                true => "a library is asked no queries of bodies that turn",
-                false if self.wire != Wire::Lines => {
-                    "queries of bodies that turn are asked in lines alone"
-                }
-                false => return None,
-            };
-            Some(Failure::Program {
-                name: name.to_owned(),
-                reason: reason.to_owned(),
-            })
-        });
-        refused.map_or(Ok(()), Err)
-    }
-
     /// That a program can be asked casts of boxes.
     ///
     /// # Errors
@@ -204,17 +188,6 @@ impl Permit {
             }
         }
         is_granted.then_some(()).ok_or(Failure::Permit)
-    }
-
-    /// That no hit may be near: nobody measures the gap of bodies that turn.
-    pub(super) fn refuse_near(self) -> Result<(), Failure> {
-        match self.permit {
-            Some(Tolerance { near, .. }) if near > 0.0 => Err(Failure::File {
-                path: "--permit near".to_owned(),
-                problem: "is not for bodies that turn".to_owned(),
-            }),
-            _ => Ok(()),
-        }
     }
 
     /// The value of the option, to be written.

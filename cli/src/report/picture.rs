@@ -309,7 +309,7 @@ mod tests {
     use tunnelproof_reference::figures::FIGURES;
 
     use super::*;
-    use tunnelproof_reference::generate::{FAMILIES, OTHER_KINDS, RIGID_FAMILIES};
+    use tunnelproof_reference::generate::{FAMILIES, OTHER_KINDS, all_rigid};
     use tunnelproof_reference::oracle::{decide_query, decide_rigid_query};
 
     /// Every number in the picture's geometry, and whether the document is well-formed.
@@ -349,7 +349,7 @@ mod tests {
 
     #[test]
     fn picture_of_bodies_that_turn_has_an_arc_for_each_point() {
-        for family in RIGID_FAMILIES {
+        for family in all_rigid() {
             for index in 0..4 {
                 let query = family.query(5, index);
                 let svg = draw_turning("turning", &query, &decide_rigid_query(&query));

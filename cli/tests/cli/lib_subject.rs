@@ -48,6 +48,39 @@ int tunnelproof_vertex_face(const double points[24], const double radius[2], dou
     *toi = -*toi;
     return TUNNELPROOF_HIT;
 }
+
+/* Lists of these lengths. */
+static int weigh_lists(const double *const lists[], const int lengths[], int count, double sign, double *toi) {
+    double sum = 0, weight = 1;
+    for (int list = 0; list < count; ++list)
+        for (int i = 0; i < lengths[list]; ++i) sum += weight++ * lists[list][i];
+    *toi = sign * sum;
+    return TUNNELPROOF_HIT;
+}
+int tunnelproof_edge_turning_edge(const double points[12], const double local[6], const double poses[14],
+                                  const double radius[2], double *toi) {
+    const double *const lists[] = {radius, points, local, poses};
+    const int lengths[] = {2, 12, 6, 14};
+    return weigh_lists(lists, lengths, 4, 1, toi);
+}
+int tunnelproof_vertex_turning_face(const double points[6], const double local[9], const double poses[14],
+                                    const double radius[2], double *toi) {
+    const double *const lists[] = {radius, points, local, poses};
+    const int lengths[] = {2, 6, 9, 14};
+    return weigh_lists(lists, lengths, 4, -1, toi);
+}
+int tunnelproof_turning_edge_turning_edge(const double local[12], const double poses[28], const double radius[2],
+                                          double *toi) {
+    const double *const lists[] = {radius, local, poses};
+    const int lengths[] = {2, 12, 28};
+    return weigh_lists(lists, lengths, 3, 2, toi);
+}
+int tunnelproof_turning_vertex_turning_face(const double local[12], const double poses[28], const double radius[2],
+                                            double *toi) {
+    const double *const lists[] = {radius, local, poses};
+    const int lengths[] = {2, 12, 28};
+    return weigh_lists(lists, lengths, 3, -2, toi);
+}
 "#;
 
 /// A library of this source in a folder; the header has to compile without a warning.
@@ -167,6 +200,57 @@ fn library_is_given_every_number_in_its_place() {
             assert_eq!(answer["toi"]["below"].as_f64(), Some(expected), "{id}");
         }
     }
+}
+
+#[test]
+fn library_is_given_every_number_of_bodies_that_turn() {
+    use tunnelproof::rigid::RigidQueryKind;
+    use tunnelproof_reference::corpus::jsonl::Numbers;
+    use tunnelproof_reference::corpus::turning::{self, Fields, TurningEntry};
+
+    let folder = tempfile::tempdir().unwrap();
+    let library = library(folder.path(), "echo", ECHO);
+    let mut kinds = Vec::new();
+    for name in ["turning_thick_lattice", "turning_bodies_thick_lattice"] {
+        let family = tunnelproof_reference::generate::rigid_by_name(name).unwrap();
+        for query in (0..6).map(|index| family.query(1, index)) {
+            let fields = Fields::of(&query);
+            let radii = query.radius().parts();
+            let points = fields.points.iter().chain(&fields.local).flatten();
+            let numbers = radii.iter().chain(points);
+            let numbers = numbers.chain(fields.poses.iter().flatten());
+            let weighted = (1..).zip(numbers).map(|(i, x)| f64::from(i) * x);
+            let sum = weighted.fold(0.0, |sum, x| sum + x);
+            let sign = match query.kind() {
+                RigidQueryKind::EdgeTurningEdge => 1.0,
+                RigidQueryKind::VertexTurningFace => -1.0,
+                RigidQueryKind::TurningEdgeTurningEdge => 2.0,
+                RigidQueryKind::TurningVertexTurningFace => -2.0,
+            };
+            kinds.push(query.kind());
+            let entry = TurningEntry {
+                id: "a".to_owned(),
+                query,
+                label: None,
+            };
+            let file = folder.path().join("query.jsonl");
+            fs::write(&file, turning::write(&entry, Numbers::Decimal)).unwrap();
+            let subject = format!("lib:{library}");
+            let file = file.to_str().unwrap();
+            let output = tunnelproof(&["eval", "--turning", "--subject", &subject, file]);
+            let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
+            let toi = answer["toi"]["below"].as_f64();
+            assert_eq!(toi, Some(sign * sum), "{entry:?}: {answer}");
+        }
+    }
+    kinds.sort_unstable();
+    kinds.dedup();
+    assert_eq!(kinds, RigidQueryKind::ALL);
+    // A library without these functions does not take such queries.
+    let mute = self::library(folder.path(), "mute", MUTE);
+    let result = certified(folder.path(), &mute, "turning_bodies_lattice");
+    let subject = &result["total"]["subjects"][0];
+    assert_eq!(subject["taken"].as_array().unwrap().len(), 0, "{subject}");
 }
 
 #[test]

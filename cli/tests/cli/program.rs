@@ -262,14 +262,10 @@ fn certify_of_bodies_that_turn_refuses_what_it_cannot_do() {
         assert_eq!(code(&output), 2, "{more:?}");
         assert!(stderr(&output).contains(what), "{}", stderr(&output));
     };
-    refused(
-        &["--subject", "cmd:cat", "--wire", "binary"],
-        "in lines alone",
-    );
     refused(&["--subject", "lib:./none.so"], "lib:./none.so");
     refused(
-        &["--subject", "cmd:cat", "--permit", "near=1e-9"],
-        "is not for bodies that turn",
+        &["--subject", "thesis"],
+        "takes no queries of bodies that turn",
     );
 }
 

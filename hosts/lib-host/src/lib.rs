@@ -15,6 +15,20 @@ use tunnelproof_float_env::{Control, with_own};
 /// `tunnelproof_edge_edge` and `tunnelproof_vertex_face`.
 type Answer = unsafe extern "C" fn(*const [f64; 24], *const [f64; 2], *mut f64) -> c_int;
 
+/// `tunnelproof_edge_turning_edge` and `tunnelproof_vertex_turning_face`: points, points of the body,
+/// its poses.
+type TurningAnswer = unsafe extern "C" fn(
+    *const f64,
+    *const f64,
+    *const [f64; 14],
+    *const [f64; 2],
+    *mut f64,
+) -> c_int;
+
+/// `tunnelproof_turning_edge_turning_edge` and `tunnelproof_turning_vertex_turning_face`.
+type BodiesAnswer =
+    unsafe extern "C" fn(*const [f64; 12], *const [f64; 28], *const [f64; 2], *mut f64) -> c_int;
+
 /// `tunnelproof_box_cast`.
 type CastAnswer =
     unsafe extern "C" fn(*const [c_int; 2], *const [f64; 30], *const [f64; 2], *mut f64) -> c_int;
@@ -23,6 +37,9 @@ type CastAnswer =
 const QUERY: usize = 224;
 /// The bytes of a cast of a box after those of its length.
 const CAST: usize = 272;
+/// The bytes of queries of bodies that turn after those of the length: of an edge and a body, a vertex
+/// and a body, and two bodies.
+const TURNING: [usize; 3] = [288, 264, 352];
 /// The bytes of an answer after those of its length.
 const ANSWER: u32 = 24;
 /// The answer to queries of a kind that the library does not take.
@@ -30,6 +47,18 @@ const UNSUPPORTED: c_int = 2;
 
 /// The names of the functions, by the number of the kind of query.
 const FUNCTIONS: [&str; 2] = ["tunnelproof_edge_edge", "tunnelproof_vertex_face"];
+
+/// Those of an edge and of a vertex against a body that turns.
+const TURNING_FUNCTIONS: [&str; 2] = [
+    "tunnelproof_edge_turning_edge",
+    "tunnelproof_vertex_turning_face",
+];
+
+/// Those of two bodies that turn.
+const BODIES_FUNCTIONS: [&str; 2] = [
+    "tunnelproof_turning_edge_turning_edge",
+    "tunnelproof_turning_vertex_turning_face",
+];
 
 /// The name of the function that answers casts of boxes.
 const CAST_FUNCTION: &str = "tunnelproof_box_cast";
@@ -44,6 +73,8 @@ const OWN_FUNCTIONS: [&str; 2] = [
 /// A shared library that answers queries.
 pub struct Host {
     functions: [Option<Answer>; 2],
+    turning: [Option<TurningAnswer>; 2],
+    bodies: [Option<BodiesAnswer>; 2],
     cast: Option<CastAnswer>,
     /// The floating-point environment that the library has set for itself, as one that is linked
     /// with `-ffast-math` does when it is loaded: it answers in this one, as in the user's program.
@@ -86,14 +117,13 @@ impl Host {
         // do, they do in a process that has nothing to lose. Nothing else runs there.
         let library = unsafe { with_own(&mut environment, || Library::new(path)) };
         let library = library.map_err(HostError::Load)?;
-        let find = |names: [&str; 2]| {
-            names.map(|name| {
-                // SAFETY: the header gives these names this type, and the library says by them that
-                // it keeps to the header; our own library has these.
-                let function = unsafe { library.get::<Answer>(name.as_bytes()) };
-                function.ok().map(|function| *function)
-            })
-        };
+        // SAFETY: the header gives these names this type, and the library says by them that it keeps
+        // to the header; our own library has these.
+        let find = |names: [&str; 2]| names.map(|name| unsafe { symbol::<Answer>(&library, name) });
+        // SAFETY: as above, each with the type that the header gives it.
+        let turning = TURNING_FUNCTIONS.map(|name| unsafe { symbol(&library, name) });
+        // SAFETY: as above.
+        let bodies = BODIES_FUNCTIONS.map(|name| unsafe { symbol(&library, name) });
         let mut functions = find(FUNCTIONS);
         // A library is searched together with those that it is linked with. One that is linked with
         // ours and has no functions of its own is not to be judged by ours.
@@ -101,11 +131,16 @@ impl Host {
             functions = find(OWN_FUNCTIONS);
         }
         // SAFETY: as above.
-        let cast = unsafe { library.get::<CastAnswer>(CAST_FUNCTION.as_bytes()) };
-        let cast = cast.ok().map(|function| *function);
-        match functions.iter().any(Option::is_some) || cast.is_some() {
+        let cast = unsafe { symbol::<CastAnswer>(&library, CAST_FUNCTION) };
+        let has_any = functions.iter().any(Option::is_some)
+            || turning.iter().any(Option::is_some)
+            || bodies.iter().any(Option::is_some)
+            || cast.is_some();
+        match has_any {
             true => Ok(Host {
                 functions,
+                turning,
+                bodies,
                 cast,
                 environment,
                 answers,
@@ -135,9 +170,12 @@ impl Host {
 
     fn answer(&mut self, query: &[u8]) -> Vec<u8> {
         let mut toi = f64::NAN;
-        let verdict = match query.len() {
-            QUERY => self.query(query, &mut toi),
-            _ => self.cast(query, &mut toi),
+        let verdict = match query[8] {
+            0 | 1 => self.query(query, &mut toi),
+            2 => self.cast(query, &mut toi),
+            3 => self.turning::<12, 6>(query, 0, &mut toi),
+            4 => self.turning::<6, 9>(query, 1, &mut toi),
+            _ => self.bodies(query, &mut toi),
         };
         let mut answer = ANSWER.to_le_bytes().to_vec();
         answer.extend(&query[..8]);
@@ -164,6 +202,55 @@ impl Host {
         }
     }
 
+    /// A query of `POINTS` coordinates in space and `LOCAL` in the body's frame.
+    fn turning<const POINTS: usize, const LOCAL: usize>(
+        &mut self,
+        query: &[u8],
+        function: usize,
+        toi: &mut f64,
+    ) -> c_int {
+        let radius: [f64; 2] = numbers(query, 0);
+        let points: [f64; POINTS] = numbers(query, 2);
+        let local: [f64; LOCAL] = numbers(query, 2 + POINTS);
+        let poses: [f64; 14] = numbers(query, 2 + POINTS + LOCAL);
+        let Some(function) = self.turning[function] else {
+            return UNSUPPORTED;
+        };
+        // SAFETY: as of a query, with five pointers.
+        unsafe {
+            with_own(&mut self.environment, || {
+                function(
+                    points.as_ptr(),
+                    local.as_ptr(),
+                    &raw const poses,
+                    &raw const radius,
+                    &raw mut *toi,
+                )
+            })
+        }
+    }
+
+    /// A query of two bodies that turn.
+    fn bodies(&mut self, query: &[u8], toi: &mut f64) -> c_int {
+        let radius: [f64; 2] = numbers(query, 0);
+        let local: [f64; 12] = numbers(query, 2);
+        let poses: [f64; 28] = numbers(query, 14);
+        let Some(function) = self.bodies[usize::from(query[8] == 6)] else {
+            return UNSUPPORTED;
+        };
+        // SAFETY: as of a query, with four pointers.
+        unsafe {
+            with_own(&mut self.environment, || {
+                function(
+                    &raw const local,
+                    &raw const poses,
+                    &raw const radius,
+                    &raw mut *toi,
+                )
+            })
+        }
+    }
+
     fn cast(&mut self, query: &[u8], toi: &mut f64) -> c_int {
         let shapes = [12, 14].map(|at| c_int::from(query[at]));
         let radius: [f64; 2] = numbers(query, 0);
@@ -182,6 +269,30 @@ impl Host {
                 )
             })
         }
+    }
+}
+
+/// The function of this name, if the library has it.
+///
+/// # Safety
+///
+/// If it has, the function is of this type.
+unsafe fn symbol<T: Copy>(library: &Library, name: &str) -> Option<T> {
+    // SAFETY: the caller's promise.
+    let function = unsafe { library.get::<T>(name.as_bytes()) };
+    function.ok().map(|function| *function)
+}
+
+/// The bytes of a query of this kind after those of its length; `None` if there is no such kind.
+fn length_of(kind: u8) -> Option<usize> {
+    let [edge, vertex, bodies] = TURNING;
+    match kind {
+        0 | 1 => Some(QUERY),
+        2 => Some(CAST),
+        3 => Some(edge),
+        4 => Some(vertex),
+        5 | 6 => Some(bodies),
+        _ => None,
     }
 }
 
@@ -205,7 +316,7 @@ impl fmt::Display for HostError {
                 let [edges, face] = FUNCTIONS;
                 write!(
                     f,
-                    "has neither {edges} nor {face} nor {CAST_FUNCTION}; include/tunnelproof_subject.h declares them"
+                    "has neither {edges} nor {face} nor another function that include/tunnelproof_subject.h declares"
                 )
             }
         }
@@ -225,19 +336,20 @@ fn names_own_functions(path: &str) -> bool {
     OWN_FUNCTIONS.iter().all(|name| is_named(name))
 }
 
-/// The next query, of one of the two lengths; `None` at the end.
+/// The next query, of the length of its kind; `None` at the end.
 fn read(queries: &mut impl Read) -> io::Result<Option<Vec<u8>>> {
     let mut length = [0; 4];
     if !fill(queries, &mut length)? {
         return Ok(None);
     }
     let length = u32::from_le_bytes(length) as usize;
-    if length != QUERY && length != CAST {
+    if !TURNING.contains(&length) && length != QUERY && length != CAST {
         return Err(io::ErrorKind::InvalidData.into());
     }
     let mut query = vec![0; length];
     match fill(queries, &mut query)? {
-        true => Ok(Some(query)),
+        true if length_of(query[8]) == Some(length) => Ok(Some(query)),
+        true => Err(io::ErrorKind::InvalidData.into()),
         false => Err(io::ErrorKind::UnexpectedEof.into()),
     }
 }

@@ -112,29 +112,27 @@ impl AnyQuery {
         }
     }
 
-    /// Whether the two come so near during the step. Of a body that turns nobody knows, and this is
-    /// `false`.
+    /// Whether the two come so near, beyond their radius, during the step.
     pub fn comes_within(&self, distance: f64) -> bool {
         match self {
             AnyQuery::Linear(query) => oracle::comes_within(query, distance),
-            AnyQuery::Turning(_) => false,
+            AnyQuery::Turning(query) => oracle::comes_within(query, distance),
         }
     }
 
-    /// About the least distance during the step; 0 for a body that turns, where it is not measured.
+    /// About the least distance during the step, beyond the radius.
     pub fn estimate_gap(&self) -> f64 {
         match self {
             AnyQuery::Linear(query) => oracle::estimate_gap(query),
-            AnyQuery::Turning(_) => 0.0,
+            AnyQuery::Turning(query) => oracle::estimate_gap(query),
         }
     }
 
-    /// The gap of a query ([`oracle::least_gap`]), rounded down to about three digits; 0 for a body
-    /// that turns, where it is not measured.
+    /// The gap of a query ([`oracle::least_gap`]), rounded down to about three digits.
     pub fn exact_gap(&self) -> f64 {
         match self {
             AnyQuery::Linear(query) => oracle::least_gap(query).below,
-            AnyQuery::Turning(_) => 0.0,
+            AnyQuery::Turning(query) => oracle::least_gap(query).below,
         }
     }
 
@@ -222,7 +220,8 @@ mod tests {
             let rigid = rigid_by_name(family).unwrap().query(1, index);
             let any = AnyQuery::from(rigid);
             assert_eq!(any.decide(), oracle::decide_rigid_query(&rigid));
-            assert!(any.turns() && !any.comes_within(1e9));
+            assert!(any.turns() && any.comes_within(1e9));
+            assert_eq!(any.comes_within(0.0), any.decide().hit.is_some());
             assert_eq!(
                 AnyQuery::parse(&any.line("a", Numbers::Hexadecimal)),
                 Ok(any)

@@ -19,7 +19,9 @@ pub use cast::CAST_FAMILIES;
 pub(crate) use cast::rotation as integer_rotation;
 use motion::Motion;
 pub(crate) use motion::vector as random_vector;
-pub use rigid::{RIGID_FAMILIES, RigidFamily, RigidId, rigid_by_name};
+pub use rigid::{
+    RIGID_FAMILIES, RigidFamily, RigidId, TURNING_CAST_FAMILIES, all_rigid, rigid_by_name,
+};
 
 mod cancellation;
 mod cast;

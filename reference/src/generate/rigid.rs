@@ -10,11 +10,14 @@ use super::{IdError, seed_and_index, stream};
 mod beside;
 mod bodies;
 mod brief;
+mod cast;
 mod draft;
 mod one;
 mod thick;
 
-/// Every family of bodies that turn.
+pub use cast::TURNING_CAST_FAMILIES;
+
+/// Every family of bodies that turn but those that are [cast](TURNING_CAST_FAMILIES).
 pub const RIGID_FAMILIES: &[RigidFamily] = &[
     RigidFamily {
         name: "turning_uniform",
@@ -106,9 +109,14 @@ impl RigidFamily {
     }
 }
 
+/// Every family of bodies that turn, in the order of tables.
+pub fn all_rigid() -> impl Iterator<Item = &'static RigidFamily> + Clone {
+    RIGID_FAMILIES.iter().chain(TURNING_CAST_FAMILIES)
+}
+
 /// The family with this name, if any.
 pub fn rigid_by_name(name: &str) -> Option<&'static RigidFamily> {
-    RIGID_FAMILIES.iter().find(|family| family.name == name)
+    all_rigid().find(|family| family.name == name)
 }
 
 /// The name of a generated query of a body that turns, written `FAMILY:SEED:INDEX`.

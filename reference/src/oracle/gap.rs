@@ -5,35 +5,104 @@
 //! follows by bisection, from a guess in floating point, which can cost time only.
 
 use nalgebra::Vector3;
-use tunnelproof::query::{Query, QueryKind};
+use tunnelproof::query::{Point, Query, QueryKind, Radius};
+use tunnelproof::rigid::RigidQuery;
 
 use crate::answer::Enclosure;
 use crate::field::{self, Integer};
 use crate::scaled::Scaled;
 
-use super::motion_of;
 use super::proximity::Proximity;
+use super::{motion_of, rigid};
+
+/// A query of two sides whose distance is measured: a [`Query`] or a [`RigidQuery`].
+pub trait Measured: private::Sides {}
+
+impl Measured for Query {}
+
+impl Measured for RigidQuery {}
+
+mod private {
+    use super::*;
+
+    /// What is known of the two sides.
+    pub trait Sides {
+        /// The square of their distance, exactly.
+        #[allow(private_interfaces, reason = "nobody outside can call it")]
+        fn proximity<Z: Integer>(&self) -> Proximity<Z>;
+
+        fn radius(&self) -> Radius;
+
+        fn shape(&self) -> QueryKind;
+
+        /// All four points at a time, rounded.
+        fn at(&self, t: f64) -> [Point; 4];
+    }
+}
+
+use private::Sides;
+
+impl Sides for Query {
+    #[allow(private_interfaces, reason = "nobody outside can call it")]
+    fn proximity<Z: Integer>(&self) -> Proximity<Z> {
+        let points = Scaled::new(self);
+        let motion = motion_of(self, &points);
+        Proximity::new(&*motion, points.exponent)
+    }
+
+    fn radius(&self) -> Radius {
+        self.radius()
+    }
+
+    fn shape(&self) -> QueryKind {
+        self.kind()
+    }
+
+    fn at(&self, t: f64) -> [Point; 4] {
+        let (start, end) = (self.start(), self.end());
+        [0, 1, 2, 3].map(|i| Point::from(start[i].coords * (1.0 - t) + end[i].coords * t))
+    }
+}
+
+impl Sides for RigidQuery {
+    #[allow(private_interfaces, reason = "nobody outside can call it")]
+    fn proximity<Z: Integer>(&self) -> Proximity<Z> {
+        rigid::proximity(self)
+    }
+
+    fn radius(&self) -> Radius {
+        self.radius()
+    }
+
+    fn shape(&self) -> QueryKind {
+        self.kind().linear()
+    }
+
+    fn at(&self, t: f64) -> [Point; 4] {
+        self.positions(t)
+    }
+}
 
 /// Whether the two sides come within `distance` metres more than the radius of the query of each
 /// other during the step, exactly; `distance` is finite and not negative.
-pub fn comes_within(query: &Query, distance: f64) -> bool {
+pub fn comes_within(query: &impl Measured, distance: f64) -> bool {
     Gap::<field::Default>::new(query).is_within(distance)
 }
 
 /// The gap in metres, between two `f64` that differ by less than one part in a thousand (or are
 /// neighbours).
-pub fn least_gap(query: &Query) -> Enclosure {
+pub fn least_gap(query: &impl Measured) -> Enclosure {
     enclose_gap(query, |below, above| above <= below * 1.001)
 }
 
 /// The gap in metres, between two `f64` that are at most `width` apart (or are neighbours).
-pub fn least_gap_to(query: &Query, width: f64) -> Enclosure {
+pub fn least_gap_to(query: &impl Measured, width: f64) -> Enclosure {
     enclose_gap(query, |below, above| above - below <= width)
 }
 
 /// The gap between two `f64` that are neighbours or near enough to each other. Infinite above if it
 /// is beyond the largest `f64`.
-fn enclose_gap(query: &Query, is_near_enough: impl Fn(f64, f64) -> bool) -> Enclosure {
+fn enclose_gap(query: &impl Measured, is_near_enough: impl Fn(f64, f64) -> bool) -> Enclosure {
     let gap = Gap::<field::Default>::new(query);
     if gap.is_within(0.0) {
         return Enclosure::exactly(0.0);
@@ -68,11 +137,9 @@ struct Gap<Z> {
 }
 
 impl<Z: Integer> Gap<Z> {
-    fn new(query: &Query) -> Self {
-        let points = Scaled::new(query);
-        let motion = motion_of(query, &points);
+    fn new(query: &impl Sides) -> Self {
         Gap {
-            proximity: Proximity::new(&*motion, points.exponent),
+            proximity: query.proximity(),
             radius: query.radius().parts(),
         }
     }
@@ -85,11 +152,10 @@ impl<Z: Integer> Gap<Z> {
 
 /// The gap in metres in floating point, by sampling and ternary search. Heuristic: to choose what
 /// to measure exactly.
-pub fn estimate_gap(query: &Query) -> f64 {
+pub fn estimate_gap(query: &impl Measured) -> f64 {
     let distance = |t: f64| {
-        let at = |i: usize| query.start()[i].coords * (1.0 - t) + query.end()[i].coords * t;
-        let points = [at(0), at(1), at(2), at(3)];
-        match query.kind() {
+        let points = query.at(t).map(|point| point.coords);
+        match query.shape() {
             QueryKind::EdgeEdge => distance_of_segments(&points),
             QueryKind::VertexFace => distance_of_face(&points),
         }
@@ -163,7 +229,9 @@ mod tests {
     use tunnelproof::query::{Point, Radius};
 
     use super::*;
-    use crate::oracle::decide;
+    use crate::difference;
+    use crate::generate::rigid_by_name;
+    use crate::oracle::{decide, decide_rigid_query};
 
     fn query(kind: QueryKind, points: [[f64; 3]; 8], radius: impl Into<Radius>) -> Query {
         let p = points.map(|[x, y, z]| Point::new(x, y, z));
@@ -263,6 +331,69 @@ mod tests {
             let gap = least_gap_to(&query, width);
             assert!(gap.above - gap.below <= width || gap.above == gap.below.next_up());
             assert!(!comes_within(&query, gap.below) && comes_within(&query, gap.above));
+        }
+    }
+
+    /// By the second judge, which shares nothing with the first: the gap is the radius at which a
+    /// miss becomes a hit.
+    #[test]
+    fn least_gap_of_bodies_that_turn_is_where_the_second_judge_hits() {
+        for name in [
+            "turning_uniform",
+            "turning_lattice",
+            "turning_bodies_uniform",
+        ] {
+            let family = rigid_by_name(name).unwrap();
+            let (mut misses, mut wide) = (0, 0);
+            for query in (0..60).map(|index| family.query(5, index)) {
+                let gap = least_gap(&query);
+                let hits = |radius: f64| {
+                    let query = RigidQuery::new(query.sides(), radius).unwrap();
+                    difference::decide_rigid::<field::Default>(&query)
+                        .hit
+                        .is_some()
+                };
+                if hits(0.0) {
+                    assert_eq!(gap, Enclosure::exactly(0.0), "{query:?}");
+                    continue;
+                }
+                misses += 1;
+                wide += u32::from(gap.below > 0.1);
+                assert!(!hits(gap.below) && hits(gap.above), "{gap} {query:?}");
+                assert!(gap.above <= gap.below * 1.001);
+            }
+            assert!(misses > 15 && wide > 3, "{name}: {misses} {wide}");
+        }
+    }
+
+    #[test]
+    fn least_gap_of_bodies_that_do_not_turn_is_that_of_lines() {
+        for name in ["turning_translation", "turning_thick_still"] {
+            let family = rigid_by_name(name).unwrap();
+            for query in (0..100).map(|index| family.query(6, index)) {
+                let [start, end] = [0.0, 1.0].map(|t| query.positions(t));
+                let linear = Query::new(query.shape(), start, end, query.radius()).unwrap();
+                let gaps = [least_gap_to(&query, 1e-12), least_gap_to(&linear, 1e-12)];
+                let [low, high] = [
+                    gaps[0].below.max(gaps[1].below),
+                    gaps[0].above.min(gaps[1].above),
+                ];
+                assert!(low <= high, "{gaps:?} {query:?}");
+                for width in [0.0, 1e-3, 0.5] {
+                    assert_eq!(comes_within(&query, width), comes_within(&linear, width));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn bodies_that_turn_come_within_nothing_where_they_touch() {
+        for name in ["turning_thick_lattice", "turning_bodies_thick_lattice"] {
+            let family = rigid_by_name(name).unwrap();
+            for query in (0..200).map(|index| family.query(7, index)) {
+                let hit = decide_rigid_query(&query).hit.is_some();
+                assert_eq!(comes_within(&query, 0.0), hit, "{query:?}");
+            }
         }
     }
 

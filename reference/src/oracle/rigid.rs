@@ -34,18 +34,22 @@ pub fn decide_rigid_query(query: &RigidQuery) -> ExactAnswer {
 /// The exact answer to a query of a body that turns, its numbers still algebraic.
 pub fn decide_rigid<Z: Integer>(query: &RigidQuery) -> Decision<Z> {
     let scaled = ScaledRigid::new(query);
-    let InBody { points, size } = InBody::<Z>::new(&scaled);
-    let way = |from: usize, to: usize| points[to].sub(&points[from]);
-    let motion: Box<dyn Motion<Z>> = match query.kind().linear() {
-        QueryKind::EdgeEdge => Box::new(Edges::of(way(0, 1), way(2, 3), way(0, 2))),
-        QueryKind::VertexFace => Box::new(Face::of(way(1, 0), way(1, 2), way(1, 3))),
-    };
+    let body = InBody::<Z>::new(&scaled);
+    let motion = body.motion(query.kind().linear());
     let radius = query.radius();
     let near = (!radius.is_zero()).then(|| Near {
-        proximity: Proximity::enlarged(&*motion, scaled.exponent, &size.mul(&size)),
+        proximity: body.proximity(&*motion, scaled.exponent),
         radius: radius.parts(),
     });
     Decision::of(motion, near)
+}
+
+/// The distance of the two sides.
+pub(super) fn proximity<Z: Integer>(query: &RigidQuery) -> Proximity<Z> {
+    let scaled = ScaledRigid::new(query);
+    let body = InBody::<Z>::new(&scaled);
+    let motion = body.motion(query.kind().linear());
+    body.proximity(&*motion, scaled.exponent)
 }
 
 /// The motion in the frame of the second side's body.
@@ -95,6 +99,18 @@ impl<Z: Integer> InBody<Z> {
             points: first.into_iter().chain(second).collect(),
             size,
         }
+    }
+
+    fn motion(&self, kind: QueryKind) -> Box<dyn Motion<Z>> {
+        let way = |from: usize, to: usize| self.points[to].sub(&self.points[from]);
+        match kind {
+            QueryKind::EdgeEdge => Box::new(Edges::of(way(0, 1), way(2, 3), way(0, 2))),
+            QueryKind::VertexFace => Box::new(Face::of(way(1, 0), way(1, 2), way(1, 3))),
+        }
+    }
+
+    fn proximity(&self, motion: &dyn Motion<Z>, exponent: i64) -> Proximity<Z> {
+        Proximity::enlarged(motion, exponent, &self.size.mul(&self.size))
     }
 }
 

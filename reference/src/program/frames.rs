@@ -17,13 +17,23 @@
 //! | 12 | `u16` shape of the first body, `u16` of the second: 0 sphere, 1 edge, 2 triangle, 3 box |
 //! | 16 | `f64` the radii of both bodies |
 //! | 32 | `f64` of the first body four points at `t = 0` and its translation, each x y z; then of the second |
+//!
+//! | query of bodies that turn, 264 to 352 bytes | |
+//! | --- | --- |
+//! | 0 | `u64` number of the query |
+//! | 8 | `u32` kind: 3 edge-turning-edge, 4 vertex-turning-face, 5 turning-edge-turning-edge, 6 turning-vertex-turning-face |
+//! | 12 | `u32` 0 |
+//! | 16 | `f64` two radii, whose exact sum is meant |
+//! | 32 | `f64` the fields `points`, `local` and `poses` of the line of JSON |
 
 use std::io::{self, BufRead, Read};
 
 use tunnelproof::query::{Query, QueryKind};
+use tunnelproof::rigid::{RigidQuery, RigidQueryKind};
 
 use crate::answer::Enclosure;
 use crate::boxes::{BoxCast, Shape};
+use crate::corpus::turning::Fields;
 use crate::subject::Said;
 
 use super::wire::{Message, Reply};
@@ -48,6 +58,28 @@ pub(super) fn write(id: u64, query: &Query, bytes: &mut Vec<u8>) {
     let coordinates = points.flat_map(|point| <[f64; 3]>::from(*point));
     let numbers = query.radius().parts().into_iter().chain(coordinates);
     bytes.extend(numbers.flat_map(f64::to_le_bytes));
+}
+
+pub(super) fn write_rigid(id: u64, query: &RigidQuery, bytes: &mut Vec<u8>) {
+    let kind: u32 = match query.kind() {
+        RigidQueryKind::EdgeTurningEdge => 3,
+        RigidQueryKind::VertexTurningFace => 4,
+        RigidQueryKind::TurningEdgeTurningEdge => 5,
+        RigidQueryKind::TurningVertexTurningFace => 6,
+    };
+    let fields = Fields::of(query);
+    let points = fields.points.iter().chain(&fields.local).flatten();
+    let radii = query.radius().parts();
+    let numbers = radii
+        .iter()
+        .chain(points)
+        .chain(fields.poses.iter().flatten());
+    let numbers: Vec<u8> = numbers.copied().flat_map(f64::to_le_bytes).collect();
+    bytes.extend((16 + numbers.len() as u32).to_le_bytes());
+    bytes.extend(id.to_le_bytes());
+    bytes.extend(kind.to_le_bytes());
+    bytes.extend(0u32.to_le_bytes());
+    bytes.extend(numbers);
 }
 
 /// The frame of a cast of a box with this number.

@@ -7,7 +7,7 @@ use tunnelproof::query::{Query, QueryKind};
 use super::wire::{Message, Reply, Wire};
 use super::*;
 use crate::answer::Enclosure;
-use crate::generate;
+use crate::generate::{self, rigid_by_name};
 use crate::subject::Said;
 
 fn queries(family: &str) -> Vec<Query> {
@@ -187,6 +187,47 @@ fn frame_of_a_query_has_every_number_in_its_place() {
         let flat: Vec<_> = points.flat_map(|p| [p.x, p.y, p.z]).collect();
         assert_eq!(numbers[2..], flat);
     }
+}
+
+#[test]
+fn frame_of_bodies_that_turn_has_every_number_in_its_place() {
+    let mut kinds = Vec::new();
+    for name in ["turning_thick_scales", "turning_bodies_thick_uniform"] {
+        let family = rigid_by_name(name).unwrap();
+        for query in (0..20).map(|index| family.query(1, index)) {
+            let mut bytes = Vec::new();
+            query.write(Wire::Binary, 9, &mut bytes);
+            let length = u32::from_le_bytes(bytes[..4].try_into().unwrap());
+            assert_eq!(bytes.len(), 4 + length as usize);
+            assert_eq!(bytes[4..12], 9u64.to_le_bytes());
+            assert_eq!(bytes[13..20], [0; 7]);
+            kinds.push((bytes[12], query.kind().name(), length));
+            let numbers = bytes[20..].chunks(8);
+            let numbers = numbers.map(|b| f64::from_le_bytes(b.try_into().unwrap()));
+            // The same numbers as in a line of JSON, in the order of its fields.
+            let mut lines = Vec::new();
+            query.write(Wire::Lines, 9, &mut lines);
+            let line: serde_json::Value = serde_json::from_slice(&lines).unwrap();
+            let mut expected = query.radius().parts().to_vec();
+            for rows in ["points", "local", "poses"].map(|name| line[name].as_array()) {
+                let rows = rows
+                    .into_iter()
+                    .flatten()
+                    .flat_map(|row| row.as_array().unwrap());
+                expected.extend(rows.map(|x| x.as_f64().unwrap()));
+            }
+            assert_eq!(numbers.collect::<Vec<_>>(), expected);
+        }
+    }
+    kinds.sort_unstable();
+    kinds.dedup();
+    let expected = [
+        (3, "edge-turning-edge", 288),
+        (4, "vertex-turning-face", 264),
+        (5, "turning-edge-turning-edge", 352),
+        (6, "turning-vertex-turning-face", 352),
+    ];
+    assert_eq!(kinds, expected);
 }
 
 #[test]

@@ -104,12 +104,15 @@ impl AskedQuery for Query {
 }
 
 impl AskedQuery for RigidQuery {
-    fn write(&self, _wire: Wire, id: u64, bytes: &mut Vec<u8>) {
-        lines::write_rigid(id, self, bytes);
+    fn write(&self, wire: Wire, id: u64, bytes: &mut Vec<u8>) {
+        match wire {
+            Wire::Lines => lines::write_rigid(id, self, bytes),
+            Wire::Binary => frames::write_rigid(id, self, bytes),
+        }
     }
 
-    fn has_form(wire: Wire) -> bool {
-        wire == Wire::Lines
+    fn has_form(_wire: Wire) -> bool {
+        true
     }
 
     fn refusal(&self) -> NoAnswer {

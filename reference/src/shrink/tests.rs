@@ -259,7 +259,7 @@ fn shrunk_query_of_a_body_that_turns_shows_the_same_in_few_small_integers() {
 
 #[test]
 fn turning_forms_are_the_queries_that_they_were_made_of() {
-    for family in crate::generate::RIGID_FAMILIES {
+    for family in crate::generate::all_rigid() {
         for index in 0..50 {
             let query = family.query(1, index);
             assert_eq!(

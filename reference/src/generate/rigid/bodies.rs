@@ -46,16 +46,16 @@ pub(super) const SCALES: RigidFamily = RigidFamily {
 };
 
 /// The numbers of a query, before they are checked.
-struct Draft {
-    first: Body,
-    second: Body,
+pub(super) struct Draft {
+    pub(super) first: Body,
+    pub(super) second: Body,
 }
 
-struct Body {
-    centres: [Vector3<f64>; 2],
+pub(super) struct Body {
+    pub(super) centres: [Vector3<f64>; 2],
     /// w, x, y, z.
-    quaternions: [[f64; 4]; 2],
-    local: Vec<Vector3<f64>>,
+    pub(super) quaternions: [[f64; 4]; 2],
+    pub(super) local: Vec<Vector3<f64>>,
 }
 
 impl Body {
@@ -69,7 +69,7 @@ impl Body {
 
 impl Draft {
     /// `None` if a body turns too far.
-    fn query(&self) -> Option<RigidQuery> {
+    pub(super) fn query(&self) -> Option<RigidQuery> {
         let motion = |body: &Body| motion(&body.centres, &body.quaternions);
         let motions = [motion(&self.first)?, motion(&self.second)?];
         let (first, second) = (points(&self.first.local), points(&self.second.local));

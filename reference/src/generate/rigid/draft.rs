@@ -1,5 +1,7 @@
 //! The numbers of a query, drawn and changed.
 
+use std::ops::Range;
+
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use rand::{Rng, RngExt};
 use tunnelproof::query::Point;
@@ -90,7 +92,7 @@ pub(super) fn way_to_contact(rng: &mut dyn Rng, query: Option<RigidQuery>) -> Op
 }
 
 /// A mean of the points with random weights.
-fn mean(rng: &mut dyn Rng, points: &[Point]) -> Vector3<f64> {
+pub(super) fn mean(rng: &mut dyn Rng, points: &[Point]) -> Vector3<f64> {
     let weights: Vec<f64> = points.iter().map(|_| rng.random_range(0.0..1.0)).collect();
     let all: f64 = weights.iter().sum();
     let parts = points
@@ -142,9 +144,14 @@ pub(super) fn unit_quaternion(rng: &mut dyn Rng) -> UnitQuaternion<f64> {
 
 /// Two orientations of this angle at most, and both signs.
 pub(super) fn turn(rng: &mut dyn Rng, degrees: f64) -> [[f64; 4]; 2] {
+    turn_within(rng, 0.0..degrees)
+}
+
+/// Two orientations of an angle in degrees from this range, and both signs.
+pub(super) fn turn_within(rng: &mut dyn Rng, degrees: Range<f64>) -> [[f64; 4]; 2] {
     let first = unit_quaternion(rng);
     let axis = nalgebra::Unit::new_normalize(real_vector(rng, 1.0) + Vector3::new(0.0, 0.0, 1e-3));
-    let angle = rng.random_range(0.0..degrees).to_radians();
+    let angle = rng.random_range(degrees).to_radians();
     let second = UnitQuaternion::from_axis_angle(&axis, angle) * first;
     let sign = if rng.random() { 1.0 } else { -1.0 };
     let plain = |q: UnitQuaternion<f64>| [q.w, q.i, q.j, q.k];

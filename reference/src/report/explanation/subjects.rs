@@ -128,8 +128,7 @@ fn worth(query: &AnyQuery, found: &Found) -> String {
     };
     let is_right = !found.faults.iter().any(|&(fault, _)| is_verdict(fault));
     let faults = found.faults.iter().map(|&(fault, severity)| match fault {
-        // Of bodies that turn no gap is measured.
-        Fault::FalseHit if matches!(query, AnyQuery::Linear(_)) => {
+        Fault::FalseHit => {
             format!("false hit (gap {} m)", table::short(query.exact_gap()))
         }
         Fault::Late | Fault::Early => format!("{} by {}", fault.name(), table::short(severity)),
