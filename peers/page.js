@@ -30,9 +30,42 @@ const slider = section.querySelector("input");
 const output = section.querySelector("output");
 let shown = null;
 
-// What is drawn, in the frame of the second body: each body by its first point and the ways from there to others, of which the
-// body is all sums (of a triangle those with weights up to 1 together).
+// What is drawn: where the points of each body are at a time, the radii, and which bodies move. A body is its first point and
+// the ways from there to others, of which it is all sums (of a triangle those with weights up to 1 together).
 function sceneOf(witness) {
+  if (witness.poses) return turning(witness);
+  const { points, passing, radii } = translated(witness);
+  const at = (body, time) => points[body].map((p) => (body === 0 ? plus(p, passing, time) : p));
+  return { at, radii, moving: [0], passing: length(passing), frame: "It moves with the second body. " };
+}
+
+// Bodies whose centres and quaternions move on lines, in space.
+function turning(witness) {
+  const count = witness.kind === "turning-vertex-turning-face" ? 1 : 2;
+  const local = witness.local.map((point) => point.map(Number));
+  const poses = witness.poses.map((pose) => pose.map(Number));
+  const base = poses[2].slice(0, 3);
+  const at = (body, time) => {
+    const [start, end] = poses.slice(2 * body, 2 * body + 2);
+    const sign = dot(start.slice(3), end.slice(3)) < 0 ? -1 : 1;
+    const mean = (p, q, by = 1) => p.map((x, k) => (1 - time) * x + time * by * q[k]);
+    const centre = minus(mean(start.slice(0, 3), end.slice(0, 3)), base);
+    const rotation = mean(start.slice(3), end.slice(3), sign);
+    return (body === 0 ? local.slice(0, count) : local.slice(count)).map((point) => plus(centre, rotated(rotation, point)));
+  };
+  const radii = [witness.radius].flat().map(Number);
+  const paths = [0, 1].flatMap((body) => at(body, 0).map((p, i) => length(minus(at(body, 1)[i], p))));
+  return { at, radii: [radii[0], radii[1] ?? 0], moving: [0, 1], passing: Math.min(0.5, ...paths), frame: "Both bodies move. " };
+}
+
+function rotated([w, ...v], point) {
+  const cross = (p, q) => [0, 1, 2].map((k) => p[(k + 1) % 3] * q[(k + 2) % 3] - p[(k + 2) % 3] * q[(k + 1) % 3]);
+  const turn = cross(v, point).map((x) => 2 * x);
+  return plus(point, plus(turn.map((x) => w * x), cross(v, turn)), 1 / (w * w + dot(v, v)));
+}
+
+// The points at the start, in the frame of the second body, and how the first passes it.
+function translated(witness) {
   const { bodies } = witness;
   if (bodies) {
     const base = bodies[1].points[0];
@@ -55,8 +88,6 @@ function timeOf(toi) {
   return Number(typeof toi === "object" ? toi.below : toi);
 }
 
-const at = (scene, body, time) => scene.points[body].map((p) => (body === 0 ? plus(p, scene.passing, time) : p));
-
 // A point of a body by as many numbers from 0 to 1 as it has ways: of a triangle v turns from one way to the other.
 function span(points, [u, v, w]) {
   const ways = points.slice(1).map((point) => minus(point, points[0]));
@@ -66,7 +97,7 @@ function span(points, [u, v, w]) {
 
 // About where the two are nearest at a time: by samples, finer and finer.
 function nearest(scene, time) {
-  const both = [0, 1].map((body) => at(scene, body, time));
+  const both = [0, 1].map((body) => scene.at(body, time));
   const count = both[0].length + both[1].length - 2;
   const grid = count > 3 ? [-1, 0, 1] : [-1, -0.5, 0, 0.5, 1];
   let best = { distance: Infinity, places: Array(count).fill(0.5) };
@@ -88,8 +119,9 @@ function show(button, scrolls = true) {
   const [exact, said] = [timeOf(witness.exact), timeOf(witness.said)];
   const time = exact ?? said ?? 0.5;
   const { p, q } = nearest(scene, time);
-  const sizes = scene.points.map((body) => Math.max(...body.map((point) => length(minus(point, body[0])))));
-  const reach = Math.max(scene.radii[0] + scene.radii[1], length(scene.passing) * 0.6, Math.min(...sizes) * 0.6, 1e-9);
+  const sizes = [0, 1].map((body) => scene.at(body, 0)).map((body) => Math.max(...body.map((point) => length(minus(point, body[0])))));
+  const reach = Math.max(scene.radii[0] + scene.radii[1], scene.passing * 0.6, Math.min(...sizes) * 0.6, 1e-9);
+  section.querySelector("#frame").textContent = scene.frame;
   shown = { scene, centre: plus(p, minus(q, p), 0.5), reach, turn: [0.6, 0.4], zoom: 1, exact, said };
   for (const other of document.querySelectorAll("[data-witness][aria-pressed]")) other.removeAttribute("aria-pressed");
   button.setAttribute("aria-pressed", "true");
@@ -140,7 +172,7 @@ function draw() {
   const style = getComputedStyle(document.body);
   const colours = ["--red", "--blue"].map((name) => style.getPropertyValue(name));
   const body = (which, when, alpha) => {
-    const points = at(scene, which, when).map(place);
+    const points = scene.at(which, when).map(place);
     context.globalAlpha = alpha;
     context.strokeStyle = context.fillStyle = colours[which];
     context.lineCap = context.lineJoin = "round";
@@ -158,10 +190,8 @@ function draw() {
       context.stroke();
     }
   };
-  body(0, 0, 0.12);
-  body(0, 1, 0.12);
-  body(1, 0, 0.4);
-  body(0, time, 0.4);
+  for (const which of scene.moving) for (const end of [0, 1]) body(which, end, 0.12);
+  for (const which of [1, 0]) body(which, time, 0.4);
   context.globalAlpha = 1;
 }
 
@@ -216,6 +246,7 @@ canvas.addEventListener("wheel", (event) => {
   draw();
 }, { passive: false });
 
-// The worst missed contact, to begin with.
-const first = tables[0].querySelector('tr:not(.own) [data-witness$="/within"], tr:not(.own) [data-witness$="/missed"]');
+// The worst missed contact, to begin with: one that is deeper than a margin, if there is any.
+const worst = (key) => tables[0].querySelector(`tr:not(.own) [data-witness$="/${key}"]`);
+const first = worst("within") ?? worst("missed");
 if (first) show(first, false);

@@ -14,12 +14,18 @@ struct body {
     b3Vec3 points[8];
     int count;
     float radius;
-    b3Vec3 step;
+    b3Sweep sweep;
 };
 
 static b3Vec3 vector(double x, double y, double z) {
     b3Vec3 v = {(float)x, (float)y, (float)z};
     return v;
+}
+
+/* Of a body whose points are where they are at the start. */
+static b3Sweep translation(const double step[3]) {
+    b3Sweep sweep = {{0, 0, 0}, {0, 0, 0}, vector(step[0], step[1], step[2]), {{0, 0, 0}, 1}, {{0, 0, 0}, 1}};
+    return sweep;
 }
 
 /* Points relative to the origin, which is subtracted in double precision. */
@@ -34,7 +40,7 @@ static struct body body(const double points[24], int first, int count, double ra
     if (count == 2 && memcmp(&body.points[0], &body.points[1], sizeof(b3Vec3)) == 0) body.count = 1;
     body.radius = (float)radius;
     peers_step(points, first, step);
-    body.step = vector(step[0], step[1], step[2]);
+    body.sweep = translation(step);
     return body;
 }
 
@@ -44,7 +50,8 @@ static b3ShapeProxy proxy(const struct body *body) {
 }
 
 static int shape_cast(const struct body *a, const struct body *b, double *toi) {
-    b3Vec3 relative = {b->step.x - a->step.x, b->step.y - a->step.y, b->step.z - a->step.z};
+    b3Vec3 first = a->sweep.c2, second = b->sweep.c2;
+    b3Vec3 relative = {second.x - first.x, second.y - first.y, second.z - first.z};
     b3Transform identity = {{0, 0, 0}, {{0, 0, 0}, 1}};
     b3DistanceInput distance = {proxy(a), proxy(b), identity, true};
     b3ShapeCastPairInput input = {proxy(a), proxy(b), identity, relative, 1.0f, false};
@@ -58,13 +65,8 @@ static int shape_cast(const struct body *a, const struct body *b, double *toi) {
     return touches || output.hit ? TUNNELPROOF_HIT : TUNNELPROOF_MISS;
 }
 
-static b3Sweep sweep(const struct body *body) {
-    b3Sweep sweep = {{0, 0, 0}, {0, 0, 0}, body->step, {{0, 0, 0}, 1}, {{0, 0, 0}, 1}};
-    return sweep;
-}
-
 static int time_of_impact(const struct body *a, const struct body *b, double *toi) {
-    b3TOIInput input = {proxy(a), proxy(b), sweep(a), sweep(b), 1.0f};
+    b3TOIInput input = {proxy(a), proxy(b), a->sweep, b->sweep, 1.0f};
     uint64_t start = peers_now();
     b3TOIOutput output = b3TimeOfImpact(&input);
     peers_took(start);
@@ -72,10 +74,13 @@ static int time_of_impact(const struct body *a, const struct body *b, double *to
     return output.state == b3_toiStateHit || output.state == b3_toiStateOverlapped ? TUNNELPROOF_HIT : TUNNELPROOF_MISS;
 }
 
-static int cast(const struct body *a, const struct body *b, double *toi) {
+static bool is_time_of_impact(void) {
     const char *method = getenv("PEERS_METHOD");
-    if (method && !strcmp(method, "time-of-impact")) return time_of_impact(a, b, toi);
-    return shape_cast(a, b, toi);
+    return method && !strcmp(method, "time-of-impact");
+}
+
+static int cast(const struct body *a, const struct body *b, double *toi) {
+    return is_time_of_impact() ? time_of_impact(a, b, toi) : shape_cast(a, b, toi);
 }
 
 /* "The query is origin independent and runs in frame A": the frame of each query has its origin at A. */
@@ -104,7 +109,7 @@ static struct body convex(const struct peers_body *from, const double origin[3])
     }
     if (body.count == 2 && memcmp(&body.points[0], &body.points[1], sizeof(b3Vec3)) == 0) body.count = 1;
     body.radius = (float)from->radius;
-    body.step = vector(from->step[0], from->step[1], from->step[2]);
+    body.sweep = translation(from->step);
     return body;
 }
 
@@ -113,4 +118,42 @@ int tunnelproof_box_cast(const int shapes[2], const double bodies[30], const dou
     peers_bodies(shapes, bodies, radius, both);
     struct body a = convex(&both[0], bodies), b = convex(&both[1], bodies);
     return cast(&a, &b, toi);
+}
+
+/* The origin of the frame is the centre of the first body at the start. */
+static struct body turning(const struct peers_turning *from, const double origin[3]) {
+    struct body body;
+    double no_step[3] = {0, 0, 0};
+    body.sweep = translation(no_step);
+    for (int i = 0; i < from->count; i++)
+        body.points[i] = vector(from->local[3 * i], from->local[3 * i + 1], from->local[3 * i + 2]);
+    body.count = from->count;
+    if (body.count == 2 && memcmp(&body.points[0], &body.points[1], sizeof(b3Vec3)) == 0) body.count = 1;
+    body.radius = (float)from->radius;
+    for (int end = 0; end < 2; end++) {
+        const double *c = from->centres[end], *q = from->quaternions[end];
+        *(end ? &body.sweep.c2 : &body.sweep.c1) = vector(c[0] - origin[0], c[1] - origin[1], c[2] - origin[2]);
+        b3Quat rotation = {vector(q[0], q[1], q[2]), (float)q[3]};
+        *(end ? &body.sweep.q2 : &body.sweep.q1) = rotation;
+    }
+    return body;
+}
+
+/* A shape cast does not turn. */
+static int turning_cast(const double local[12], const double poses[28], int count, const double radius[2], double *toi) {
+    struct peers_turning both[2];
+    if (!is_time_of_impact()) return TUNNELPROOF_UNSUPPORTED;
+    peers_turning(local, poses, count, radius, both);
+    struct body a = turning(&both[0], poses), b = turning(&both[1], poses);
+    return time_of_impact(&a, &b, toi);
+}
+
+int tunnelproof_turning_edge_turning_edge(const double local[12], const double poses[28], const double radius[2],
+                                          double *toi) {
+    return turning_cast(local, poses, 2, radius, toi);
+}
+
+int tunnelproof_turning_vertex_turning_face(const double local[12], const double poses[28], const double radius[2],
+                                            double *toi) {
+    return turning_cast(local, poses, 1, radius, toi);
 }

@@ -2,10 +2,12 @@
 // continuous. The casts are for bodies that are apart: so the closest points are asked for first, and a distance of at most 0
 // is a hit at the start. Edges with a radius are capsules or spheres; edges without are not asked, since its shapes are not meant to
 // be without a margin. Triangles have a margin of 0, boxes too but for btGjkConvexCast; a box that is turned is the hull of its
-// corners.
+// corners. Bodies that turn are asked of btContinuousConvexCollision alone, which turns them at a constant rate; a capsule is then
+// the hull of two spheres, as it may lie anywhere in the frame of its body.
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/CollisionShapes/btMultiSphereShape.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/CollisionShapes/btTriangleShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
@@ -173,4 +175,49 @@ int tunnelproof_box_cast(const int shapes[2], const double bodies[30], const dou
         if (body.shape <= TUNNELPROOF_SEGMENT && body.radius <= 0) return TUNNELPROOF_UNSUPPORTED;
     }
     return cast(convex(both[0]), convex(both[1]), toi);
+}
+
+namespace {
+
+Body turning(const struct peers_turning &from) {
+    Body body;
+    btVector3 points[3];
+    for (int i = 0; i < from.count; i++) points[i] = vector(from.local + 3 * i);
+    if (from.count == 3) {
+        body.shape = std::make_unique<btTriangleShape>(points[0], points[1], points[2]);
+        body.shape->setMargin(0);
+    } else {
+        btScalar radii[] = {btScalar(from.radius), btScalar(from.radius)};
+        body.shape = std::make_unique<btMultiSphereShape>(points, radii, from.count);
+        // What is within the margin are the points: a margin above the radius would turn the spheres inside out.
+        body.shape->setMargin(radii[0]);
+    }
+    auto pose = [&from](int end) {
+        const double *q = from.quaternions[end];
+        return btTransform(btQuaternion(q[0], q[1], q[2], q[3]), vector(from.centres[end]));
+    };
+    body.from = pose(0);
+    body.to = pose(1);
+    return body;
+}
+
+int turning_cast(const double local[12], const double poses[28], int count, const double radius[2], double *toi) {
+    static const char *method = getenv("PEERS_METHOD");
+    if (!method || strcmp(method, "continuous") || radius[0] <= 0 || (count == 2 && radius[1] <= 0))
+        return TUNNELPROOF_UNSUPPORTED;
+    struct peers_turning both[2];
+    peers_turning(local, poses, count, radius, both);
+    return cast(turning(both[0]), turning(both[1]), toi);
+}
+
+}  // namespace
+
+int tunnelproof_turning_edge_turning_edge(const double local[12], const double poses[28], const double radius[2],
+                                          double *toi) {
+    return turning_cast(local, poses, 2, radius, toi);
+}
+
+int tunnelproof_turning_vertex_turning_face(const double local[12], const double poses[28], const double radius[2],
+                                            double *toi) {
+    return turning_cast(local, poses, 1, radius, toi);
 }

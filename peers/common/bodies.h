@@ -97,6 +97,35 @@ static void peers_corner(const struct peers_body *box, int number, double corner
     }
 }
 
+/* A body that turns: its points in its own frame, and its poses at both ends of the step. */
+struct peers_turning {
+    const double *local;
+    int count;
+    double centres[2][3], quaternions[2][4]; /* x y z w, of length 1; of both signs the one that makes the turn short */
+    double radius;
+};
+
+/* `local` and `poses` are those of tunnelproof_subject.h; the first body has `count` points, the other the rest. */
+static void peers_turning(const double local[12], const double poses[28], int count, const double radius[2],
+                          struct peers_turning both[2]) {
+    for (int i = 0; i < 2; i++) {
+        struct peers_turning *body = &both[i];
+        double along = 0;
+        body->local = local + (i ? 3 * count : 0);
+        body->count = i ? 4 - count : count;
+        body->radius = radius[i] + (i ? 0 : peers_skin());
+        for (int end = 0; end < 2; end++) {
+            const double *pose = poses + 14 * i + 7 * end, *q = pose + 3;
+            double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+            for (int k = 0; k < 3; k++) body->centres[end][k] = pose[k];
+            for (int k = 0; k < 4; k++) body->quaternions[end][k] = q[(k + 1) % 4] / length;
+        }
+        for (int k = 0; k < 4; k++) along += body->quaternions[0][k] * body->quaternions[1][k];
+        for (int k = 0; k < 4; k++)
+            if (along < 0) body->quaternions[1][k] = -body->quaternions[1][k];
+    }
+}
+
 /* The middle of a box along the axes and half of its sides. Returns 0 for a box that is turned. */
 static int peers_aligned(const struct peers_body *box, double centre[3], double half[3]) {
     for (int k = 0; k < 3; k++) centre[k] = box->points[k], half[k] = 0;

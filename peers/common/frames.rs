@@ -79,6 +79,16 @@ impl Convex {
     }
 }
 
+/// A query of two bodies that turn, as it is sent.
+pub struct Turning {
+    pub is_face: bool,
+    pub radii: [f64; 2],
+    /// The points in the frames of the bodies: two of each, or one and three.
+    pub local: [[f64; 3]; 4],
+    /// Of each body at the start and at the end: x y z of the centre, w x y z of a quaternion.
+    pub poses: [[[f64; 7]; 2]; 2],
+}
+
 /// What an engine says.
 pub enum Said {
     Hit(f64),
@@ -123,15 +133,28 @@ pub fn skin() -> f64 {
     text.parse().unwrap_or(0.0)
 }
 
-/// Answers until the input ends. `cast` answers casts of boxes.
+/// An engine, or a method of one.
+pub trait Engine {
+    /// Answers a query of bodies that are translated.
+    fn answer(&self, asked: &Asked, clock: &mut Clock) -> Said;
+
+    /// Answers a cast of a box.
+    fn cast(&self, _bodies: &[Convex; 2], _clock: &mut Clock) -> Said {
+        Said::Unsupported
+    }
+
+    /// Answers a query of bodies that turn.
+    fn turning(&self, _asked: &Turning, _clock: &mut Clock) -> Said {
+        Said::Unsupported
+    }
+}
+
+/// Answers until the input ends.
 ///
 /// # Errors
 ///
 /// What the pipes say.
-pub fn serve(
-    mut answer: impl FnMut(&Asked, &mut Clock) -> Said,
-    mut cast: impl FnMut(&[Convex; 2], &mut Clock) -> Said,
-) -> io::Result<()> {
+pub fn serve(engine: impl Engine) -> io::Result<()> {
     let (mut input, mut output) = (io::stdin().lock(), io::stdout().lock());
     let mut clock = Clock::default();
     let mut length = [0; 4];
@@ -139,8 +162,10 @@ pub fn serve(
         let mut frame = vec![0; u32::from_le_bytes(length) as usize];
         input.read_exact(&mut frame)?;
         let said = match frame[8] {
-            2 => cast(&bodies(&frame), &mut clock),
-            _ => answer(&asked(&frame), &mut clock),
+            0 | 1 => engine.answer(&asked(&frame), &mut clock),
+            2 => engine.cast(&bodies(&frame), &mut clock),
+            5 | 6 => engine.turning(&turning(&frame), &mut clock),
+            _ => Said::Unsupported,
         };
         let (verdict, toi) = match said {
             Said::Miss => (0u64, 0.0),
@@ -173,6 +198,16 @@ fn asked(frame: &[u8]) -> Asked {
         is_face: frame[8] == 1,
         radii: [number(frame, 0), number(frame, 1)],
         points: std::array::from_fn(|i| point(frame, i)),
+    }
+}
+
+fn turning(frame: &[u8]) -> Turning {
+    let pose = |i: usize| std::array::from_fn(|k| number(frame, 14 + 7 * i + k));
+    Turning {
+        is_face: frame[8] == 6,
+        radii: [number(frame, 0), number(frame, 1)],
+        local: std::array::from_fn(|i| point(frame, i)),
+        poses: [[pose(0), pose(1)], [pose(2), pose(3)]],
     }
 }
 

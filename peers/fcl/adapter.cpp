@@ -1,6 +1,7 @@
 // Continuous collision of FCL as a library that tunnelproof judges. PEERS_METHOD chooses the solver: naive, with all
 // settings as the library has them, or conservative-advancement. Edges with a radius are capsules or spheres, a face is a
-// mesh of one triangle, a box that is turned the hull of its corners.
+// mesh of one triangle, a box that is turned the hull of its corners. Bodies that turn do so at a constant rate about their centre,
+// fcl::InterpMotion.
 #include <fcl/fcl.h>
 
 #include <cstring>
@@ -144,4 +145,72 @@ int tunnelproof_box_cast(const int shapes[2], const double bodies[30], const dou
     for (const peers_body &body : both)
         if (body.shape <= TUNNELPROOF_SEGMENT && body.radius <= 0) return TUNNELPROOF_UNSUPPORTED;
     return cast(convex(both[0]), convex(both[1]), toi);
+}
+
+namespace {
+
+using Motion = fcl::InterpMotion<double>;
+
+struct Turning {
+    std::shared_ptr<fcl::CollisionGeometryd> shape;
+    std::shared_ptr<Motion> motion;
+};
+
+// A capsule has its middle in the origin of its frame, which is turned about the centre of the body.
+Turning turning(const struct peers_turning &from) {
+    Body body;
+    Vector middle = Vector::Zero();
+    fcl::Quaterniond along = fcl::Quaterniond::Identity();
+    if (from.count == 3) {
+        double points[24] = {0};
+        memcpy(points + 3, from.local, 9 * sizeof(double));
+        body = triangle(points);
+        middle = vector(from.local);
+    } else {
+        double points[24] = {0};
+        for (int i = 0; i < 2; i++) memcpy(points + 3 * i, from.local + 3 * (i % from.count), 3 * sizeof(double));
+        body = capsule(points, 0, from.radius);
+        middle = body.from.translation();
+        along = fcl::Quaterniond(body.from.linear());
+    }
+    fcl::Matrix3d rotation[2];
+    Vector place[2];
+    for (int end = 0; end < 2; end++) {
+        const double *q = from.quaternions[end];
+        fcl::Quaterniond turn(q[3], q[0], q[1], q[2]);
+        rotation[end] = (turn * along).toRotationMatrix();
+        place[end] = vector(from.centres[end]) + turn * middle;
+    }
+    Vector centre = along.conjugate() * -middle;
+    return {body.shape, std::make_shared<Motion>(rotation[0], place[0], rotation[1], place[1], centre)};
+}
+
+int turning_cast(const double local[12], const double poses[28], int count, const double radius[2], double *toi) {
+    static const fcl::ContinuousCollisionRequestd asked = [] {
+        fcl::ContinuousCollisionRequestd asked = request();
+        asked.ccd_motion_type = fcl::CCDM_LINEAR;
+        return asked;
+    }();
+    if (radius[0] <= 0 || (count == 2 && radius[1] <= 0)) return TUNNELPROOF_UNSUPPORTED;
+    struct peers_turning both[2];
+    peers_turning(local, poses, count, radius, both);
+    Turning a = turning(both[0]), b = turning(both[1]);
+    fcl::ContinuousCollisionResultd result;
+    uint64_t start = peers_now();
+    fcl::continuousCollide<double>(a.shape.get(), a.motion.get(), b.shape.get(), b.motion.get(), asked, result);
+    peers_took(start);
+    *toi = result.time_of_contact;
+    return result.is_collide ? TUNNELPROOF_HIT : TUNNELPROOF_MISS;
+}
+
+}  // namespace
+
+int tunnelproof_turning_edge_turning_edge(const double local[12], const double poses[28], const double radius[2],
+                                          double *toi) {
+    return turning_cast(local, poses, 2, radius, toi);
+}
+
+int tunnelproof_turning_vertex_turning_face(const double local[12], const double poses[28], const double radius[2],
+                                            double *toi) {
+    return turning_cast(local, poses, 1, radius, toi);
 }

@@ -1,6 +1,6 @@
 //! The shape casts of parry as a program that tunnelproof judges: `cast-shapes` or `nonlinear`.
 
-use parry3d_f64::math::{Pose, Vector};
+use parry3d_f64::math::{Pose, Rotation, Vector};
 use parry3d_f64::query::{NonlinearRigidMotion, ShapeCastOptions};
 use parry3d_f64::query::{cast_shapes, cast_shapes_nonlinear};
 use parry3d_f64::shape::{Ball, Capsule, ConvexPolyhedron, Cuboid, Segment, Shape, Triangle};
@@ -8,7 +8,7 @@ use parry3d_f64::shape::{Ball, Capsule, ConvexPolyhedron, Cuboid, Segment, Shape
 #[path = "../../common/frames.rs"]
 mod frames;
 
-use frames::{Asked, Clock, Convex, Form, Said, serve, skin};
+use frames::{Asked, Clock, Convex, Engine, Form, Said, Turning, serve, skin};
 
 /// A shape with its points where they are at the start, and its translation.
 struct Body {
@@ -128,16 +128,92 @@ fn said<E>(hit: Result<Option<f64>, E>) -> Said {
     }
 }
 
-fn main() -> std::io::Result<()> {
-    let cast = match std::env::args().nth(1).as_deref() {
-        Some("nonlinear") => nonlinear,
-        _ => linear,
+/// A body that turns at a constant rate, by its shape and motion.
+fn turning(asked: &Turning) -> [(Box<dyn Shape>, NonlinearRigidMotion); 2] {
+    let local = asked.local.map(vector);
+    let [first, second] = asked.radii;
+    let edge = |a, b, radius| -> Box<dyn Shape> {
+        match radius > 0.0 {
+            true => Box::new(Capsule::new(a, b, radius)),
+            false => Box::new(Segment::new(a, b)),
+        }
     };
-    serve(
-        |asked, clock| cast(&placed(asked), clock),
-        |[first, second], clock| match (convex(first), convex(second)) {
-            (Some(first), Some(second)) => cast(&[first, second], clock),
-            _ => Said::Unsupported,
-        },
+    let [a, b, c, d] = local;
+    let [start, other_start] = asked.poses.map(|[start, _]| pose(start));
+    let (shape, other, centre): (Box<dyn Shape>, Box<dyn Shape>, Vector) = match asked.is_face {
+        // A ball has its centre in the origin of its frame: the body turns about another point.
+        true => (
+            Box::new(Ball::new(first + second + skin())),
+            Box::new(Triangle::new(b, c, d)),
+            -a,
+        ),
+        false => (edge(a, b, first + skin()), edge(c, d, second), Vector::ZERO),
+    };
+    let start = Pose::from_parts(start.translation - start.rotation * centre, start.rotation);
+    let motion = |start, centre, [from, to]: [[f64; 7]; 2]| {
+        let step = pose(to).translation - pose(from).translation;
+        NonlinearRigidMotion::new(start, centre, step, rate([from, to]))
+    };
+    let [poses, other_poses] = asked.poses;
+    [
+        (shape, motion(start, centre, poses)),
+        (other, motion(other_start, Vector::ZERO, other_poses)),
+    ]
+}
+
+fn pose([x, y, z, w, i, j, k]: [f64; 7]) -> Pose {
+    Pose::from_parts(
+        Vector::new(x, y, z),
+        Rotation::from_xyzw(i, j, k, w).normalize(),
     )
+}
+
+/// The turn from one pose to the other by the shorter way, about its axis and as long as its angle.
+fn rate([from, to]: [[f64; 7]; 2]) -> Vector {
+    let turn = pose(to).rotation * pose(from).rotation.inverse();
+    let turn = if turn.w < 0.0 { -turn } else { turn };
+    turn.to_scaled_axis()
+}
+
+struct Linear;
+
+impl Engine for Linear {
+    fn answer(&self, asked: &Asked, clock: &mut Clock) -> Said {
+        linear(&placed(asked), clock)
+    }
+
+    fn cast(&self, bodies: &[Convex; 2], clock: &mut Clock) -> Said {
+        boxes(bodies).map_or(Said::Unsupported, |placed| linear(&placed, clock))
+    }
+}
+
+struct Nonlinear;
+
+impl Engine for Nonlinear {
+    fn answer(&self, asked: &Asked, clock: &mut Clock) -> Said {
+        nonlinear(&placed(asked), clock)
+    }
+
+    fn cast(&self, bodies: &[Convex; 2], clock: &mut Clock) -> Said {
+        boxes(bodies).map_or(Said::Unsupported, |placed| nonlinear(&placed, clock))
+    }
+
+    fn turning(&self, asked: &Turning, clock: &mut Clock) -> Said {
+        let [(shape, motion), (other, other_motion)] = turning(asked);
+        let hit = clock.timed(|| {
+            cast_shapes_nonlinear(&motion, &*shape, &other_motion, &*other, 0.0, 1.0, true)
+        });
+        said(hit.map(|hit| hit.map(|hit| hit.time_of_impact)))
+    }
+}
+
+fn boxes([first, second]: &[Convex; 2]) -> Option<Placed> {
+    Some([convex(first)?, convex(second)?])
+}
+
+fn main() -> std::io::Result<()> {
+    match std::env::args().nth(1).as_deref() {
+        Some("nonlinear") => serve(Nonlinear),
+        _ => serve(Linear),
+    }
 }

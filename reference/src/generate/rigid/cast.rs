@@ -180,8 +180,9 @@ impl Pair {
         }
     }
 
-    /// Two radii that are together this.
+    /// Two radii that are together this, or a unit each where it is not above 0.
     fn radii_together(self, rng: &mut dyn Rng, all: f64) -> [f64; 2] {
+        let all = all.max(f64::MIN_POSITIVE);
         match self {
             Pair::Capsules => {
                 let first = all * rng.random_range(0.125..0.875);
@@ -366,6 +367,12 @@ mod tests {
         for family in TURNING_CAST_FAMILIES {
             for query in queries(family) {
                 let [first, second] = query.radius().parts();
+                let is_thin = family.name.contains("_thin_");
+                let is_face = query.kind().linear() == QueryKind::VertexFace;
+                assert_eq!(
+                    (first > 0.0, second > 0.0),
+                    (!is_thin, !is_thin && !is_face)
+                );
                 let mut numbers = vec![first, second, first + second];
                 for side in query.sides() {
                     let Side::Turning { local, motion } = side else {
