@@ -7,6 +7,7 @@ pub mod boxes;
 pub mod certify;
 pub mod corpus;
 pub mod difference;
+pub mod distance;
 pub mod field;
 pub mod figures;
 pub mod generate;

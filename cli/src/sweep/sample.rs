@@ -14,6 +14,7 @@ use tunnelproof_reference::certify::source::Source;
 use tunnelproof_reference::certify::tally::Fault;
 use tunnelproof_reference::certify::verdict::{Outline, judge_outline};
 use tunnelproof_reference::corpus::{CorpusError, Entry, Problem};
+use tunnelproof_reference::distance::estimate_gap;
 use tunnelproof_reference::oracle;
 use tunnelproof_reference::subject::Said;
 
@@ -154,7 +155,7 @@ impl Sample {
     /// The least distances of these queries in metres, in floating point. Heuristic.
     pub fn estimate_gaps(&self, queries: &[usize]) -> Vec<f64> {
         let estimate = |&index: &usize| {
-            let estimate = || oracle::estimate_gap(&Query::EdgeEdge(self.queries[index]));
+            let estimate = || estimate_gap(&Query::EdgeEdge(self.queries[index]));
             *self.estimates[index].get_or_init(estimate)
         };
         queries.par_iter().map(estimate).collect()

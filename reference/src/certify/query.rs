@@ -10,6 +10,7 @@ use crate::answer::ExactAnswer;
 use crate::corpus::jsonl::{self, Numbers};
 use crate::corpus::turning::{self, Fields, TurningEntry};
 use crate::corpus::{self, CorpusError, Entry, Format, Problem, ReadOptions};
+use crate::distance::estimate_gap;
 use crate::oracle;
 
 /// What is asked: about linear motion, or about a body that turns.
@@ -123,8 +124,8 @@ impl AnyQuery {
     /// About the least distance during the step, beyond the radius.
     pub fn estimate_gap(&self) -> f64 {
         match self {
-            AnyQuery::Linear(query) => oracle::estimate_gap(query),
-            AnyQuery::Turning(query) => oracle::estimate_gap(query),
+            AnyQuery::Linear(query) => estimate_gap(query),
+            AnyQuery::Turning(query) => estimate_gap(query),
         }
     }
 

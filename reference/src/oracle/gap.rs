@@ -4,11 +4,11 @@
 //! Whether they come within `R + x` is decided exactly ([`super::proximity`]); the least `x`
 //! follows by bisection, from a guess in floating point, which can cost time only.
 
-use nalgebra::Vector3;
-use tunnelproof::query::{Point, Query, QueryKind, Radius};
+use tunnelproof::query::Query;
 use tunnelproof::rigid::RigidQuery;
 
 use crate::answer::Enclosure;
+use crate::distance::{Moving, estimate_gap};
 use crate::field::{self, Integer};
 use crate::scaled::Scaled;
 
@@ -16,7 +16,7 @@ use super::proximity::Proximity;
 use super::{motion_of, rigid};
 
 /// A query of two sides whose distance is measured: a [`Query`] or a [`RigidQuery`].
-pub trait Measured: private::Sides {}
+pub trait Measured: Moving + private::Exact {}
 
 impl Measured for Query {}
 
@@ -25,61 +25,26 @@ impl Measured for RigidQuery {}
 mod private {
     use super::*;
 
-    /// What is known of the two sides.
-    pub trait Sides {
-        /// The square of their distance, exactly.
+    pub trait Exact {
+        /// The distance of the two sides, exactly.
         #[allow(private_interfaces, reason = "nobody outside can call it")]
         fn proximity<Z: Integer>(&self) -> Proximity<Z>;
-
-        fn radius(&self) -> Radius;
-
-        fn shape(&self) -> QueryKind;
-
-        /// All four points at a time, rounded.
-        fn at(&self, t: f64) -> [Point; 4];
-    }
-}
-
-use private::Sides;
-
-impl Sides for Query {
-    #[allow(private_interfaces, reason = "nobody outside can call it")]
-    fn proximity<Z: Integer>(&self) -> Proximity<Z> {
-        let points = Scaled::new(self);
-        let motion = motion_of(self, &points);
-        Proximity::new(&*motion, points.exponent)
     }
 
-    fn radius(&self) -> Radius {
-        self.radius()
+    impl Exact for Query {
+        #[allow(private_interfaces, reason = "nobody outside can call it")]
+        fn proximity<Z: Integer>(&self) -> Proximity<Z> {
+            let points = Scaled::new(self);
+            let motion = motion_of(self, &points);
+            Proximity::new(&*motion, points.exponent)
+        }
     }
 
-    fn shape(&self) -> QueryKind {
-        self.kind()
-    }
-
-    fn at(&self, t: f64) -> [Point; 4] {
-        let (start, end) = (self.start(), self.end());
-        [0, 1, 2, 3].map(|i| Point::from(start[i].coords * (1.0 - t) + end[i].coords * t))
-    }
-}
-
-impl Sides for RigidQuery {
-    #[allow(private_interfaces, reason = "nobody outside can call it")]
-    fn proximity<Z: Integer>(&self) -> Proximity<Z> {
-        rigid::proximity(self)
-    }
-
-    fn radius(&self) -> Radius {
-        self.radius()
-    }
-
-    fn shape(&self) -> QueryKind {
-        self.kind().linear()
-    }
-
-    fn at(&self, t: f64) -> [Point; 4] {
-        self.positions(t)
+    impl Exact for RigidQuery {
+        #[allow(private_interfaces, reason = "nobody outside can call it")]
+        fn proximity<Z: Integer>(&self) -> Proximity<Z> {
+            rigid::proximity(self)
+        }
     }
 }
 
@@ -137,10 +102,10 @@ struct Gap<Z> {
 }
 
 impl<Z: Integer> Gap<Z> {
-    fn new(query: &impl Sides) -> Self {
+    fn new(query: &impl Measured) -> Self {
         Gap {
             proximity: query.proximity(),
-            radius: query.radius().parts(),
+            radius: Moving::radius(query).parts(),
         }
     }
 
@@ -150,83 +115,10 @@ impl<Z: Integer> Gap<Z> {
     }
 }
 
-/// The gap in metres in floating point, by sampling and ternary search. Heuristic: to choose what
-/// to measure exactly.
-pub fn estimate_gap(query: &impl Measured) -> f64 {
-    let distance = |t: f64| {
-        let points = query.at(t).map(|point| point.coords);
-        match query.shape() {
-            QueryKind::EdgeEdge => distance_of_segments(&points),
-            QueryKind::VertexFace => distance_of_face(&points),
-        }
-    };
-    const SAMPLES: u32 = 64;
-    let time = |i: u32| f64::from(i) / f64::from(SAMPLES);
-    let nearest = (0..=SAMPLES).min_by(|&i, &j| distance(time(i)).total_cmp(&distance(time(j))));
-    let nearest = nearest.unwrap_or(0);
-    let (mut low, mut high) = (
-        time(nearest.saturating_sub(1)),
-        time((nearest + 1).min(SAMPLES)),
-    );
-    for _ in 0..60 {
-        let (left, right) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
-        if distance(left) < distance(right) {
-            high = right
-        } else {
-            low = left
-        }
-    }
-    let least = distance(low).min(distance(time(nearest)));
-    (least - query.radius().rounded()).max(0.0)
-}
-
-/// The distance of a point from a segment in floating point.
-fn distance_of_end([x, y, z]: [&Vector3<f64>; 3]) -> f64 {
-    let edge = z - y;
-    let s = (x - y).dot(&edge) / edge.dot(&edge);
-    (x - y - edge * if s > 0.0 { s.min(1.0) } else { 0.0 }).norm()
-}
-
-/// The distance of two segments in floating point: of an end from the other segment, or of the
-/// lines.
-fn distance_of_segments([a, b, c, d]: &[Vector3<f64>; 4]) -> f64 {
-    let ends = [[a, c, d], [b, c, d], [c, a, b], [d, a, b]];
-    let of_ends = ends
-        .map(distance_of_end)
-        .into_iter()
-        .fold(f64::MAX, f64::min);
-    let (k, l, m) = (b - a, d - c, c - a);
-    let n = k.cross(&l);
-    let (u, v) = (m.cross(&l).dot(&n), m.cross(&k).dot(&n));
-    let inside = 0.0..=n.norm_squared();
-    if n.norm() > 0.0 && inside.contains(&u) && inside.contains(&v) {
-        of_ends.min(m.dot(&n).abs() / n.norm())
-    } else {
-        of_ends
-    }
-}
-
-/// The distance of a point and a face in floating point: from an edge, or from the plane.
-fn distance_of_face([a, b, c, d]: &[Vector3<f64>; 4]) -> f64 {
-    let edges = [[a, b, c], [a, c, d], [a, b, d]];
-    let of_edges = edges
-        .map(distance_of_end)
-        .into_iter()
-        .fold(f64::MAX, f64::min);
-    let (w, e1, e2) = (a - b, c - b, d - b);
-    let n = e1.cross(&e2);
-    let (u, v) = (w.cross(&e2).dot(&n), e1.cross(&w).dot(&n));
-    if n.norm() > 0.0 && u >= 0.0 && v >= 0.0 && u + v <= n.norm_squared() {
-        of_edges.min(w.dot(&n).abs() / n.norm())
-    } else {
-        of_edges
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
-    use tunnelproof::query::{Point, Radius};
+    use tunnelproof::query::{Point, QueryKind, Radius};
 
     use super::*;
     use crate::difference;

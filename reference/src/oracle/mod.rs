@@ -48,7 +48,7 @@ mod tests;
 mod vector;
 
 pub use beside::passages_beside;
-pub use gap::{Measured, comes_within, estimate_gap, least_gap, least_gap_to};
+pub use gap::{Measured, comes_within, least_gap, least_gap_to};
 pub use rigid::{decide_rigid, decide_rigid_query};
 pub use steps::{Event, Step};
 

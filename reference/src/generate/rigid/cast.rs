@@ -18,8 +18,8 @@ use tunnelproof::rigid::RigidQuery;
 use super::RigidFamily;
 use super::bodies::{Body, Draft};
 use super::draft::{first_query, mean, turn_within};
+use crate::distance::estimate_gap;
 use crate::generate::motion::real_vector;
-use crate::oracle::estimate_gap;
 
 /// Every family of bodies that are cast and turn, in the order of tables.
 pub const TURNING_CAST_FAMILIES: &[RigidFamily] = &[
