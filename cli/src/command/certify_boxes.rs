@@ -1,12 +1,13 @@
 //! `certify-boxes`: programs judged on boxes that are cast along lines.
 
+use std::borrow::Borrow;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use tunnelproof_reference::boxes::{BOX_FAMILIES, BoxFamily, box_family};
-use tunnelproof_reference::certify::boxes::{Judged, judge_family};
+use tunnelproof_reference::certify::boxes::{self, Judged, judge_family};
 use tunnelproof_reference::certify::tally::Fault;
 use tunnelproof_reference::report::boxes::report;
 use tunnelproof_reference::subject::Subject;
@@ -45,6 +46,9 @@ pub(super) struct CertifyBoxes {
     /// Write what was found to this file, - for the standard output
     #[arg(long, value_name = "OUT")]
     json: Option<PathBuf>,
+    /// End with exit code 1 unless the program passes
+    #[arg(long)]
+    strict: bool,
 }
 
 impl CertifyBoxes {
@@ -66,14 +70,42 @@ impl CertifyBoxes {
         };
         let judge = |family| judge_family(program, family, self.seed, self.count);
         let found: Vec<Judged> = families.into_iter().map(judge).collect();
-        let near = program.tolerance().near;
-        let value = report(program.name(), near, &found, &program.finish());
-        output.write(|| Ok(format!("{value:#}")), || table(&found))?;
-        Ok(ExitCode::SUCCESS)
+        let (tolerance, conduct) = (program.tolerance(), program.finish());
+        let failures = boxes::failures(&found, tolerance, conduct.surplus);
+        let value = report(program.name(), tolerance, &found, &conduct);
+        let text = || {
+            format!(
+                "{}\n{}",
+                table(&found),
+                verdict(program.name(), &found, &failures)
+            )
+        };
+        output.write(|| Ok(format!("{value:#}")), text)?;
+        Ok(match self.strict && !failures.is_empty() {
+            true => ExitCode::FAILURE,
+            false => ExitCode::SUCCESS,
+        })
     }
 }
 
-/// What was found, a line for each family.
+/// What a program fails by, and what shows the worst of each fault.
+fn verdict(name: &str, found: &[Judged], failures: &[String]) -> String {
+    let mut text = match failures {
+        [] => format!("{name} passes\n"),
+        failures => format!("{name} fails: {}\n", failures.join(", ")),
+    };
+    let faults = boxes::faults(found);
+    if !faults.is_empty() {
+        text += "\nWorst of each fault, and the command that explains it:\n";
+    }
+    for (fault, finding) in &faults {
+        let (name, id) = (fault.name(), finding.worst.id);
+        text += &format!("  {name:<14}tunnelproof explain {id}\n");
+    }
+    text
+}
+
+/// What was found, a line for each family, and one of all.
 fn table(found: &[Judged]) -> String {
     let heads = [
         "family",
@@ -88,30 +120,32 @@ fn table(found: &[Judged]) -> String {
         "early",
     ];
     let mut lines = vec![line(&heads.map(str::to_owned))];
-    lines.extend(found.iter().map(|judged| {
-        let count = |fault| judged.faults.get(&fault).map_or(0, |found| found.count);
-        let worst = |fault| {
-            judged
-                .faults
-                .get(&fault)
-                .map_or(0.0, |found| found.worst.severity)
-        };
-        let missed = count(Fault::Tunnel) + count(Fault::MissedGraze);
-        let counts = [
-            judged.queries,
-            judged.hits,
-            missed,
-            count(Fault::FalseHit),
-            count(Fault::NearHit),
-            count(Fault::NoAnswer),
-            judged.refused,
-        ];
-        let [a, b, c, d, e, f, g] = counts.map(|count| count.to_string());
-        let [late, early] =
-            [Fault::Late, Fault::Early].map(|fault| format!("{:.1e}", worst(fault)));
-        line(&[judged.name.to_owned(), a, b, c, d, e, f, g, late, early])
-    }));
+    lines.extend(found.iter().map(|judged| row(judged.name, &[judged])));
+    if found.len() > 1 {
+        lines.push(row("all", found));
+    }
     lines.concat()
+}
+
+/// What some families have together.
+fn row(name: &str, found: &[impl Borrow<Judged>]) -> String {
+    let found = || found.iter().map(Borrow::borrow);
+    let findings = |fault| found().filter_map(move |judged| judged.faults.get(&fault));
+    let count = |fault| findings(fault).map(|finding| finding.count).sum::<u64>();
+    let worst =
+        |fault| findings(fault).fold(0.0, |worst, finding| finding.worst.severity.max(worst));
+    let counts = [
+        found().map(|judged| judged.queries).sum(),
+        found().map(|judged| judged.hits).sum(),
+        count(Fault::Tunnel) + count(Fault::MissedGraze),
+        count(Fault::FalseHit),
+        count(Fault::NearHit),
+        count(Fault::NoAnswer),
+        found().map(|judged| judged.refused).sum(),
+    ];
+    let [a, b, c, d, e, f, g] = counts.map(|count| count.to_string());
+    let [late, early] = [Fault::Late, Fault::Early].map(|fault| format!("{:.1e}", worst(fault)));
+    line(&[name.to_owned(), a, b, c, d, e, f, g, late, early])
 }
 
 fn line([name, rest @ ..]: &[String; 10]) -> String {

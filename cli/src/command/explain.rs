@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use tunnelproof_cli::report::{self, picture};
+use tunnelproof_cli::report::{self, cast, picture};
 use tunnelproof_reference::boxes::BoxId;
 use tunnelproof_reference::corpus::locate::locate;
 use tunnelproof_reference::corpus::turning;
@@ -25,6 +25,7 @@ Examples:
   tunnelproof explain figure:4.3
   tunnelproof explain lattice:1:4711 --svg picture.svg
   tunnelproof explain turning_plates:1:6 --svg picture.svg
+  tunnelproof explain cast_box_lattice:1:3 --svg picture.svg
   tunnelproof explain 'unit-tests/edge-edge/data_0_1.csv#12'
   tunnelproof explain vectors/errata.json#erratum:strict-skip --svg picture.svg
   head -1 queries.jsonl | tunnelproof explain -")]
@@ -79,11 +80,17 @@ impl Explain {
 
     /// The numbers of a cast of a box, and its exact answer; programs are not asked.
     fn run_box(&self, id: &BoxId) -> Result<ExitCode, Failure> {
-        if self.svg.is_some() || !self.subject.is_empty() {
-            let problem = "is a cast of a box, of which there are no pictures and nobody is asked";
+        if !self.subject.is_empty() {
+            let problem = "is a cast of a box, about which nobody is asked: certify-boxes asks";
             return Err(Failure::file(&self.query, problem));
         }
-        print(&boxes::explain(id))?;
+        let svg = self.svg.as_deref().map(OutputFile::create).transpose()?;
+        let cast = id.cast();
+        let answer = tunnelproof_reference::boxes::decide(&cast);
+        if let Some(file) = svg {
+            file.write(&cast::draw(&self.query, &cast, &answer))?;
+        }
+        print(&boxes::explain(id, &answer))?;
         Ok(ExitCode::SUCCESS)
     }
 

@@ -8,14 +8,14 @@ use tunnelproof_reference::answer::{Enclosure, ExactAnswer, ExactHit, Parameters
 use super::picture::{When, draw_edge};
 use super::svg::{Canvas, Font, INK, PAINTS, PALE_INK, elided};
 
-const HEADLINE: Font = Font {
+pub(super) const HEADLINE: Font = Font {
     size: 17,
     colour: INK,
     is_bold: true,
     is_centred: false,
 };
 
-const DETAIL: Font = Font {
+pub(super) const DETAIL: Font = Font {
     size: 13,
     colour: PALE_INK,
     is_bold: false,
@@ -63,7 +63,7 @@ fn details(answer: &ExactAnswer, hit: &ExactHit) -> String {
 
 /// `= 0.5`, or `\u{2248} 0.333333` where six digits are not the whole number. More digits where six would be an end of
 /// the step or of an edge that it is not.
-fn about(number: Enclosure) -> String {
+pub(super) fn about(number: Enclosure) -> String {
     let value = number.below;
     if value == 0.0 && !number.is_exact() {
         return "just above 0".to_owned();

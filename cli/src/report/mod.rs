@@ -4,6 +4,7 @@
 pub mod audit;
 pub mod badge;
 mod caption;
+pub mod cast;
 pub mod junit;
 mod labels;
 pub mod mesh;

@@ -68,6 +68,11 @@ impl View {
         Vector2::new(point.dot(&self.right), point.dot(&self.up))
     }
 
+    /// This length across the picture, in the unit of the view.
+    pub(super) fn length(&self, length: f64) -> f64 {
+        length / self.unit
+    }
+
     /// How near to the viewer a point is.
     pub(super) fn nearness(&self, point: &Vector3<f64>) -> f64 {
         (point / self.unit - self.centre).dot(&self.toward)

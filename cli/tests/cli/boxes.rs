@@ -62,6 +62,24 @@ fn certify_boxes_counts_what_a_library_misses_and_does_not_take() {
     assert_eq!(count("tunnel"), source["crossings"].as_u64().unwrap());
     assert!(count("missed graze") > 0 && count("false hit") == 0);
 
+    let subject = format!("lib:{library}");
+    let words = [
+        "certify-boxes",
+        "--strict",
+        "--subject",
+        &subject,
+        "--count",
+        "20",
+    ];
+    let families = ["--family", "cast_box_lattice,cast_box_round_lattice"];
+    let output = tunnelproof(&[&words[..], &families[..]].concat());
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    let text = stdout(&output);
+    for part in [" fails: ", " tunnels, ", " missed grazes\n", "\nall  "] {
+        assert!(text.contains(part), "{text}");
+    }
+    assert!(text.contains("explain cast_box_"), "{text}");
+
     let thin = judge(&library, "cast_box_thin_lattice", 100);
     assert_eq!(
         thin["sources"][0]["subjects"][0]["refused"][0]["queries"],

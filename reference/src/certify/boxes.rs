@@ -7,8 +7,11 @@ use num_rational::BigRational;
 use num_traits::{One, ToPrimitive};
 use rayon::prelude::*;
 use tunnelproof::contact::Case;
+use tunnelproof::narrow::Tolerance;
 
 use super::judged::no_time;
+use super::strict::{counts, took_none, words};
+use super::table::grouped;
 use super::tally::Fault;
 use super::verdict::{Judgement, Outline, OutlineHit, judge_outline};
 use crate::boxes::{BoxAnswer, BoxCast, BoxFamily, BoxId, comes_within, decide, least_square};
@@ -101,6 +104,38 @@ pub fn judge_family(
     let digest = hash.finalize();
     judged.fingerprint = digest[..16].iter().map(|b| format!("{b:02x}")).collect();
     judged
+}
+
+/// What was found of all families together, by faults.
+pub fn faults(found: &[Judged]) -> BTreeMap<Fault, BoxFinding> {
+    let mut all: BTreeMap<Fault, BoxFinding> = BTreeMap::new();
+    for (fault, finding) in found.iter().flat_map(|judged| &judged.faults) {
+        let Some(own) = all.get_mut(fault) else {
+            all.insert(*fault, finding.clone());
+            continue;
+        };
+        own.count += finding.count;
+        if finding.worst.severity > own.worst.severity {
+            own.worst = finding.worst.clone();
+        }
+    }
+    all
+}
+
+/// What a program fails by within this tolerance, of all families together; none if it passes. `surplus` is
+/// the number of its answers to nothing.
+pub fn failures(found: &[Judged], tolerance: Tolerance, surplus: u64) -> Vec<String> {
+    let all = faults(found);
+    let counted = all
+        .iter()
+        .filter(|(fault, finding)| counts(tolerance, **fault, finding.worst.severity));
+    let counted = counted
+        .map(|(fault, finding)| format!("{} {}", grouped(finding.count), words(tolerance, *fault)));
+    let queries: u64 = found.iter().map(|judged| judged.queries).sum();
+    let refused: u64 = found.iter().map(|judged| judged.refused).sum();
+    let none = (queries == refused).then(|| took_none(queries));
+    let surplus = (surplus > 0).then(|| format!("{} answers too many", grouped(surplus)));
+    counted.chain(none).chain(surplus).collect()
 }
 
 impl Judged {

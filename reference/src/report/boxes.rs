@@ -1,17 +1,17 @@
 //! Casts of boxes, and what was found on them, as JSON.
 
 use serde_json::{Map, Value, json};
+use tunnelproof::narrow::Tolerance;
 
 use crate::answer::Enclosure;
-use crate::boxes::{Body, BoxCast, BoxId, decide};
+use crate::boxes::{Body, BoxAnswer, BoxCast, BoxId};
 use crate::certify::boxes::{BoxWitness, Judged};
 use crate::certify::tally::Fault;
 use crate::program::Conduct;
 
 /// A generated cast and its exact answer, as text.
-pub fn explain(id: &BoxId) -> String {
+pub fn explain(id: &BoxId, truth: &BoxAnswer) -> String {
     let cast = id.cast();
-    let truth = decide(&cast);
     let contact = match truth.toi {
         None => "no contact".to_owned(),
         Some(toi) => format!("contact at {toi} of the step"),
@@ -44,10 +44,10 @@ fn query_line(id: &str, cast: &BoxCast) -> Value {
 }
 
 /// What was found of a program on families, in the form of the results of `certify`.
-pub fn report(subject: &str, near: f64, found: &[Judged], conduct: &Conduct) -> Value {
+pub fn report(subject: &str, tolerance: Tolerance, found: &[Judged], conduct: &Conduct) -> Value {
     json!({
         "version": env!("CARGO_PKG_VERSION"),
-        "tolerances": [{"subject": subject, "near": near, "late": 0.0}],
+        "tolerances": [{"subject": subject, "near": tolerance.near, "late": tolerance.late}],
         "sources": found.iter().map(|judged| source(subject, judged)).collect::<Vec<_>>(),
         "programs": [{
             "subject": subject,
