@@ -8,15 +8,15 @@ use tunnelproof_reference::generate::{RigidFamily, TURNING_CAST_FAMILIES};
 /// By how many metres the motion is beside one at a constant rate, at most: the angles differ by so much at
 /// samples of the step, times the distance of a point from the centre.
 fn beside_a_constant_rate(query: &RigidQuery) -> f64 {
-    let sides = query.sides().into_iter();
-    let sides = sides.map(|side| {
-        let Side::Turning { local, motion } = side else {
-            panic!("a side does not turn");
-        };
-        let reach = local.iter().map(|point| point.coords.norm());
-        angle_between_clocks(motion) * reach.fold(0.0, f64::max)
+    let beside = query.sides().map(|side| match side {
+        Side::Turning { local, motion } => {
+            let reach = local.iter().map(|point| point.coords.norm());
+            angle_between_clocks(motion) * reach.fold(0.0, f64::max)
+        }
+        // None of these: then it is farther off than anything that is permitted.
+        Side::Straight { .. } => f64::INFINITY,
     });
-    sides.sum()
+    beside.iter().sum()
 }
 
 fn angle_between_clocks(motion: &RigidMotion) -> f64 {
