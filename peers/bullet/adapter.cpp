@@ -201,12 +201,20 @@ Body turning(const struct peers_turning &from) {
     return body;
 }
 
+// The engine turns a body by 45 degrees in a call at most (ANGULAR_MOTION_THRESHOLD): what turns farther would make another motion.
+bool turns_too_far(const struct peers_turning &body) {
+    double along = 0;
+    for (int k = 0; k < 4; k++) along += body.quaternions[0][k] * body.quaternions[1][k];
+    return 2 * acos(fmin(along, 1)) > 0.7854;
+}
+
 int turning_cast(const double local[12], const double poses[28], int count, const double radius[2], double *toi) {
     static const char *method = getenv("PEERS_METHOD");
     if (!method || strcmp(method, "continuous") || radius[0] <= 0 || (count == 2 && radius[1] <= 0))
         return TUNNELPROOF_UNSUPPORTED;
     struct peers_turning both[2];
     peers_turning(local, poses, count, radius, both);
+    if (turns_too_far(both[0]) || turns_too_far(both[1])) return TUNNELPROOF_UNSUPPORTED;
     return cast(turning(both[0]), turning(both[1]), toi);
 }
 

@@ -47,7 +47,7 @@ pub(super) struct Eval {
     /// of a shared library
     #[arg(long, default_value = "oracle", value_parser = asked)]
     subject: Asked,
-    /// The files hold queries of bodies that turn; oracle, difference, certified and programs answer them
+    /// The files hold queries of bodies that turn; oracle, difference, certified, programs and libraries answer them
     #[arg(long, conflicts_with_all = ["kind", "radius"])]
     turning: bool,
     #[command(flatten)]

@@ -248,7 +248,7 @@ fn general(rng: &mut dyn Rng, pair: Pair, scale: Scale) -> RigidQuery {
     })
 }
 
-/// A rod or a blade of a metre that turns by 50 to 88 degrees about its centre, and a small body that
+/// A rod or a blade with coordinates up to a metre that turns by 50 to 88 degrees about its centre, and a small body that
 /// moves slowly and that it comes to, or nearly.
 fn spin(rng: &mut dyn Rng, pair: Pair) -> RigidQuery {
     let small = Scale {
@@ -301,7 +301,7 @@ fn grazing(rng: &mut dyn Rng, pair: Pair) -> RigidQuery {
     })
 }
 
-/// Beams of up to 64 m that turn by up to 5 degrees, against millimetres to centimetres.
+/// Beams with coordinates up to 32 m that turn by up to 5 degrees, against millimetres to centimetres.
 fn long_thin(rng: &mut dyn Rng) -> RigidQuery {
     let small = Scale {
         unit: 1.0 / (1 << 16) as f64,
