@@ -81,14 +81,7 @@ impl Outline {
     fn new(body: &Body) -> Self {
         let edges = match body.shape() {
             Shape::Sphere => vec![[0, 0]],
-            Shape::Edge => vec![[0, 1]],
-            Shape::Triangle => vec![[0, 1], [1, 2], [0, 2]],
-            // Corners of a box that differ in one bit.
-            Shape::Box => {
-                let from = |side: usize| (0..8).filter(move |corner| corner & side == 0);
-                let along = |side| from(side).map(move |corner| [corner, corner | side]);
-                [1, 2, 4].into_iter().flat_map(along).collect()
-            }
+            _ => body.edges(),
         };
         let corners = body.corners().into_iter();
         Outline {

@@ -160,6 +160,20 @@ impl Body {
         }
     }
 
+    /// The corners of each edge, by their numbers: those of a box differ in one bit. A sphere has none.
+    pub fn edges(&self) -> Vec<[usize; 2]> {
+        match self.shape {
+            Shape::Sphere => Vec::new(),
+            Shape::Edge => vec![[0, 1]],
+            Shape::Triangle => vec![[0, 1], [1, 2], [0, 2]],
+            Shape::Box => {
+                let near = |side: usize| (0..8).filter(move |corner| corner & side == 0);
+                let along = |side| near(side).map(move |corner| [corner, corner | side]);
+                [1, 2, 4].into_iter().flat_map(along).collect()
+            }
+        }
+    }
+
     fn corner(&self, number: usize) -> Point {
         let [origin, beside @ ..] = self.points;
         let sides = beside.map(|point| point - origin);

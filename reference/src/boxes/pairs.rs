@@ -94,19 +94,13 @@ impl Features {
     fn new(body: &Body) -> Self {
         let vertices = body.corners();
         let at = |corners: [usize; 2]| corners.map(|corner| vertices[corner]);
-        let (edges, faces) = match body.shape() {
-            Shape::Sphere => (Vec::new(), Vec::new()),
-            Shape::Edge => (vec![at([0, 1])], Vec::new()),
-            Shape::Triangle => {
-                let face = [vertices[0], vertices[1], vertices[2]];
-                (vec![at([0, 1]), at([1, 2]), at([0, 2])], vec![face])
-            }
-            Shape::Box => (
-                box_edges().map(at).collect(),
-                box_faces()
-                    .map(|face| face.map(|corner| vertices[corner]))
-                    .collect(),
-            ),
+        let edges = body.edges().into_iter().map(at).collect();
+        let faces = match body.shape() {
+            Shape::Sphere | Shape::Edge => Vec::new(),
+            Shape::Triangle => vec![[vertices[0], vertices[1], vertices[2]]],
+            Shape::Box => box_faces()
+                .map(|face| face.map(|corner| vertices[corner]))
+                .collect(),
         };
         Features {
             vertices,
@@ -114,15 +108,6 @@ impl Features {
             faces,
         }
     }
-}
-
-/// The corners of each edge, which differ in one bit.
-fn box_edges() -> impl Iterator<Item = [usize; 2]> {
-    let sides = [1, 2, 4].into_iter();
-    sides.flat_map(|side| {
-        let near = (0..8).filter(move |corner| corner & side == 0);
-        near.map(move |corner| [corner, corner | side])
-    })
 }
 
 /// The corners of two triangles for each face, which share a bit.

@@ -1,6 +1,7 @@
 //! A program judged on boxes that are cast.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 use hmac_sha256::Hash;
 use num_rational::BigRational;
@@ -110,16 +111,25 @@ pub fn judge_family(
 pub fn faults(found: &[Judged]) -> BTreeMap<Fault, BoxFinding> {
     let mut all: BTreeMap<Fault, BoxFinding> = BTreeMap::new();
     for (fault, finding) in found.iter().flat_map(|judged| &judged.faults) {
-        let Some(own) = all.get_mut(fault) else {
-            all.insert(*fault, finding.clone());
-            continue;
-        };
-        own.count += finding.count;
-        if finding.worst.severity > own.worst.severity {
-            own.worst = finding.worst.clone();
-        }
+        add(&mut all, *fault, finding.clone());
     }
     all
+}
+
+/// Adds what was found after all that is counted; of equal witnesses the first is kept.
+fn add(all: &mut BTreeMap<Fault, BoxFinding>, fault: Fault, later: BoxFinding) {
+    match all.entry(fault) {
+        Entry::Vacant(entry) => {
+            entry.insert(later);
+        }
+        Entry::Occupied(mut entry) => {
+            let own = entry.get_mut();
+            own.count += later.count;
+            if later.worst.severity > own.worst.severity {
+                own.worst = later.worst;
+            }
+        }
+    }
 }
 
 /// What a program fails by within this tolerance, of all families together; none if it passes. `surplus` is
@@ -178,15 +188,8 @@ impl Judged {
                 said,
                 lapse: lapse.clone(),
             };
-            let found = self.faults.entry(fault);
-            let found = found.or_insert_with(|| BoxFinding {
-                count: 0,
-                worst: witness.clone(),
-            });
-            found.count += 1;
-            if severity > found.worst.severity {
-                found.worst = witness;
-            }
+            let worst = witness;
+            add(&mut self.faults, fault, BoxFinding { count: 1, worst });
         }
     }
 }

@@ -12,7 +12,7 @@
 
 use nalgebra::Vector3;
 use rand::{Rng, RngExt};
-use tunnelproof::query::{Query, QueryKind};
+use tunnelproof::query::Query;
 use tunnelproof::rigid::RigidQuery;
 
 use super::RigidFamily;
@@ -333,7 +333,7 @@ fn start(rng: &mut dyn Rng, pair: Pair) -> RigidQuery {
         aim(rng, &mut draft, 0.0, aside);
         let query = snapped(draft, [0.0, 0.0], unit)?;
         let at_start = query.positions(0.0);
-        let still = Query::new(kind(&query), at_start, at_start, 0.0).ok()?;
+        let still = Query::new(query.kind().linear(), at_start, at_start, 0.0).ok()?;
         let apart = estimate_gap(&still);
         let apart = (16.0 * unit..0.5).contains(&apart).then_some(apart)?;
         let more = match rng.random() {
@@ -345,12 +345,9 @@ fn start(rng: &mut dyn Rng, pair: Pair) -> RigidQuery {
     })
 }
 
-fn kind(query: &RigidQuery) -> QueryKind {
-    query.kind().linear()
-}
-
 #[cfg(test)]
 mod tests {
+    use tunnelproof::query::QueryKind;
     use tunnelproof::rigid::Side;
 
     use super::*;
