@@ -20,6 +20,7 @@ use std::fmt;
 
 use crate::contact::{Case, Contact, ContactPoint, Flags, Verdict};
 use crate::query::{EdgeEdge, Point, QueryKind, Radius, VertexFace};
+use crate::rigid::RigidQueryKind;
 
 /// A continuous narrow phase: the thesis path, the certified path, or a user's own.
 ///
@@ -156,6 +157,8 @@ impl Report {
 pub enum Unsupported {
     /// Queries of this kind.
     Kind(QueryKind),
+    /// Queries of this kind, of bodies that turn.
+    Turning(RigidQueryKind),
     /// A radius other than 0.
     Radius(Radius),
 }
@@ -164,6 +167,7 @@ impl fmt::Display for Unsupported {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Unsupported::Kind(kind) => write!(f, "{kind} queries are not supported"),
+            Unsupported::Turning(kind) => write!(f, "{kind} queries are not supported"),
             Unsupported::Radius(radius) => {
                 write!(
                     f,

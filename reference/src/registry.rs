@@ -65,7 +65,7 @@ pub fn truths() -> [(&'static str, Truth); 3] {
     let oracle = |query: &AnyQuery| Ok(query.decide());
     let shadow = |query: &AnyQuery| match query {
         AnyQuery::Linear(query) => SECOND_JUDGE.decide(query),
-        AnyQuery::Turning(_) => Err(Unsupported::Kind(query.shape())),
+        AnyQuery::Turning(query) => Err(Unsupported::Turning(query.kind())),
     };
     let difference = |query: &AnyQuery| {
         Ok(match query {

@@ -37,7 +37,7 @@ pub trait Subject: Sync {
     ///
     /// # Errors
     ///
-    /// As [`answer`](Self::answer). [`Unsupported`] names the kind of the same query of linear motion.
+    /// As [`answer`](Self::answer).
     fn turning_answer(&self, query: &RigidQuery) -> Result<Answer, NoAnswer> {
         Err(refusal(query).into())
     }
@@ -59,7 +59,7 @@ pub trait Subject: Sync {
 
 /// That a subject takes no queries of bodies that turn.
 fn refusal(query: &RigidQuery) -> Unsupported {
-    Unsupported::Kind(query.kind().linear())
+    Unsupported::Turning(query.kind())
 }
 
 /// What a subject says.

@@ -11,10 +11,10 @@ use tunnelproof_reference::certify::judged::Judged;
 use tunnelproof_reference::certify::query::AnyQuery;
 use tunnelproof_reference::certify::run::Panel;
 use tunnelproof_reference::certify::shard::Shard;
-use tunnelproof_reference::certify::source::{AnySource, Source, TurningSource};
+use tunnelproof_reference::certify::source::{AnyFamily, AnySource, Source, TurningSource};
 use tunnelproof_reference::certify::tally::{Fault, Witness};
 use tunnelproof_reference::difference::Difference;
-use tunnelproof_reference::generate::FAMILIES;
+use tunnelproof_reference::generate::{FAMILIES, Family};
 use tunnelproof_reference::program::Conduct;
 use tunnelproof_reference::registry;
 use tunnelproof_reference::shadow::Shadow;
@@ -23,7 +23,7 @@ use tunnelproof_reference::subject::Subject;
 
 use super::certificate::Certificate;
 use super::resume::Resumed;
-use super::sources::{AnyFamily, any_family, of_files};
+use super::sources::{any_family, of_files};
 use super::subjects::{Answering, AskedList, Permit, Programs, asked_list, check_turning};
 use super::{Failure, Reading, output, progress};
 
@@ -242,12 +242,12 @@ impl Certify {
         let families: Vec<_> = match self.family.is_empty() && files.is_empty() {
             true => {
                 let subjects: Vec<_> = panel.subjects.iter().map(|judged| judged.subject).collect();
-                let families = defaults::families(&subjects).into_iter();
-                families.map(AnyFamily::Linear).collect()
+                defaults::families(&subjects)
             }
             false => self.family.clone(),
         };
-        let is_everything = self.family.is_empty() && families.len() == FAMILIES.len();
+        let names = families.iter().map(AnyFamily::name);
+        let is_everything = self.family.is_empty() && names.eq(FAMILIES.iter().map(Family::name));
         let figures = is_everything.then_some(Source::Figures.into());
         let families = families.iter().filter(|_| self.count > 0);
         let families = families.map(|family| family.first(self.seed, self.count));

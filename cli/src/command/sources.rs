@@ -3,7 +3,7 @@
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use tunnelproof_cli::sweep::{Domain, DomainError, Precision};
-use tunnelproof_reference::certify::source::{AnySource, Source, TurningSource};
+use tunnelproof_reference::certify::source::{AnyFamily, Source};
 use tunnelproof_reference::corpus::folder;
 use tunnelproof_reference::generate::{
     self, FAMILIES, Family, RigidFamily, all_rigid, rigid_by_name,
@@ -106,46 +106,6 @@ pub(super) fn has_a_scale(family: &Family) -> bool {
 fn precision() -> impl TypedValueParser<Value = Precision> {
     PossibleValuesParser::new(Precision::ALL.map(Precision::name))
         .try_map(|name| Precision::from_name(&name).ok_or("unknown precision"))
-}
-
-/// A family of queries of linear motion, or of bodies that turn.
-#[derive(Clone, Copy)]
-pub(super) enum AnyFamily {
-    Linear(&'static Family),
-    Turning(&'static RigidFamily),
-}
-
-impl AnyFamily {
-    /// The name used in identifiers.
-    pub(super) fn name(&self) -> &'static str {
-        match self {
-            AnyFamily::Linear(family) => family.name(),
-            AnyFamily::Turning(family) => family.name(),
-        }
-    }
-
-    /// Whether it is of bodies that turn.
-    pub(super) fn turns(&self) -> bool {
-        matches!(self, AnyFamily::Turning(_))
-    }
-
-    /// Its first queries.
-    pub(super) fn first(&self, seed: u64, count: u64) -> AnySource {
-        match *self {
-            AnyFamily::Linear(family) => Source::Family {
-                family,
-                seed,
-                count,
-            }
-            .into(),
-            AnyFamily::Turning(family) => TurningSource::Family {
-                family,
-                seed,
-                count,
-            }
-            .into(),
-        }
-    }
 }
 
 pub(super) fn any_family() -> impl TypedValueParser<Value = AnyFamily> {

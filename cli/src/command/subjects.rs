@@ -23,7 +23,8 @@ pub(super) enum Asked {
     Program(String),
 }
 
-/// Several of them, separated by commas. A command has commas of its own: it ends the list.
+/// Several of them, separated by commas. A command has commas of its own: it ends the list. So may
+/// the path of a library: what ends it is a comma before another subject.
 #[derive(Clone)]
 pub(super) struct AskedList(Vec<Asked>);
 
@@ -217,6 +218,12 @@ fn is_program(text: &str) -> bool {
     text.starts_with(COMMAND) || text.starts_with(LIBRARY)
 }
 
+/// Whether the first of a list is a program, or has the name of a subject.
+fn starts_with_subject(list: &str) -> bool {
+    let name = list.split(',').next().unwrap_or_default();
+    is_program(list) || registry::by_name(name).is_some()
+}
+
 /// Reads the name of a subject, or a command.
 pub(super) fn asked(text: &str) -> Result<Asked, String> {
     if is_program(text) {
@@ -234,9 +241,17 @@ pub(super) fn asked_list(text: &str) -> Result<AskedList, String> {
     let mut list = Vec::new();
     let mut rest = Some(text);
     while let Some(text) = rest {
-        let (first, more) = match text.split_once(',') {
-            Some((first, more)) if !is_program(text) => (first, Some(more)),
-            _ => (text, None),
+        let end = match text {
+            text if text.starts_with(COMMAND) => None,
+            text if text.starts_with(LIBRARY) => {
+                let mut commas = text.match_indices(',').map(|(place, _)| place);
+                commas.find(|place| starts_with_subject(&text[place + 1..]))
+            }
+            text => text.find(','),
+        };
+        let (first, more) = match end {
+            Some(end) => (&text[..end], Some(&text[end + 1..])),
+            None => (text, None),
         };
         list.push(asked(first)?);
         rest = more;
@@ -279,5 +294,31 @@ pub(super) fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(seconds) if seconds > 0.0 && seconds <= 86_400.0 => Ok(seconds),
         _ => Err("not a number above 0, of at most 86400".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_of_subjects_are_split_at_commas_before_subjects() {
+        let names = |text| {
+            let AskedList(list) = asked_list(text).ok()?;
+            let name = |asked: Asked| match asked {
+                Asked::Known(subject) => subject.name().to_owned(),
+                Asked::Program(name) => name,
+            };
+            Some(list.into_iter().map(name).collect::<Vec<_>>().join(" | "))
+        };
+        for (text, expected) in [
+            ("oracle,certified", "oracle | certified"),
+            ("lib:a.so,oracle,lib:b.so", "lib:a.so | oracle | lib:b.so"),
+            ("lib:a,b.so,cmd:./c 1,2", "lib:a,b.so | cmd:./c 1,2"),
+            ("oracle,cmd:./c 1,oracle", "oracle | cmd:./c 1,oracle"),
+        ] {
+            assert_eq!(names(text).as_deref(), Some(expected), "{text}");
+        }
+        assert_eq!(names("oracle,nobody"), None);
     }
 }

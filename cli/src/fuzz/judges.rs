@@ -83,7 +83,7 @@ pub(super) fn engine_vs_shadow(subject: &dyn Subject, query: &Query) -> Option<S
         subject,
         truth: |query| match query {
             AnyQuery::Linear(query) => EXACT_THESIS.decide(query),
-            AnyQuery::Turning(_) => Err(Unsupported::Kind(query.shape())),
+            AnyQuery::Turning(query) => Err(Unsupported::Turning(query.kind())),
         },
     };
     let fault = fault(&disagreement, query)?;

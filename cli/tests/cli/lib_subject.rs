@@ -253,6 +253,44 @@ fn library_is_given_every_number_of_bodies_that_turn() {
     assert_eq!(subject["taken"].as_array().unwrap().len(), 0, "{subject}");
 }
 
+/// The example of docs/bring-your-own.md that takes edges against edges of bodies that turn, and
+/// nothing else.
+fn blades() -> String {
+    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/bring-your-own.md");
+    let page = fs::read_to_string(page).unwrap();
+    let blocks = page.split("```c\n").skip(1);
+    let mut blocks = blocks.map(|rest| rest.split("```").next().unwrap().to_owned());
+    let is_it = |block: &String| block.contains("tunnelproof_edge_turning_edge(");
+    blocks.find(is_it).unwrap()
+}
+
+#[test]
+fn library_of_bodies_that_turn_alone_is_judged_on_these() {
+    let folder = tempfile::tempdir().unwrap();
+    let blades = library(folder.path(), "blades", &blades());
+    let subject = format!("lib:{blades}");
+    let result = folder.path().join("result.json");
+    let json = result.to_str().unwrap();
+    let words = ["certify", "--one-judge", "--count", "3", "--json", json];
+    tunnelproof(&[&words[..], &["--subject", &subject]].concat());
+    let result: Value = serde_json::from_str(&fs::read_to_string(result).unwrap()).unwrap();
+    let sources = result["sources"].as_array().unwrap();
+    let is_turning = |source: &Value| source["name"].as_str().unwrap().starts_with("turning_");
+    assert!(sources.iter().all(is_turning), "{sources:?}");
+    let subject = &result["total"]["subjects"][0];
+    let taken: Vec<_> = subject["taken"].as_array().unwrap().iter().collect();
+    assert!(!taken.is_empty(), "{subject}");
+    assert!(
+        taken.iter().all(|sort| sort["kind"] == "edge-turning-edge"),
+        "{subject}"
+    );
+    // Its bodies are where those of the queries are: only what happens between two times is missed.
+    let seen = certified(folder.path(), &blades, "turning_uniform");
+    let seen = &seen["total"]["subjects"][0];
+    assert!(seen["hits"].as_u64().unwrap() > 30, "{seen}");
+    assert_eq!(seen["faults"]["tunnel"]["count"], 0, "{seen}");
+}
+
 #[test]
 fn library_that_cannot_answer_is_refused() {
     let folder = tempfile::tempdir().unwrap();

@@ -3,44 +3,57 @@
 use std::collections::BTreeMap;
 
 use super::reply::{Reply, ask};
+use super::source::AnyFamily;
 use super::tally::Sort;
-use crate::generate::{FAMILIES, Family, OTHER_KINDS};
+use crate::generate::{FAMILIES, OTHER_KINDS, RIGID_FAMILIES};
 use crate::subject::Subject;
 
+/// Queries of a family that a subject is asked to see whether it takes some. Those of bodies that
+/// turn are of several kinds.
+const PROBE: u64 = 16;
+
 /// Every family of edges without radius, if one of the subjects takes such queries; else those of
-/// the sorts of query that one of them takes, vertices and faces first of all.
+/// vertices and faces and those with a radius of which one of them takes some; else those of bodies
+/// that turn.
 ///
 /// Each subject is asked a query of each sort until it takes one. Of subjects that take none, the
 /// families are those of edges.
-pub fn families(subjects: &[&dyn Subject]) -> Vec<&'static Family> {
+pub fn families(subjects: &[&dyn Subject]) -> Vec<AnyFamily> {
     let mut known = BTreeMap::new();
-    let mut is_taken = |family: &Family| {
-        let query = family.query(1, 0).into();
-        let takes = |subject: &&dyn Subject| ask(*subject, &query) != Reply::NotAsked;
-        let taken = known.entry(Sort::of(&query));
-        *taken.or_insert_with(|| subjects.iter().any(takes))
+    let mut is_taken = |family: &AnyFamily| {
+        (0..PROBE).any(|index| {
+            let query = family.query(1, index);
+            let takes = |subject: &&dyn Subject| ask(*subject, &query) != Reply::NotAsked;
+            let taken = known.entry(Sort::of(&query));
+            *taken.or_insert_with(|| subjects.iter().any(takes))
+        })
     };
-    let edges = FAMILIES.iter().collect();
-    if FAMILIES.first().is_some_and(&mut is_taken) {
+    let edges: Vec<_> = FAMILIES.iter().map(AnyFamily::Linear).collect();
+    if edges.first().is_some_and(&mut is_taken) {
         return edges;
     }
-    let others: Vec<_> = OTHER_KINDS
-        .iter()
-        .filter(|family| is_taken(family))
-        .collect();
-    match others.is_empty() {
-        true => edges,
+    let others = OTHER_KINDS.iter().map(AnyFamily::Linear);
+    let turning = RIGID_FAMILIES.iter().map(AnyFamily::Turning);
+    let others: Vec<_> = others.filter(&mut is_taken).collect();
+    let taken = match others.is_empty() {
+        true => turning.filter(is_taken).collect(),
         false => others,
+    };
+    match taken.is_empty() {
+        true => edges,
+        false => taken,
     }
 }
 
 #[cfg(test)]
 mod tests {
     use tunnelproof::narrow::{NarrowPhase, Report, Unsupported};
-    use tunnelproof::query::{EdgeEdge, QueryKind, VertexFace};
+    use tunnelproof::query::{EdgeEdge, Query, QueryKind, VertexFace};
+    use tunnelproof::rigid::{RigidQuery, RigidQueryKind};
 
     use super::*;
-    use crate::subject::{Certified, Engine};
+    use crate::generate::Family;
+    use crate::subject::{Answer, Certified, Engine, NoAnswer};
 
     struct Faces;
     impl NarrowPhase for Faces {
@@ -58,11 +71,28 @@ mod tests {
         }
     }
 
+    /// Edges of bodies that turn against those that do not, and nothing else.
+    struct Blades;
+    impl Subject for Blades {
+        fn name(&self) -> &str {
+            "blades"
+        }
+        fn answer(&self, query: &Query) -> Result<Answer, NoAnswer> {
+            Err(Unsupported::Kind(query.kind()).into())
+        }
+        fn turning_answer(&self, query: &RigidQuery) -> Result<Answer, NoAnswer> {
+            match query.kind() {
+                RigidQueryKind::EdgeTurningEdge => Certified.turning_answer(query),
+                kind => Err(Unsupported::Turning(kind).into()),
+            }
+        }
+    }
+
     #[test]
     fn families_are_those_that_a_subject_takes() {
         let names = |subjects: &[&dyn Subject]| {
             let families = families(subjects).into_iter();
-            families.map(Family::name).collect::<Vec<_>>()
+            families.map(|family| family.name()).collect::<Vec<_>>()
         };
         let faces = names(&[&Engine(Faces)]);
         assert!(
@@ -73,5 +103,12 @@ mod tests {
         let edges: Vec<_> = FAMILIES.iter().map(Family::name).collect();
         assert_eq!(names(&[&Engine(Faces), &Certified]), edges);
         assert_eq!(names(&[]), edges);
+        let turning = names(&[&Blades]);
+        assert!(
+            turning.iter().all(|name| name.starts_with("turning_")),
+            "{turning:?}"
+        );
+        assert!(turning.len() > 5, "{turning:?}");
+        assert_eq!(names(&[&Blades, &Certified]), edges);
     }
 }

@@ -6,7 +6,7 @@ use tunnelproof::narrow::Unsupported;
 use tunnelproof::query::Query;
 use tunnelproof::rigid::RigidQuery;
 
-use super::query::AnyQuery;
+use super::query::{AnyKind, AnyQuery};
 use crate::subject::{Answer, Lapse, LapseKind, NoAnswer, Subject};
 
 /// What comes of asking a subject.
@@ -71,7 +71,8 @@ fn answers(subject: &dyn Subject, queries: &[AnyQuery]) -> Vec<Result<Answer, No
 /// Whether what a subject says it does not take is what the query is.
 fn is_of_sort(refusal: Unsupported, query: &AnyQuery) -> bool {
     match refusal {
-        Unsupported::Kind(kind) => kind == query.shape(),
+        Unsupported::Kind(kind) => query.kind() == AnyKind::Linear(kind),
+        Unsupported::Turning(kind) => query.kind() == AnyKind::Turning(kind),
         Unsupported::Radius(radius) => !radius.is_zero() && radius == query.radius(),
         _ => false,
     }

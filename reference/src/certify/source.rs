@@ -21,6 +21,56 @@ pub enum AnySource {
     Turning(TurningSource),
 }
 
+/// A family of queries of linear motion, or of bodies that turn.
+#[derive(Clone, Copy, Debug)]
+pub enum AnyFamily {
+    /// Of linear motion.
+    Linear(&'static Family),
+    /// Of bodies that turn.
+    Turning(&'static RigidFamily),
+}
+
+impl AnyFamily {
+    /// The name used in identifiers.
+    pub fn name(&self) -> &'static str {
+        match self {
+            AnyFamily::Linear(family) => family.name(),
+            AnyFamily::Turning(family) => family.name(),
+        }
+    }
+
+    /// Whether it is of bodies that turn.
+    pub fn turns(&self) -> bool {
+        matches!(self, AnyFamily::Turning(_))
+    }
+
+    /// The query of this seed and index.
+    pub fn query(&self, seed: u64, index: u64) -> AnyQuery {
+        match self {
+            AnyFamily::Linear(family) => family.query(seed, index).into(),
+            AnyFamily::Turning(family) => family.query(seed, index).into(),
+        }
+    }
+
+    /// Its first queries.
+    pub fn first(&self, seed: u64, count: u64) -> AnySource {
+        match *self {
+            AnyFamily::Linear(family) => Source::Family {
+                family,
+                seed,
+                count,
+            }
+            .into(),
+            AnyFamily::Turning(family) => TurningSource::Family {
+                family,
+                seed,
+                count,
+            }
+            .into(),
+        }
+    }
+}
+
 /// A finite sequence of queries of bodies that turn, with a name.
 #[derive(Clone, Debug)]
 pub enum TurningSource {

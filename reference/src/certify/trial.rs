@@ -14,7 +14,7 @@ use super::findings::{Findings, Settings};
 use super::judged::Judged;
 use super::run::{Panel, RunError};
 use super::shard::Shard;
-use super::source::Source;
+use super::source::{AnyFamily, AnySource, Source};
 use super::strict::{exact_failures, failures};
 use super::table::{self, Shown};
 
@@ -124,17 +124,13 @@ impl<N: NarrowPhase> Trial<N> {
             None => defaults::families(&[&subject]),
             Some(names) => names
                 .iter()
-                .map(|name| by_name(name))
+                .map(|name| by_name(name).map(AnyFamily::Linear))
                 .collect::<Result<_, _>>()?,
         };
         let command = command(self.families.as_deref(), count, seed);
-        let families = families.into_iter().map(|family| Source::Family {
-            family,
-            seed,
-            count,
-        });
-        let sources = families.chain(self.sources);
-        let blocks = sources.map(|source| panel.run(&source.into(), |_| {}));
+        let families = families.into_iter().map(|family| family.first(seed, count));
+        let sources = families.chain(self.sources.into_iter().map(AnySource::from));
+        let blocks = sources.map(|source| panel.run(&source, |_| {}));
         let blocks = blocks.collect::<Result<_, _>>()?;
         let settings = Settings {
             command,

@@ -52,6 +52,9 @@ pub enum Problem {
     /// The line has fields that queries of bodies that turn have, and others do not.
     #[error("is a query of bodies that turn, which are read with --turning")]
     Turning,
+    /// The family has no bodies that turn.
+    #[error("is a query of linear motion, which is not read with --turning")]
+    NotTurning,
     /// The kind is none of bodies that turn.
     #[error("kind is {}, not {}", quoted(.0), RigidQueryKind::ALL.map(RigidQueryKind::name).join(", "))]
     TurningKindUnknown(String),

@@ -31,7 +31,7 @@ use super::jsonl::{self, Label, Number, Numbers, Radii, given, number};
 use super::lines::{Line, Lines};
 use super::packed::Packing;
 use super::until_error;
-use crate::generate::RigidId;
+use crate::generate::{GeneratedId, RigidId};
 
 /// A query of a body that turns, of a corpus.
 #[derive(Clone, Debug, PartialEq)]
@@ -186,6 +186,9 @@ pub fn locate(text: &str) -> Result<TurningEntry, CorpusError> {
                 .query(),
             label: None,
         });
+    }
+    if text.parse::<GeneratedId>().is_ok() {
+        return Err(refuse(Problem::NotTurning));
     }
     let (path, id) = match text.rsplit_once('#') {
         Some((path, id)) => (path, Some(id)),

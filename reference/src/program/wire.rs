@@ -3,7 +3,7 @@
 use std::io::{self, BufRead};
 
 use tunnelproof::narrow::Unsupported;
-use tunnelproof::query::{Query, QueryKind, Radius};
+use tunnelproof::query::{Query, Radius};
 use tunnelproof::rigid::RigidQuery;
 
 use crate::boxes::BoxCast;
@@ -99,7 +99,7 @@ impl AskedQuery for Query {
     }
 
     fn refusal(&self) -> NoAnswer {
-        refusal(self.kind(), self.radius()).into()
+        refusal(Unsupported::Kind(self.kind()), self.radius()).into()
     }
 }
 
@@ -116,7 +116,7 @@ impl AskedQuery for RigidQuery {
     }
 
     fn refusal(&self) -> NoAnswer {
-        refusal(self.kind().linear(), self.radius()).into()
+        refusal(Unsupported::Turning(self.kind()), self.radius()).into()
     }
 }
 
@@ -134,9 +134,9 @@ impl AskedQuery for BoxCast {
     }
 }
 
-fn refusal(kind: QueryKind, radius: Radius) -> Unsupported {
+fn refusal(kind: Unsupported, radius: Radius) -> Unsupported {
     match radius.is_zero() {
-        true => Unsupported::Kind(kind),
+        true => kind,
         false => Unsupported::Radius(radius),
     }
 }

@@ -192,7 +192,7 @@ fn turning_results_are_read_back_and_parts_make_the_whole() {
 fn turning_queries_of_one_body_and_of_two_are_sorts_of_their_own() {
     let one_body: Change = |query, truth| match query.kind().lengths().poses {
         2 => Ok(Answer::Exact(truth)),
-        _ => Err(Unsupported::Kind(query.kind().linear()).into()),
+        _ => Err(Unsupported::Turning(query.kind()).into()),
     };
     let (right, engine) = (changed("second", RIGHT), changed("engine", one_body));
     let panel = panel(&right, &engine);
@@ -218,7 +218,7 @@ fn turning_subject_fails_by_each_fault() {
         Ok(Answer::Exact(truth))
     };
     let silent: Change = |_, _| Err(Lapse::new(LapseKind::Crashed, "gone").into());
-    let refusing: Change = |query, _| Err(Unsupported::Kind(query.kind().linear()).into());
+    let refusing: Change = |query, _| Err(Unsupported::Turning(query.kind()).into());
     for (change, words) in [
         (of_misses, "tunnels"),
         (of_misses, "missed grazes"),
