@@ -34,7 +34,7 @@ const direction = new Jolt.Vec3(0, 0, 0);
 function edge(points, radius) {
   const { centre, half, rotation } = capsule(points, 1);
   const shape = half === 0 ? new Jolt.SphereShape(radius) : new Jolt.CapsuleShape(half, radius);
-  return { shape, centre, rotation };
+  return { shape: counted(shape), centre, rotation };
 }
 
 function face(points) {
@@ -44,22 +44,26 @@ function face(points) {
   list.push_back(triangle);
   const mesh = new Jolt.MeshShapeSettings(list);
   const result = mesh.Create();
-  const shape = result.IsValid() ? result.Get() : null;
-  shape?.AddRef();
+  const shape = result.IsValid() ? counted(result.Get()) : null;
   result.Clear();
   [b, c, d, triangle, list, mesh].forEach((object) => Jolt.destroy(object));
-  return { shape, centre: points[1], rotation: [0, 0, 0, 1], isCounted: true };
+  return { shape, centre: points[1], rotation: [0, 0, 0, 1] };
 }
 
-function release(body) {
-  if (body.shape === null) return;
-  if (body.isCounted) body.shape.Release();
-  else Jolt.destroy(body.shape);
+// Jolt counts who refers to a shape, and the target keeps its last one until it gets another: a shape is released here,
+// and never destroyed.
+function counted(shape) {
+  shape.AddRef();
+  return shape;
+}
+
+function release({ shape }) {
+  shape?.Release();
 }
 
 function bodies({ isFace, points, radii }) {
   if (!isFace) return [edge(points.slice(0, 2), radii[0] + skin), edge(points.slice(2), radii[1])];
-  const ball = new Jolt.SphereShape(radii[0] + radii[1] + skin);
+  const ball = counted(new Jolt.SphereShape(radii[0] + radii[1] + skin));
   return [{ shape: ball, centre: points[0], rotation: [0, 0, 0, 1] }, face(points)];
 }
 
@@ -71,7 +75,7 @@ function convex(body) {
   const box = aligned(body);
   if (box === null) return undefined;
   const half = new Jolt.Vec3(...box.half);
-  const made = new Jolt.BoxShape(half, 0);
+  const made = counted(new Jolt.BoxShape(half, 0));
   Jolt.destroy(half);
   return { shape: made, centre: box.centre, rotation: [0, 0, 0, 1] };
 }
