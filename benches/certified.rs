@@ -61,8 +61,7 @@ fn bench(c: &mut Criterion) {
 
 /// With a radius, beside additive CCD with the same minimum separation.
 fn bench_thick(c: &mut Criterion) {
-    for (name, queries) in data::sets() {
-        let queries = data::thick(&queries);
+    for (name, queries) in data::thick_sets() {
         let count = queries.len();
         println!(
             "\nthick-{name}: {count} queries, decided by {}",

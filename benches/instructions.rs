@@ -5,15 +5,21 @@
 //! Each method runs over each set under `valgrind --tool=callgrind`, and once more without doing
 //! anything, to take off what reading the queries costs. A broad phase runs for one step, which
 //! sorts and fills, and for [`STEPS`] more; a wire is stepped not at all, and for as many.
+//!
+//! `cargo bench --bench instructions -- check` counts the certified path, the broad phase and the
+//! stepper alone, and ends with 1 where one of them takes a fiftieth more than `instructions.txt`
+//! says. `-- record` writes that file. Other compilers and other processors count otherwise.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
     reason = "a measurement that goes wrong ends by panicking"
 )]
 
+use std::collections::BTreeMap;
 use std::env;
+use std::fs;
 use std::hint::black_box;
-use std::process::Command;
+use std::process::{Command, exit};
 
 use tunnelproof::additive::Additive;
 use tunnelproof::broad::Method;
@@ -33,15 +39,24 @@ mod span;
 const STEPS: usize = 4;
 
 const METHODS: [&str; 4] = ["thesis", "additive", "certified", "certified-batch"];
-const THICK_METHODS: [&str; 2] = ["additive", "certified"];
+const THICK_METHODS: [&str; 3] = ["additive", "certified", "certified-batch"];
 const FACE_METHODS: [&str; 2] = ["certified", "certified-batch"];
+
+/// What is counted, as it was recorded.
+const RECORD: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/instructions.txt");
+
+/// Of the wire stepper.
+const WIRE_SCENES: [&str; 2] = ["swing", "contacts"];
+
+/// How many segments a guarded scene has.
+const GUARDED_SEGMENTS: usize = 100;
 
 fn main() {
     let arguments: Vec<String> = env::args().skip(1).collect();
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match arguments[..] {
-        ["run", set, method] => return work(&edges(set), method),
-        ["run-thick", set, method] => return work(&data::thick(&edges(set)), method),
+        ["run", set, method] => return work(&made(data::all(), set), method),
+        ["run-thick", set, method] => return work(&made(data::all_thick(), set), method),
         ["run-vertex-face", set, method] => return work_vertex_face(set, method),
         ["step", scene, count, method, steps] => {
             return step(
@@ -60,9 +75,105 @@ fn main() {
         println!("valgrind is not here: no instructions counted");
         return;
     }
-    narrow_phases();
-    broad_phases();
-    wires();
+    match arguments[..] {
+        ["check", ..] => exit(check(&guarded())),
+        ["record", ..] => record(&guarded()),
+        _ => {
+            narrow_phases();
+            broad_phases();
+            wires();
+        }
+    }
+}
+
+/// Counts by name.
+type Counts = BTreeMap<String, u64>;
+
+/// What this project has to answer for.
+fn guarded() -> Counts {
+    let mut counts = Counts::new();
+    let sizes = |(set, queries): (_, Vec<EdgeEdge>)| (set, queries.len());
+    let faces = data::vertex_face_sets().into_iter();
+    let faces = faces.map(|(set, queries)| (set, queries.len())).collect();
+    let kinds: [(&str, &[&str], Vec<_>); 3] = [
+        ("run", &METHODS, data::sets().map(sizes).collect()),
+        (
+            "run-thick",
+            &THICK_METHODS,
+            data::thick_sets().map(sizes).collect(),
+        ),
+        ("run-vertex-face", &FACE_METHODS, faces),
+    ];
+    for (kind, methods, sets) in kinds {
+        let own = methods.iter().filter(|name| name.starts_with("certified"));
+        let own: Vec<&str> = own.copied().collect();
+        for (set, count) in sets {
+            for (method, each) in own.iter().zip(per_query(kind, set, &own, count)) {
+                counts.insert(format!("{kind} {set} {method}"), each);
+            }
+        }
+    }
+    let count = GUARDED_SEGMENTS;
+    for (scene, _) in scenes::SCENES {
+        for (method, ..) in scenes::METHODS {
+            let each = per_segment(&["step", scene, &count.to_string(), method], 1, count);
+            counts.insert(format!("step {scene} {method}"), each);
+        }
+    }
+    for scene in WIRE_SCENES {
+        let each = per_segment(&["wire", scene, &count.to_string()], 0, count);
+        counts.insert(format!("wire {scene}"), each);
+    }
+    counts
+}
+
+/// Compares with what was recorded: the exit code.
+fn check(counts: &Counts) -> i32 {
+    let text = fs::read_to_string(RECORD).expect("benches/instructions.txt is there");
+    let recorded = text.lines().filter(|line| !line.starts_with('#'));
+    let recorded = recorded.map(|line| line.rsplit_once(' ').expect("a name and a count"));
+    let recorded: BTreeMap<&str, u64> = recorded
+        .map(|(name, count)| (name, count.parse().expect("a count")))
+        .collect();
+    let mut code = 0;
+    println!("{:<48}{:>10}{:>10}{:>9}", "", "recorded", "now", "");
+    for (name, &now) in counts {
+        let Some(&before) = recorded.get(name.as_str()) else {
+            println!("{name:<48}{:>10}{now:>10}   not recorded", "");
+            code = 1;
+            continue;
+        };
+        let is_more = now * 50 > before * 51;
+        let share = 100.0 * (now as f64 / before as f64 - 1.0);
+        let verdict = if is_more { "   more by over 2%" } else { "" };
+        println!("{name:<48}{before:>10}{now:>10}{share:>+8.1}%{verdict}");
+        code = if is_more { 1 } else { code };
+    }
+    if code != 0 {
+        let compiler = text.lines().next().unwrap_or_default();
+        println!("recorded by: {compiler}");
+        println!("here: # {}", compiler_here());
+        println!("If it is meant, or the compiler is another one: -- record");
+    }
+    code
+}
+
+fn record(counts: &Counts) {
+    let lines = counts
+        .iter()
+        .map(|(name, count)| format!("{name} {count}\n"));
+    let text = format!("# {}\n{}", compiler_here(), lines.collect::<String>());
+    fs::write(RECORD, text).expect("benches/instructions.txt can be written");
+}
+
+/// Version and host of the compiler.
+fn compiler_here() -> String {
+    let output = Command::new("rustc").arg("-vV").output();
+    let text = output.map(|output| String::from_utf8_lossy(&output.stdout).into_owned());
+    let text = text.unwrap_or_default();
+    let lines = text.lines();
+    let lines = lines.filter(|line| line.starts_with("rustc") || line.starts_with("host"));
+    lines.collect::<Vec<_>>().join(", ")
 }
 
 fn narrow_phases() {
@@ -70,7 +181,7 @@ fn narrow_phases() {
     let sets = data::sets().map(|(set, queries)| (set, queries.len()));
     table("run", METHODS, sets);
     println!("\ninstructions per query of two edges with a radius");
-    let sets = data::sets().map(|(set, queries)| (set, queries.len()));
+    let sets = data::thick_sets().map(|(set, queries)| (set, queries.len()));
     table("run-thick", THICK_METHODS, sets);
     println!("\ninstructions per query of a vertex and a face");
     let sets = data::vertex_face_sets();
@@ -86,19 +197,26 @@ fn table<const N: usize>(
     let head = methods.map(|m| format!("{m:>17}")).concat();
     println!("{:<24}{:>10}{head}", "set", "queries");
     for (set, count) in sets {
-        let idle = instructions(&[kind, set, "none"]);
-        let idle_batch = instructions(&[kind, set, "none-batch"]);
-        let cells = methods.map(|method| {
-            let base = if method.ends_with("batch") {
-                idle_batch
-            } else {
-                idle
-            };
-            let each = (instructions(&[kind, set, method]) - base) / count as u64;
-            format!("{each:>17}")
-        });
-        println!("{set:<24}{count:>10}{}", cells.concat());
+        let cells = per_query(kind, set, &methods, count).into_iter();
+        let cells: String = cells.map(|each| format!("{each:>17}")).collect();
+        println!("{set:<24}{count:>10}{cells}");
     }
+}
+
+/// Of each method, without what reading a set of so many queries costs.
+fn per_query(kind: &str, set: &str, methods: &[&str], count: usize) -> Vec<u64> {
+    let idle = ["none", "none-batch"].map(|method| instructions(&[kind, set, method]));
+    let each = |method: &&str| {
+        let base = idle[usize::from(method.ends_with("batch"))];
+        (instructions(&[kind, set, method]) - base) / count as u64
+    };
+    methods.iter().map(each).collect()
+}
+
+/// Of a step of a scene of so many segments, after so many steps.
+fn per_segment(words: &[&str], first: usize, count: usize) -> u64 {
+    let steps = |steps: usize| instructions(&[words, &[steps.to_string().as_str()]].concat());
+    (steps(first + STEPS) - steps(first)) / (STEPS * count) as u64
 }
 
 fn broad_phases() {
@@ -108,11 +226,7 @@ fn broad_phases() {
     for (name, scene) in scenes::SCENES {
         for count in scenes::SIZES {
             let cells = scenes::METHODS.map(|method| {
-                let steps = |steps: usize| {
-                    let (count, steps) = (count.to_string(), steps.to_string());
-                    instructions(&["step", name, &count, method.0, &steps])
-                };
-                let each = (steps(1 + STEPS) - steps(1)) / (STEPS * count) as u64;
+                let each = per_segment(&["step", name, &count.to_string(), method.0], 1, count);
                 let pairs = last_step(scene(count), method, 1 + STEPS);
                 format!("{each:>16}{pairs:>10}")
             });
@@ -125,12 +239,8 @@ fn wires() {
     println!("\ninstructions of the wire stepper per segment and step");
     println!("{:>17}{:>17}{:>17}", "", "swing", "contacts");
     for segments in span::SEGMENTS {
-        let cells = ["swing", "contacts"].map(|scene| {
-            let steps = |steps: usize| {
-                let (segments, steps) = (segments.to_string(), steps.to_string());
-                instructions(&["wire", scene, &segments, &steps])
-            };
-            let each = (steps(STEPS) - steps(0)) / (STEPS * segments) as u64;
+        let cells = WIRE_SCENES.map(|scene| {
+            let each = per_segment(&["wire", scene, &segments.to_string()], 0, segments);
             format!("{each:>17}")
         });
         println!("{segments:>8} segments{}", cells.concat());
@@ -153,8 +263,8 @@ fn instructions(arguments: &[&str]) -> u64 {
     count.trim().parse().unwrap()
 }
 
-fn edges(set: &str) -> Vec<EdgeEdge> {
-    let mut sets = data::all().into_iter();
+fn made(sets: Vec<data::Set>, set: &str) -> Vec<EdgeEdge> {
+    let mut sets = sets.into_iter();
     let (_, make) = sets.find(|(name, _)| *name == set).unwrap();
     make()
 }

@@ -208,7 +208,8 @@ function path(context, points) {
   context.beginPath();
   context.moveTo(...points[0]);
   points.slice(1).forEach((point) => context.lineTo(...point));
-  if (points.length === 1) context.lineTo(...points[0]);
+  // A line without length is not drawn, not even its round ends.
+  if (points.length === 1) context.lineTo(points[0][0] + 0.01, points[0][1]);
   if (points.length > 2) context.closePath();
 }
 

@@ -196,6 +196,16 @@ def comparison(results):
     )
 
 
+def asked(sorts):
+    """How many queries of each family of each sort, by which seeds."""
+    said = []
+    for name, results in sorts.items():
+        counts = sorted({(result["count"], result["seed"]) for result in results})
+        if counts:
+            said.append(", ".join(f"{count:,} {name} of each family, seed {seed}" for count, seed in counts))
+    return "; ".join(said)
+
+
 def limits(results):
     """How long an answer may take: for most, and for the methods that have other limits."""
     limits = [result["time_limit"] for result in results]
@@ -234,8 +244,7 @@ def page(all_results):
         "BOX_FAMILIES": "".join(by_family(result) for result in boxes),
         "TURNING_FAMILIES": "".join(by_family(result) for result in turning),
         "LEFT_OUT": left_out(),
-        "SEED": str(first["seed"]),
-        "EACH": f"{first['count']:,}",
+        "ASKED": escaped(asked({"casts along lines": results, "casts of boxes": boxes, "bodies that turn": turning})),
         "LIMIT": escaped(limits([*results, *boxes, *turning])),
         "MACHINE": escaped(first["machine"]),
         "HASHES": hashes([*results[:1], *boxes[:1], *turning[:1]]),
@@ -336,8 +345,7 @@ def document(results):
     for result in results:
         texts = [text for _, _, text, _ in cells(result)]
         lines.append(f"| {result['name']}, {result['title']} | {' | '.join(texts)} |")
-    lines += ["", comparison(results) + f" Seed {results[0]['seed']}, {results[0]['count']:,} queries of each family, "
-              f"{results[0]['machine']}."]
+    lines += ["", comparison(results) + f" Of each family {asked({'queries': results}).replace(' of each family', '')}, {results[0]['machine']}."]
     return "\n".join(lines)
 
 

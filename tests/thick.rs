@@ -129,8 +129,12 @@ const EXACT_AT_MOST: &[(&str, f64)] = &[
     ("thick_parallel", 57.0),
     ("thick_grazing", 27.0),
     ("thick_scales", 94.0),
+    ("thick_layers", 1.0),
+    ("thick_touching_layers", 20.0),
     ("thick_face_uniform", 10.0),
     ("thick_face_lattice", 59.0),
+    ("thick_face_layers", 1.0),
+    ("thick_face_touching_layers", 20.0),
 ];
 
 #[test]

@@ -9,7 +9,7 @@ mod public;
 mod wires;
 
 /// A set by its name, made when it is asked for.
-type Set = (&'static str, Box<dyn Fn() -> Vec<EdgeEdge>>);
+pub(crate) type Set = (&'static str, Box<dyn Fn() -> Vec<EdgeEdge>>);
 
 /// Generated sets, then the public ones, which are empty where they are not.
 pub(crate) fn all() -> Vec<Set> {
@@ -26,14 +26,23 @@ pub(crate) fn all() -> Vec<Set> {
 
 /// The sets that are there.
 pub(crate) fn sets() -> impl Iterator<Item = (&'static str, Vec<EdgeEdge>)> {
-    let made = all().into_iter().map(|(name, make)| (name, make()));
+    present(all())
+}
+
+/// The sets with a radius that are there.
+#[allow(dead_code, reason = "not every bench asks for these")]
+pub(crate) fn thick_sets() -> impl Iterator<Item = (&'static str, Vec<EdgeEdge>)> {
+    present(all_thick())
+}
+
+fn present(sets: Vec<Set>) -> impl Iterator<Item = (&'static str, Vec<EdgeEdge>)> {
+    let made = sets.into_iter().map(|(name, make)| (name, make()));
     made.filter(|(_, queries)| !queries.is_empty())
 }
 
 /// A set with a radius: a twentieth of the mean length of its edges at the start, as of wires ten
 /// times as long as thick.
-#[allow(dead_code, reason = "not every bench asks for these")]
-pub(crate) fn thick(queries: &[EdgeEdge]) -> Vec<EdgeEdge> {
+fn thick(queries: &[EdgeEdge]) -> Vec<EdgeEdge> {
     let length = |query: &EdgeEdge| {
         let [a, b, c, d] = query.start();
         (b - a).norm() + (d - c).norm()
@@ -42,6 +51,21 @@ pub(crate) fn thick(queries: &[EdgeEdge]) -> Vec<EdgeEdge> {
     let with_radius = |query: &EdgeEdge| EdgeEdge::new(*query.start(), *query.end(), mean / 20.0);
     let queries = queries.iter().map(with_radius);
     queries.map(|query| query.expect("finite")).collect()
+}
+
+/// The same with a radius, and layers of cloth that lie on each other.
+#[allow(dead_code, reason = "not every bench asks for these")]
+pub(crate) fn all_thick() -> Vec<Set> {
+    let with_radius = all()
+        .into_iter()
+        .map(|(name, make)| -> Set { (name, Box::new(move || thick(&make()))) });
+    let layers = ["layers", "touching_layers"].map(|name| -> Set {
+        (
+            name,
+            Box::new(move || family(&format!("thick_{name}"), 8192)),
+        )
+    });
+    with_radius.chain(layers).collect()
 }
 
 /// Vertex-face queries: the points of a generated set, and the public ones that are there.

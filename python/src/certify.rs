@@ -14,7 +14,7 @@ use tunnelproof_reference::certify::findings::{Findings, Settings};
 use tunnelproof_reference::certify::judged::Judged;
 use tunnelproof_reference::certify::run::Panel;
 use tunnelproof_reference::certify::shard::Shard;
-use tunnelproof_reference::certify::source::Source;
+use tunnelproof_reference::certify::source::{AnyFamily, AnySource, Source};
 use tunnelproof_reference::certify::table::{self, Shown};
 use tunnelproof_reference::generate::{self, Family};
 use tunnelproof_reference::report::merge::{Kept, merge as join};
@@ -61,22 +61,18 @@ pub(crate) fn certify(
     let families = match families {
         Some(names) => names
             .iter()
-            .map(|name| family(name))
+            .map(|name| family(name).map(AnyFamily::Linear))
             .collect::<PyResult<Vec<_>>>()?,
         None if own.is_empty() => py.detach(|| with_default(|| defaults::families(&[&subject]))),
         None => Vec::new(),
     };
-    let families = families.into_iter().map(|family| Source::Family {
-        family,
-        seed,
-        count,
-    });
-    let mut sources: Vec<_> = families.collect();
+    let families = families.into_iter();
+    let mut sources: Vec<AnySource> = families.map(|family| family.first(seed, count)).collect();
     for (name, kind, points, radii) in own {
         let rows = Rows::new(&points, &radii)?;
         let kind = queries::kind(&kind)?;
         let queries: Arc<[_]> = with_default(|| rows.queries(kind))?.into();
-        sources.push(Source::Queries { name, queries });
+        sources.push(Source::Queries { name, queries }.into());
     }
     let panel = Panel {
         second_judges: Vec::new(),
@@ -87,8 +83,7 @@ pub(crate) fn certify(
     };
     let mut blocks = Vec::new();
     for source in &sources {
-        let source = source.clone().into();
-        let run = || panel.run_shard(&source, shard, |_| {});
+        let run = || panel.run_shard(source, shard, |_| {});
         let block = subject.watched(py, run);
         if let Some(error) = subject.ending(py) {
             return Err(error);

@@ -219,7 +219,8 @@ impl Certify {
             false => self.programs.start_all(&self.subject)?,
         };
         self.permit.grant(&mut answering)?;
-        if self.turning || self.family.iter().any(AnyFamily::turns) {
+        // Beside queries of linear motion, such a subject is just not asked the others.
+        if self.is_all_turning() {
             check_turning(&answering)?;
         }
         Ok(answering)

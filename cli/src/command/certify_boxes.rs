@@ -141,7 +141,7 @@ fn row(name: &str, found: &[impl Borrow<Judged>]) -> String {
         count(Fault::FalseHit),
         count(Fault::NearHit),
         count(Fault::NoAnswer),
-        found().map(|judged| judged.refused).sum(),
+        found().map(Judged::refused).sum(),
     ];
     let [a, b, c, d, e, f, g] = counts.map(|count| count.to_string());
     let [late, early] = [Fault::Late, Fault::Early].map(|fault| format!("{:.1e}", worst(fault)));

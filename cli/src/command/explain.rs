@@ -8,7 +8,6 @@ use tunnelproof_cli::report::{self, cast, picture};
 use tunnelproof_reference::boxes::BoxId;
 use tunnelproof_reference::corpus::locate::locate;
 use tunnelproof_reference::corpus::turning;
-use tunnelproof_reference::generate::RigidId;
 use tunnelproof_reference::oracle::{decide_query, decide_rigid_query};
 use tunnelproof_reference::registry;
 use tunnelproof_reference::report::boxes;
@@ -52,9 +51,10 @@ pub(super) struct Explain {
 impl Explain {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
         if let Some(id) = BoxId::parse(&self.query) {
+            self.reading.check_unused(&self.query, "a cast of a box")?;
             return self.run_box(&id.map_err(|error| Failure::file(&self.query, error))?);
         }
-        if self.turning || RigidId::parse(&self.query).is_some() {
+        if self.reading.is_turning(self.turning, &self.query)? {
             return self.run_turning();
         }
         let entry = locate(&self.query, self.reading.options())?;

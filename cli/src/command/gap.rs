@@ -5,7 +5,6 @@ use std::process::ExitCode;
 use clap::Args;
 use tunnelproof_reference::corpus::locate::locate;
 use tunnelproof_reference::corpus::turning;
-use tunnelproof_reference::generate::RigidId;
 use tunnelproof_reference::oracle::least_gap_to;
 
 use super::output::print;
@@ -40,7 +39,7 @@ pub(super) struct Gap {
 
 impl Gap {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
-        let gap = match self.turning || RigidId::parse(&self.query).is_some() {
+        let gap = match self.reading.is_turning(self.turning, &self.query)? {
             true => least_gap_to(&turning::locate(&self.query)?.query, self.width),
             false => least_gap_to(
                 &locate(&self.query, self.reading.options())?.query,

@@ -18,6 +18,7 @@ use tunnelproof_cli::scenes::SceneError;
 use tunnelproof_cli::sweep::{AxisError, DomainError};
 use tunnelproof_reference::certify::run::RunError;
 use tunnelproof_reference::corpus::{CorpusError, ReadOptions};
+use tunnelproof_reference::generate::RigidId;
 use tunnelproof_reference::report::merge::MergeError;
 
 mod advance;
@@ -221,14 +222,40 @@ impl Failure {
 impl Reading {
     /// Whether an option says how to read files that there are none of.
     fn check(&self, files: &[String]) -> Result<(), Failure> {
+        match self.given() {
+            Some(option) if files.is_empty() => Err(Failure::NoFile(option)),
+            _ => Ok(()),
+        }
+    }
+
+    /// The first option that is given.
+    fn given(&self) -> Option<&'static str> {
         let options = [
             ("--radius", self.radius.is_some()),
             ("--kind", self.kind.is_some()),
         ];
-        match options.into_iter().find(|(_, is_given)| *is_given) {
-            Some((option, _)) if files.is_empty() => Err(Failure::NoFile(option)),
-            _ => Ok(()),
+        let given = options.into_iter().find(|(_, is_given)| *is_given);
+        given.map(|(option, _)| option)
+    }
+
+    /// That no option says how to read a query that it does not hold for.
+    fn check_unused(&self, query: &str, what: &str) -> Result<(), Failure> {
+        match self.given() {
+            Some(option) => Err(Failure::file(
+                query,
+                format!("is {what}, which {option} is not for"),
+            )),
+            None => Ok(()),
         }
+    }
+
+    /// Whether the query of this name is of bodies that turn.
+    fn is_turning(&self, turning: bool, query: &str) -> Result<bool, Failure> {
+        let is_turning = turning || RigidId::parse(query).is_some();
+        if is_turning {
+            self.check_unused(query, "a query of bodies that turn")?;
+        }
+        Ok(is_turning)
     }
 
     fn options(&self) -> ReadOptions {

@@ -11,7 +11,6 @@ use tunnelproof_reference::certify::query::AnyQuery;
 use tunnelproof_reference::certify::run::RunError;
 use tunnelproof_reference::corpus::locate::locate;
 use tunnelproof_reference::corpus::{self, CorpusError, turning};
-use tunnelproof_reference::generate::RigidId;
 use tunnelproof_reference::registry;
 use tunnelproof_reference::shrink::{Disagreement, MOST_CALLS, Shrunk, Truth};
 
@@ -69,7 +68,8 @@ impl Shrink {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
         let mut answering = self.programs.start(&self.subject)?;
         self.permit.grant(slice::from_mut(&mut answering))?;
-        if self.is_turning() {
+        let is_turning = self.reading.is_turning(self.turning, &self.query)?;
+        if is_turning {
             check_turning(slice::from_ref(&answering))?;
         }
         let disagreement = Disagreement {
@@ -77,7 +77,7 @@ impl Shrink {
             truth: self.truth.truth,
         };
         let mut is_asked = false;
-        for entry in self.entries()? {
+        for entry in self.entries(is_turning)? {
             let (id, query) = entry?;
             let refused = |reason: Unsupported| RunError::NoAnswer {
                 place: format!("{id}: {} as the truth", self.truth.name),
@@ -111,14 +111,9 @@ impl Shrink {
         Ok(ExitCode::FAILURE)
     }
 
-    /// Whether queries are of bodies that turn.
-    fn is_turning(&self) -> bool {
-        self.turning || RigidId::parse(&self.query).is_some()
-    }
-
-    fn entries(&self) -> Result<Named, CorpusError> {
+    fn entries(&self, is_turning: bool) -> Result<Named, CorpusError> {
         let options = self.reading.options();
-        Ok(match (self.is_turning(), self.query.as_str()) {
+        Ok(match (is_turning, self.query.as_str()) {
             (true, "-") => {
                 let entries = turning::open("-")?;
                 Box::new(entries.map(|entry| entry.map(|entry| (entry.id, entry.query.into()))))

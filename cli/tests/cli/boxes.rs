@@ -88,6 +88,37 @@ fn certify_boxes_counts_what_a_library_misses_and_does_not_take() {
 }
 
 /// Each number arrives in its place: small integers and halves, so that the sum is exact.
+/// Does not take what has a negative coordinate first, and misses the rest.
+const CHOOSY: &str = r#"
+#include "tunnelproof_subject.h"
+
+int tunnelproof_box_cast(const int shapes[2], const double bodies[30], const double radius[2], double *toi) {
+    (void)shapes, (void)radius, (void)toi;
+    return bodies[0] < 0 ? TUNNELPROOF_UNSUPPORTED : TUNNELPROOF_MISS;
+}
+"#;
+
+#[test]
+fn certify_boxes_fails_a_library_that_chooses_among_casts_of_a_sort() {
+    let folder = tempfile::tempdir().unwrap();
+    for (code, is_choosy) in [(CHOOSY, true), (MUTE, false)] {
+        let library = library(
+            folder.path(),
+            if is_choosy { "choosy" } else { "mute" },
+            code,
+        );
+        let subject = format!("lib:{library}");
+        let words = ["certify-boxes", "--count", "40", "--subject", &subject];
+        let output = tunnelproof(&[&words[..], &["--family", "cast_box_lattice"]].concat());
+        let text = stdout(&output);
+        assert_eq!(
+            text.contains("refused of a sort that it takes"),
+            is_choosy,
+            "{text}"
+        );
+    }
+}
+
 #[test]
 fn certify_boxes_sends_every_number() {
     let folder = tempfile::tempdir().unwrap();

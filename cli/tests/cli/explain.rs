@@ -73,3 +73,35 @@ fn gap_is_the_least_distance_beyond_the_radius() {
         assert!(stderr(&refused).contains("--width"), "{}", stderr(&refused));
     }
 }
+
+#[test]
+fn options_that_a_query_is_not_read_by_are_refused() {
+    for (words, problem) in [
+        (
+            &["gap", "--radius", "0.5", "turning_uniform:1:0"][..],
+            "is a query of bodies that turn, which --radius is not for",
+        ),
+        (
+            &["explain", "--kind", "edge-edge", "turning_uniform:1:0"],
+            "is a query of bodies that turn, which --kind is not for",
+        ),
+        (
+            &["explain", "--radius", "1", "cast_box_uniform:1:1"],
+            "is a cast of a box, which --radius is not for",
+        ),
+        (
+            &["gap", "--turning", "uniform:1:0"],
+            "is a query of linear motion, which is read without --turning",
+        ),
+        (
+            &["gap", "--turning", "queries.jsonl"],
+            "is neither PATH#ID nor FAMILY:SEED:INDEX of a query of bodies that turn",
+        ),
+    ] {
+        let refused = tunnelproof(words);
+        assert_eq!(refused.status.code(), Some(2), "{words:?}");
+        let said = stderr(&refused);
+        let expected = format!("{}: {problem}", words.last().unwrap());
+        assert_eq!(said.trim_end(), expected, "{words:?}");
+    }
+}

@@ -8,7 +8,7 @@ use tunnelproof::query::Point;
 use crate::vector::{dot, sub};
 
 /// What a body is, without its radius.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Shape {
     /// A point.
     Sphere,

@@ -1,7 +1,7 @@
 //! A program judged on boxes that are cast.
 
-use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
 
 use hmac_sha256::Hash;
 use num_rational::BigRational;
@@ -9,13 +9,16 @@ use num_traits::{One, ToPrimitive};
 use rayon::prelude::*;
 use tunnelproof::contact::Case;
 use tunnelproof::narrow::Tolerance;
+use tunnelproof::query::Point;
 
 use super::judged::no_time;
-use super::strict::{counts, took_none, words};
+use super::strict::{counts, refused_of_taken, took_none, words};
 use super::table::grouped;
 use super::tally::Fault;
 use super::verdict::{Judgement, Outline, OutlineHit, judge_outline};
-use crate::boxes::{BoxAnswer, BoxCast, BoxFamily, BoxId, comes_within, decide, least_square};
+use crate::boxes::{
+    Body, BoxAnswer, BoxCast, BoxFamily, BoxId, Shape, comes_within, decide, least_square,
+};
 use crate::program::{Program, frames};
 use crate::subject::{Answer, Lapse, LapseKind, NoAnswer, Said, Subject};
 
@@ -35,12 +38,41 @@ pub struct Judged {
     pub hits: u64,
     /// In how many of them the bodies pass into each other.
     pub crossings: u64,
-    /// How many the program does not take.
-    pub refused: u64,
+    /// How many the program does not take, by their sort.
+    pub refused: BTreeMap<BoxSort, u64>,
+    /// The sorts that it takes.
+    pub taken: BTreeSet<BoxSort>,
     /// In which other ways it gives no answer, and how often.
     pub lapses: BTreeMap<LapseKind, u64>,
     /// What was wrong with its answers.
     pub faults: BTreeMap<Fault, BoxFinding>,
+}
+
+/// What a program may take or not as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct BoxSort {
+    shapes: [Shape; 2],
+    /// Whether the bodies have a radius above 0.
+    have_radius: [bool; 2],
+    /// Whether all boxes are along the axes.
+    is_aligned: bool,
+}
+
+impl BoxSort {
+    fn of(cast: &BoxCast) -> Self {
+        let bodies = cast.bodies();
+        BoxSort {
+            shapes: bodies.each_ref().map(Body::shape),
+            have_radius: bodies.each_ref().map(|body| body.radius() > 0.0),
+            is_aligned: bodies.iter().all(is_aligned),
+        }
+    }
+}
+
+fn is_aligned(body: &Body) -> bool {
+    let [corner, beside @ ..] = body.points();
+    let is_along_an_axis = |point: &Point| (point - corner).iter().filter(|x| **x != 0.0).count();
+    body.shape() != Shape::Box || beside.iter().all(|point| is_along_an_axis(point) <= 1)
 }
 
 /// How often something was found, and its worst witness.
@@ -80,7 +112,8 @@ pub fn judge_family(
         queries: 0,
         hits: 0,
         crossings: 0,
-        refused: 0,
+        refused: BTreeMap::new(),
+        taken: BTreeSet::new(),
         lapses: BTreeMap::new(),
         faults: BTreeMap::new(),
     };
@@ -142,13 +175,23 @@ pub fn failures(found: &[Judged], tolerance: Tolerance, surplus: u64) -> Vec<Str
     let counted = counted
         .map(|(fault, finding)| format!("{} {}", grouped(finding.count), words(tolerance, *fault)));
     let queries: u64 = found.iter().map(|judged| judged.queries).sum();
-    let refused: u64 = found.iter().map(|judged| judged.refused).sum();
+    let refused: u64 = found.iter().map(Judged::refused).sum();
     let none = (queries == refused).then(|| took_none(queries));
+    let taken: BTreeSet<_> = found.iter().flat_map(|judged| &judged.taken).collect();
+    let by_sort = found.iter().flat_map(|judged| &judged.refused);
+    let chosen = by_sort.filter(|(sort, _)| taken.contains(sort));
+    let chosen: u64 = chosen.map(|(_, count)| count).sum();
+    let chosen = (chosen > 0).then(|| refused_of_taken(chosen));
     let surplus = (surplus > 0).then(|| format!("{} answers too many", grouped(surplus)));
-    counted.chain(none).chain(surplus).collect()
+    counted.chain(none).chain(chosen).chain(surplus).collect()
 }
 
 impl Judged {
+    /// How many the program does not take.
+    pub fn refused(&self) -> u64 {
+        self.refused.values().sum()
+    }
+
     fn add(
         &mut self,
         id: BoxId,
@@ -160,16 +203,17 @@ impl Judged {
         self.queries += 1;
         self.hits += u64::from(truth.toi.is_some());
         self.crossings += u64::from(truth.overlaps);
+        let sort = BoxSort::of(cast);
         let (said, lapse) = match answer {
             Ok(Answer::Said(said)) => (Some(said), None),
             // Programs say nothing else.
             Ok(_) => (None, None),
-            Err(NoAnswer::Unsupported(_)) => return self.refused += 1,
-            Err(NoAnswer::Lapse(lapse)) if lapse.kind == LapseKind::Refused => {
-                return self.refused += 1;
-            }
-            Err(NoAnswer::Lapse(lapse)) => (None, Some(lapse)),
+            Err(NoAnswer::Lapse(lapse)) if lapse.kind != LapseKind::Refused => (None, Some(lapse)),
+            Err(_) => return *self.refused.entry(sort).or_default() += 1,
         };
+        if said.is_some() {
+            self.taken.insert(sort);
+        }
         let judgement = said.map(|said| compare(cast, &truth, &said, near));
         let faults = match &judgement {
             None => vec![(Fault::NoAnswer, 0.0)],

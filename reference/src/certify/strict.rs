@@ -72,17 +72,20 @@ pub fn disagreements(panel: &Panel, total: &Block) -> Vec<String> {
 /// A subject that does not answer each query once does not pass.
 pub(super) fn refusals(total: &Block, tally: &Tally) -> impl Iterator<Item = String> {
     let refused = tally.refused_of_taken();
-    let of_taken = (refused > 0).then(|| {
-        format!(
-            "{} queries refused of a sort that it takes",
-            grouped(refused)
-        )
-    });
+    let of_taken = (refused > 0).then(|| refused_of_taken(refused));
     let takes_none = total.queries > 0 && tally.taken.is_empty();
     let none = takes_none.then(|| took_none(total.queries));
     let surplus =
         (tally.surplus > 0).then(|| format!("{} answers too many", grouped(tally.surplus)));
     of_taken.into_iter().chain(none).chain(surplus)
+}
+
+/// Of a subject that answers other queries of the same sort.
+pub(super) fn refused_of_taken(queries: u64) -> String {
+    format!(
+        "{} queries refused of a sort that it takes",
+        grouped(queries)
+    )
 }
 
 /// Of a subject that takes no query, so that nothing but this can be said of it.

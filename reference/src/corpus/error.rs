@@ -52,9 +52,12 @@ pub enum Problem {
     /// The line has fields that queries of bodies that turn have, and others do not.
     #[error("is a query of bodies that turn, which are read with --turning")]
     Turning,
-    /// The family has no bodies that turn.
-    #[error("is a query of linear motion, which is not read with --turning")]
+    /// The query is none of bodies that turn.
+    #[error("is a query of linear motion, which is read without --turning")]
     NotTurning,
+    /// The text names no query of bodies that turn.
+    #[error("is neither PATH#ID nor FAMILY:SEED:INDEX of a query of bodies that turn")]
+    NotNamed,
     /// The kind is none of bodies that turn.
     #[error("kind is {}, not {}", quoted(.0), RigidQueryKind::ALL.map(RigidQueryKind::name).join(", "))]
     TurningKindUnknown(String),

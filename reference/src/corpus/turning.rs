@@ -192,7 +192,8 @@ pub fn locate(text: &str) -> Result<TurningEntry, CorpusError> {
     }
     let (path, id) = match text.rsplit_once('#') {
         Some((path, id)) => (path, Some(id)),
-        None => (text, None),
+        None if text == "-" => (text, None),
+        None => return Err(refuse(Problem::NotNamed)),
     };
     let mut count = 0;
     for entry in open(path)? {
@@ -238,8 +239,10 @@ struct Record {
     kind: String,
     #[serde(default)]
     points: Vec<Vec<Number>>,
-    local: Vec<Vec<Number>>,
-    poses: Vec<Vec<Number>>,
+    #[serde(default)]
+    local: Option<Vec<Vec<Number>>>,
+    #[serde(default)]
+    poses: Option<Vec<Vec<Number>>>,
     #[serde(default, deserialize_with = "given")]
     radius: Option<Radii>,
     label: Option<Label>,
@@ -262,10 +265,13 @@ fn entry(line: &Line) -> Result<TurningEntry, Problem> {
     })?;
     let end = json.end();
     end.map_err(|error| jsonl::problem(String::new(), &error))?;
+    if record.local.is_none() && record.poses.is_none() && record.points.len() == 8 {
+        return Err(Problem::NotTurning);
+    }
     let fields = Fields {
         points: rows("points", record.points)?,
-        local: rows("local", record.local)?,
-        poses: rows("poses", record.poses)?,
+        local: rows("local", record.local.unwrap_or_default())?,
+        poses: rows("poses", record.poses.unwrap_or_default())?,
     };
     let radius = match record.radius {
         Some(radii) => radii.sum()?,

@@ -31,6 +31,7 @@ mod face;
 mod grazing;
 mod joint;
 mod lattice;
+mod layers;
 mod long_thin;
 mod meeting;
 mod motion;
@@ -84,8 +85,12 @@ pub const OTHER_KINDS: &[Family] = &[
     thick::PARALLEL,
     thick::GRAZING,
     thick::SCALES,
+    layers::EDGES,
+    layers::TOUCHING_EDGES,
     thick::FACE_UNIFORM,
     thick::FACE_LATTICE,
+    layers::FACES,
+    layers::TOUCHING_FACES,
 ];
 
 /// Every family of any kind, in the order of tables.

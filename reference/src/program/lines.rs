@@ -101,13 +101,14 @@ fn number_of_query(id: &Value) -> Option<u64> {
 
 fn time(toi: &Value) -> Result<Enclosure, &'static str> {
     let bound = |name| number(toi.get(name).ok_or("toi lacks a bound")?);
-    Ok(match toi.is_object() {
-        true => Enclosure {
-            below: bound("below")?,
-            above: bound("above")?,
-        },
-        false => Enclosure::exactly(number(toi)?),
-    })
+    if !toi.is_object() {
+        return Ok(Enclosure::exactly(number(toi)?));
+    }
+    let (below, above) = (bound("below")?, bound("above")?);
+    match below > above {
+        true => Err("toi has bounds in the wrong order"),
+        false => Ok(Enclosure { below, above }),
+    }
 }
 
 fn number(json: &Value) -> Result<f64, &'static str> {

@@ -86,6 +86,10 @@ fn line_that_is_no_answer_is_unreadable() {
         (r#"{"hit":true,"toi":true}"#, "toi is not a number"),
         (r#"{"hit":true,"toi":"a"}"#, "toi is not a number"),
         (r#"{"hit":true,"toi":{"below":0}}"#, "toi lacks a bound"),
+        (
+            r#"{"hit":true,"toi":{"below":1,"above":0}}"#,
+            "toi has bounds in the wrong order",
+        ),
         (r#"{"hit":false,"case":"x"}"#, "no such case"),
         (
             r#"{"hit":false,"id":"lattice:1:2"}"#,

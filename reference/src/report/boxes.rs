@@ -77,7 +77,7 @@ fn source(subject: &str, judged: &Judged) -> Value {
         "crossings": judged.crossings,
         "subjects": [{
             "subject": subject,
-            "refused": [{"kind": "box-cast", "queries": judged.refused}],
+            "refused": [{"kind": "box-cast", "queries": judged.refused()}],
             "lapses": lapses.collect::<Map<_, _>>(),
             "faults": faults.collect::<Map<_, _>>(),
         }],
