@@ -110,6 +110,9 @@ fn subject(findings: &Findings, index: usize) -> Markup {
     html! {
         h2 id={ "subject-" (index) } { (name) " " (verdict(failures.is_empty())) }
         @if !failures.is_empty() { p { (failures.join(", ")) "." } }
+        @if tally.not_asked() > 0 && tally.not_asked() < findings.total.queries {
+            p { "It does not take " (grouped(tally.not_asked())) " of the " (grouped(findings.total.queries)) " queries: it was not judged on these." }
+        }
         @if !tolerated.is_empty() { p { "Fails without its tolerance, " (declared) ": " (tolerated.join(", ")) "." } }
         @if !tally.lapses.is_empty() { p { "No answer: " (lapse_counts(tally)) "." } }
         (families(findings, index))

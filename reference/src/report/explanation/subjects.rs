@@ -120,12 +120,7 @@ fn worth(query: &AnyQuery, found: &Found) -> String {
     if !found.is_asked {
         return "does not take such queries".to_owned();
     }
-    let is_verdict = |fault| {
-        !matches!(
-            fault,
-            Fault::WrongCase | Fault::Differs | Fault::Late | Fault::Early
-        )
-    };
+    let is_verdict = |fault| !matches!(fault, Fault::WrongCase | Fault::Differs | Fault::Early);
     let is_right = !found.faults.iter().any(|&(fault, _)| is_verdict(fault));
     let faults = found.faults.iter().map(|&(fault, severity)| match fault {
         Fault::FalseHit => {
