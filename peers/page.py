@@ -196,14 +196,10 @@ def comparison(results):
     )
 
 
-def asked(sorts):
-    """How many queries of each family of each sort, by which seeds."""
-    said = []
-    for name, results in sorts.items():
-        counts = sorted({(result["count"], result["seed"]) for result in results})
-        if counts:
-            said.append(", ".join(f"{count:,} {name} of each family, seed {seed}" for count, seed in counts))
-    return "; ".join(said)
+def asked(results, queries):
+    """How many queries of each family these were asked, and by which seeds."""
+    counts = sorted({(result["count"], result["seed"]) for result in results})
+    return " or ".join(f"{count:,} {queries} of each family, seed {seed}" for count, seed in counts)
 
 
 def limits(results):
@@ -231,6 +227,8 @@ def page(all_results):
         for key, _, _, witness in cells(result)
         if witness
     }
+    sorts = {"casts along lines": results, "casts of boxes": boxes, "casts of bodies that turn": turning}
+    counts = [asked(results, name) for name, results in sorts.items()]
     parts = {
         "STYLE": STYLE.read_text() + (PEERS / "page.css").read_text(),
         "COUNT": f"{count:,}",
@@ -244,7 +242,7 @@ def page(all_results):
         "BOX_FAMILIES": "".join(by_family(result) for result in boxes),
         "TURNING_FAMILIES": "".join(by_family(result) for result in turning),
         "LEFT_OUT": left_out(),
-        "ASKED": escaped(asked({"casts along lines": results, "casts of boxes": boxes, "bodies that turn": turning})),
+        "ASKED": escaped("; ".join(filter(None, counts))),
         "LIMIT": escaped(limits([*results, *boxes, *turning])),
         "MACHINE": escaped(first["machine"]),
         "HASHES": hashes([*results[:1], *boxes[:1], *turning[:1]]),
@@ -345,7 +343,7 @@ def document(results):
     for result in results:
         texts = [text for _, _, text, _ in cells(result)]
         lines.append(f"| {result['name']}, {result['title']} | {' | '.join(texts)} |")
-    lines += ["", comparison(results) + f" Of each family {asked({'queries': results}).replace(' of each family', '')}, {results[0]['machine']}."]
+    lines += ["", comparison(results) + f" Asked: {asked(results, 'queries')}, {results[0]['machine']}."]
     return "\n".join(lines)
 
 
