@@ -93,19 +93,7 @@ type Counts = BTreeMap<String, u64>;
 /// What this project has to answer for.
 fn guarded() -> Counts {
     let mut counts = Counts::new();
-    let sizes = |(set, queries): (_, Vec<EdgeEdge>)| (set, queries.len());
-    let faces = data::vertex_face_sets().into_iter();
-    let faces = faces.map(|(set, queries)| (set, queries.len())).collect();
-    let kinds: [(&str, &[&str], Vec<_>); 3] = [
-        ("run", &METHODS, data::sets().map(sizes).collect()),
-        (
-            "run-thick",
-            &THICK_METHODS,
-            data::thick_sets().map(sizes).collect(),
-        ),
-        ("run-vertex-face", &FACE_METHODS, faces),
-    ];
-    for (kind, methods, sets) in kinds {
+    for (kind, _, methods, sets) in kinds() {
         let own = methods.iter().filter(|name| name.starts_with("certified"));
         let own: Vec<&str> = own.copied().collect();
         for (set, count) in sets {
@@ -181,30 +169,47 @@ fn here() -> String {
     format!("# {}, {model}", compiler.unwrap_or_default().trim())
 }
 
-fn narrow_phases() {
-    println!("instructions per query of two edges");
-    let sets = data::sets().map(|(set, queries)| (set, queries.len()));
-    table("run", METHODS, sets);
-    println!("\ninstructions per query of two edges with a radius");
-    let sets = data::thick_sets().map(|(set, queries)| (set, queries.len()));
-    table("run-thick", THICK_METHODS, sets);
-    println!("\ninstructions per query of a vertex and a face");
-    let sets = data::vertex_face_sets();
-    let sets = sets.iter().map(|(set, queries)| (*set, queries.len()));
-    table("run-vertex-face", FACE_METHODS, sets);
+/// What a kind of query is called here and in words, who answers it, and the sets with their sizes.
+type Kind = (
+    &'static str,
+    &'static str,
+    &'static [&'static str],
+    Vec<(&'static str, usize)>,
+);
+
+fn kinds() -> [Kind; 3] {
+    let sizes = |(set, queries): (_, Vec<EdgeEdge>)| (set, queries.len());
+    let (edges, thick) = (data::sets().map(sizes), data::thick_sets().map(sizes));
+    let faces = data::vertex_face_sets().into_iter();
+    let faces = faces.map(|(set, queries)| (set, queries.len()));
+    [
+        ("run", "two edges", &METHODS, edges.collect()),
+        (
+            "run-thick",
+            "two edges with a radius",
+            &THICK_METHODS,
+            thick.collect(),
+        ),
+        (
+            "run-vertex-face",
+            "a vertex and a face",
+            &FACE_METHODS,
+            faces.collect(),
+        ),
+    ]
 }
 
-fn table<const N: usize>(
-    kind: &str,
-    methods: [&str; N],
-    sets: impl Iterator<Item = (&'static str, usize)>,
-) {
-    let head = methods.map(|m| format!("{m:>17}")).concat();
-    println!("{:<24}{:>10}{head}", "set", "queries");
-    for (set, count) in sets {
-        let cells = per_query(kind, set, &methods, count).into_iter();
-        let cells: String = cells.map(|each| format!("{each:>17}")).collect();
-        println!("{set:<24}{count:>10}{cells}");
+fn narrow_phases() {
+    for (kind, words, methods, sets) in kinds() {
+        println!("instructions per query of {words}");
+        let head: String = methods.iter().map(|m| format!("{m:>17}")).collect();
+        println!("{:<24}{:>10}{head}", "set", "queries");
+        for (set, count) in sets {
+            let cells = per_query(kind, set, methods, count).into_iter();
+            let cells: String = cells.map(|each| format!("{each:>17}")).collect();
+            println!("{set:<24}{count:>10}{cells}");
+        }
+        println!();
     }
 }
 
@@ -225,7 +230,7 @@ fn per_segment(words: &[&str], first: usize, count: usize) -> u64 {
 }
 
 fn broad_phases() {
-    println!("\ninstructions per segment and step, and pairs that need a test in the last step");
+    println!("instructions per segment and step, and pairs that need a test in the last step");
     let names = scenes::METHODS.map(|(name, ..)| format!("{name:>26}"));
     println!("{:<8}{:>9}{}", "scene", "segments", names.concat());
     for (name, scene) in scenes::SCENES {
@@ -242,7 +247,8 @@ fn broad_phases() {
 
 fn wires() {
     println!("\ninstructions of the wire stepper per segment and step");
-    println!("{:>17}{:>17}{:>17}", "", "swing", "contacts");
+    let head = WIRE_SCENES.map(|scene| format!("{scene:>17}")).concat();
+    println!("{:>17}{head}", "");
     for segments in span::SEGMENTS {
         let cells = WIRE_SCENES.map(|scene| {
             let each = per_segment(&["wire", scene, &segments.to_string()], 0, segments);

@@ -218,12 +218,6 @@ fn is_program(text: &str) -> bool {
     text.starts_with(COMMAND) || text.starts_with(LIBRARY)
 }
 
-/// Whether the first of a list is a program, or has the name of a subject.
-fn starts_with_subject(list: &str) -> bool {
-    let name = list.split(',').next().unwrap_or_default();
-    is_program(list) || registry::by_name(name).is_some()
-}
-
 /// Reads the name of a subject, or a command.
 pub(super) fn asked(text: &str) -> Result<Asked, String> {
     if is_program(text) {
@@ -241,16 +235,14 @@ pub(super) fn asked_list(text: &str) -> Result<AskedList, String> {
     let mut list = Vec::new();
     let mut rest = Some(text);
     while let Some(text) = rest {
-        let end = match text {
-            text if text.starts_with(COMMAND) => None,
-            text if text.starts_with(LIBRARY) => {
-                let mut commas = text.match_indices(',').map(|(place, _)| place);
-                commas.find(|place| starts_with_subject(&text[place + 1..]))
-            }
-            text => text.find(','),
+        let is_end = |comma: &usize| {
+            let next = text[comma + 1..].split(',').next();
+            !is_program(text)
+                || text.starts_with(LIBRARY) && next.is_some_and(|next| asked(next).is_ok())
         };
-        let (first, more) = match end {
-            Some(end) => (&text[..end], Some(&text[end + 1..])),
+        let mut commas = text.match_indices(',').map(|(comma, _)| comma);
+        let (first, more) = match commas.find(is_end) {
+            Some(comma) => (&text[..comma], Some(&text[comma + 1..])),
             None => (text, None),
         };
         list.push(asked(first)?);

@@ -71,8 +71,9 @@ impl BoxSort {
 
 fn is_aligned(body: &Body) -> bool {
     let [corner, beside @ ..] = body.points();
-    let is_along_an_axis = |point: &Point| (point - corner).iter().filter(|x| **x != 0.0).count();
-    body.shape() != Shape::Box || beside.iter().all(|point| is_along_an_axis(point) <= 1)
+    let is_along_an_axis =
+        |point: &Point| (point - corner).iter().filter(|x| **x != 0.0).count() <= 1;
+    body.shape() != Shape::Box || beside.iter().all(is_along_an_axis)
 }
 
 /// How often something was found, and its worst witness.
@@ -225,14 +226,13 @@ impl Judged {
             *self.lapses.entry(lapse.kind).or_default() += 1;
         }
         for (fault, severity) in faults {
-            let witness = BoxWitness {
+            let worst = BoxWitness {
                 severity,
                 id,
                 truth,
                 said,
                 lapse: lapse.clone(),
             };
-            let worst = witness;
             add(&mut self.faults, fault, BoxFinding { count: 1, worst });
         }
     }
