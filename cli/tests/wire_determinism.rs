@@ -1,8 +1,8 @@
 //! The same world gives the same bits in every build: hashes of all positions after some steps.
 //!
 //! It runs optimised (`cargo test`, `cargo test --release`) and not
-//! (`CARGO_PROFILE_DEV_OPT_LEVEL=0 cargo test --test wire_determinism`): a transformation that
-//! changed floating-point results would show here. A change of the stepper that changes results on
+//! (`cargo test --config profile.dev.package.tunnelproof.opt-level=0 --test wire_determinism`): a
+//! transformation that changed floating-point results would show here. A change of the stepper that changes results on
 //! purpose changes the hash.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
