@@ -42,29 +42,87 @@ pub(super) struct Bracket<'a, const N: usize = 4> {
     poly: &'a Poly<N>,
     /// The sign of the polynomial between `low` and the root.
     before: Ordering,
-    low: Dyadic,
-    high: Dyadic,
-    /// Whether the polynomial is known not to be 0 at `low`; another root may be there at first.
-    is_low_proved: bool,
-    /// Whether the polynomial is known not to be 0 at `high`.
-    is_high_proved: bool,
+    low: End,
+    high: End,
     /// The logarithm of the number of cells that the next step tries.
     bits: u32,
     /// How many bits of the polynomial's values were enough.
     enough: Cell<u64>,
-    /// The ends as far as any question has narrowed it.
-    narrowest: RefCell<Option<Narrowed>>,
+    /// How many leading bits cancelled in the last of its values that was asked for as a number.
+    lost: u64,
+    /// The ends as far as any question has narrowed it, and `bits` there.
+    narrowest: RefCell<Option<(End, End, u32)>>,
     /// Whether more cells than floating point tells apart may be tried, so that few steps lead to
     /// many bits.
     is_far: bool,
 }
 
-/// Ends of a bracket, nearer than its own, and its `bits` there.
+/// An end of a bracket.
 #[derive(Clone, Debug)]
-struct Narrowed {
-    low: Dyadic,
-    high: Dyadic,
-    bits: u32,
+struct End {
+    at: Dyadic,
+    /// Whether the polynomial is known not to be 0 there; another root may be there at first.
+    is_proved: bool,
+    /// The value of the polynomial there, as far as it was computed. An end stays where it is while
+    /// the other one moves.
+    value: Option<Value>,
+}
+
+/// What is known of a value.
+#[derive(Clone, Debug)]
+enum Value {
+    /// What [`Poly::approximate_at`] says.
+    Approximate(Ordering, (f64, i64)),
+    /// What [`Poly::leading_at`] says, and the bits that it was asked for.
+    Leading(Integer, i64, u64),
+}
+
+impl End {
+    fn new(at: Dyadic) -> Self {
+        End {
+            at,
+            is_proved: false,
+            value: None,
+        }
+    }
+
+    fn proved(at: Dyadic) -> Self {
+        End {
+            is_proved: true,
+            ..End::new(at)
+        }
+    }
+
+    /// [`Poly::approximate_at`] there.
+    fn approximate<const N: usize>(
+        &mut self,
+        poly: &Poly<N>,
+        enough: &Cell<u64>,
+    ) -> (Ordering, (f64, i64)) {
+        if let Some(Value::Approximate(sign, value)) = self.value {
+            return (sign, value);
+        }
+        let (sign, value) = poly.approximate_at(&self.at, enough);
+        self.value = Some(Value::Approximate(sign, value));
+        (sign, value)
+    }
+
+    /// [`Poly::leading_at`] there, with so many bits or more.
+    fn leading<const N: usize>(
+        &mut self,
+        poly: &Poly<N>,
+        lost: &mut u64,
+        bits: u64,
+    ) -> (Integer, i64) {
+        if let Some(Value::Leading(value, exponent, own)) = &self.value
+            && *own >= bits
+        {
+            return (value.clone(), *exponent);
+        }
+        let (value, exponent) = poly.leading_at(&self.at, lost, bits);
+        self.value = Some(Value::Leading(value.clone(), exponent, bits));
+        (value, exponent)
+    }
 }
 
 /// A root compared with the `f64`s.
@@ -115,13 +173,12 @@ impl<'a, const N: usize> Bracket<'a, N> {
         Bracket {
             poly,
             before,
-            low,
-            high,
-            is_low_proved: false,
-            is_high_proved: false,
+            low: End::new(low),
+            high: End::new(high),
             // A line is its own chord.
             bits: if poly.degree() == 1 { MOST_BITS } else { 1 },
             enough: Cell::new(FIRST),
+            lost: 0,
             narrowest: RefCell::new(None),
             is_far: false,
         }
@@ -129,11 +186,9 @@ impl<'a, const N: usize> Bracket<'a, N> {
 
     /// The same for ends that are known not to be roots.
     pub(super) fn proved(poly: &'a Poly<N>, low: Dyadic, high: Dyadic, before: Ordering) -> Self {
-        Bracket {
-            is_low_proved: true,
-            is_high_proved: true,
-            ..Bracket::new(poly, low, high, before)
-        }
+        let mut bracket = Bracket::new(poly, low, high, before);
+        (bracket.low.is_proved, bracket.high.is_proved) = (true, true);
+        bracket
     }
 
     /// The same, to be narrowed far: with more cells at a step than floating point tells apart.
@@ -150,13 +205,13 @@ impl<'a, const N: usize> Bracket<'a, N> {
         // Ends: each turn narrows it, and the exponent has a bound. The neighbours of the ends are
         // taken in integers, so that a number between them is between the ends.
         loop {
-            let (below, above) = (self.low.below(), self.high.above());
+            let (below, above) = (self.low.at.below(), self.high.at.above());
             let is_spent = self.exponent() > most;
             let met = match between(below, above) {
-                None if is_spent || self.is_low_proved && self.is_high_proved => {
+                None if is_spent || self.low.is_proved && self.high.is_proved => {
                     return Settled::Between(below, above);
                 }
-                Some(_) if is_spent => return Settled::At(self.low.clone()),
+                Some(_) if is_spent => return Settled::At(self.low.at.clone()),
                 // The root may be the only one that there is between them.
                 Some(cut) if below.to_bits() + 1 == cut.to_bits() => {
                     self.meet(Dyadic::from_f64(cut))
@@ -171,7 +226,7 @@ impl<'a, const N: usize> Bracket<'a, N> {
 
     /// The larger one of the exponents of the ends.
     fn exponent(&self) -> u64 {
-        self.low.exponent.max(self.high.exponent)
+        self.low.at.exponent.max(self.high.at.exponent)
     }
 
     /// An exponent of the ends that narrowing does not reach before it shows the sign of a
@@ -198,13 +253,13 @@ impl<'a, const N: usize> Bracket<'a, N> {
 
     /// Numbers between which the root is.
     pub(super) fn ends(&self) -> [&Dyadic; 2] {
-        [&self.low, &self.high]
+        [&self.low.at, &self.high.at]
     }
 
     /// Compares the root with a number strictly between the ends, if it is that; returns the root
     /// if that is it.
     fn meet(&mut self, at: Dyadic) -> Option<Dyadic> {
-        let is_inside = at.compare(&self.low).is_gt() && at.compare(&self.high).is_lt();
+        let is_inside = at.compare(&self.low.at).is_gt() && at.compare(&self.high.at).is_lt();
         (is_inside && self.cut(&at).is_eq()).then_some(at)
     }
 
@@ -213,12 +268,13 @@ impl<'a, const N: usize> Bracket<'a, N> {
     pub(super) fn refine(&mut self) -> Option<Dyadic> {
         let own = self.exponent();
         let exponent = own + u64::from(self.bits);
-        let start = self.low.numerator.shifted(exponent - self.low.exponent);
+        let low = &self.low.at;
+        let start = low.numerator.shifted(exponent - low.exponent);
         let width = self.width();
         let one = Integer::from(1);
         let cells = one.shifted(self.bits.into());
         let Some(index) = self.chord(self.bits) else {
-            return Some(self.low.clone());
+            return Some(self.low.at.clone());
         };
         let index = index.clamp(Integer::ZERO, Integer::difference(&cells, &one));
         let next = Integer::sum(&index, &one);
@@ -254,12 +310,12 @@ impl<'a, const N: usize> Bracket<'a, N> {
 
     /// In which of `2^bits` cells between the ends the chord of the polynomial is 0, about. `None`
     /// if the sign at an end is that of the other side of the root.
-    fn chord(&self, bits: u32) -> Option<Integer> {
-        let is_around =
-            |low: Ordering, high: Ordering| low != self.before.reverse() && high != self.before;
-        if bits > MOST_BITS {
-            let [(low, own), (high, other)] = [&self.low, &self.high]
-                .map(|at| self.poly.leading_at(at, &self.enough, u64::from(bits) + 64));
+    fn chord(&mut self, bits: u32) -> Option<Integer> {
+        let (poly, before) = (self.poly, self.before);
+        let is_around = |low: Ordering, high: Ordering| low != before.reverse() && high != before;
+        if self.is_far {
+            let [(low, own), (high, other)] = [&mut self.low, &mut self.high]
+                .map(|end| end.leading(poly, &mut self.lost, u64::from(bits) + 64));
             if !is_around(low.sign(), high.sign()) {
                 return None;
             }
@@ -270,13 +326,13 @@ impl<'a, const N: usize> Bracket<'a, N> {
             return Some(divide_about(low, whole, bits));
         }
         let [(low_sign, (low, own)), (high_sign, (high, other))] =
-            [&self.low, &self.high].map(|at| self.poly.approximate_at(at, &self.enough));
+            [&mut self.low, &mut self.high].map(|end| end.approximate(poly, &self.enough));
         if !is_around(low_sign, high_sign) {
             return None;
         }
         let degree = self.poly.degree() as i64;
         let [low_exponent, high_exponent] =
-            [&self.low, &self.high].map(|at| at.exponent as i64 * degree);
+            [&self.low.at, &self.high.at].map(|at| at.exponent as i64 * degree);
         let (own, other) = (own - low_exponent, other - high_exponent);
         let chord = 1.0 / (1.0 + scale((high / low).abs(), other - own));
         // 0 for what is not a number.
@@ -287,26 +343,34 @@ impl<'a, const N: usize> Bracket<'a, N> {
     /// Compares the root with a number strictly between the ends, which becomes one of them unless
     /// it is the root.
     fn cut(&mut self, at: &Dyadic) -> Ordering {
-        let sign = self.poly.sign_near(at, &self.enough);
+        let mut end = End::proved(at.clone());
+        // More than the sign: what the next chord wants to know if the cell is right.
+        let sign = if self.is_far {
+            let next = (2 * self.bits).min(self.most_cells(at.exponent));
+            // It is nearer to the root by as much as cells are shorter than the bracket.
+            self.lost += u64::from(self.bits);
+            let (value, _) = end.leading(self.poly, &mut self.lost, u64::from(next) + 64);
+            value.sign()
+        } else {
+            end.approximate(self.poly, &self.enough).0
+        };
         if sign.is_eq() {
             Ordering::Equal
         } else if sign == self.before {
-            self.low = at.clone();
-            self.is_low_proved = true;
+            self.low = end;
             Ordering::Greater
         } else {
-            self.high = at.clone();
-            self.is_high_proved = true;
+            self.high = end;
             Ordering::Less
         }
     }
 
     /// The root compared with a number.
     pub(super) fn compare_dyadic(&self, at: &Dyadic) -> Ordering {
-        if at.compare(&self.low).is_le() {
+        if at.compare(&self.low.at).is_le() {
             return Ordering::Greater;
         }
-        if at.compare(&self.high).is_ge() {
+        if at.compare(&self.high.at).is_ge() {
             return Ordering::Less;
         }
         match self.poly.sign_at(at) {
@@ -318,10 +382,10 @@ impl<'a, const N: usize> Bracket<'a, N> {
 
     /// The root compared with another one.
     pub(super) fn compare(&self, other: &Self) -> Ordering {
-        if self.compare_dyadic(&other.low).is_le() {
+        if self.compare_dyadic(&other.low.at).is_le() {
             return Ordering::Less;
         }
-        if self.compare_dyadic(&other.high).is_ge() {
+        if self.compare_dyadic(&other.high.at).is_ge() {
             return Ordering::Greater;
         }
         // Between these, the other polynomial changes its sign at the other root alone.
@@ -364,7 +428,7 @@ impl<'a, const N: usize> Bracket<'a, N> {
     /// A divisor of the polynomial has no other root in the bracket, and this one is simple.
     fn shares_root(&self, q: &Poly<N>) -> Option<bool> {
         let common = common_factor(self.poly, q)?.divisor;
-        let [low, high] = [&self.low, &self.high].map(|end| common.sign_at(end));
+        let [low, high] = self.ends().map(|end| common.sign_at(end));
         if low.is_eq() || high.is_eq() {
             return None;
         }
@@ -374,7 +438,7 @@ impl<'a, const N: usize> Bracket<'a, N> {
     /// The sign of a polynomial at the root, if it has that in the whole bracket.
     pub(super) fn plain_sign_of(&self, q: &Poly<N>) -> Option<Ordering> {
         let variation = slope_bound(q).bits() + self.width().bits();
-        q.sign_beyond(&self.low, variation as i64 - self.exponent() as i64)
+        q.sign_beyond(&self.low.at, variation as i64 - self.exponent() as i64)
     }
 
     /// The sign of a polynomial at the root, if it is shown before the ends have so many bits. If
@@ -391,9 +455,9 @@ impl<'a, const N: usize> Bracket<'a, N> {
     fn narrow_as_kept(&mut self) {
         let own = self.exponent();
         if let Some(narrowed) = self.narrowest.take()
-            && narrowed.low.exponent.max(narrowed.high.exponent) > own
+            && narrowed.0.at.exponent.max(narrowed.1.at.exponent) > own
         {
-            (self.low, self.high, self.bits) = (narrowed.low, narrowed.high, narrowed.bits);
+            (self.low, self.high, self.bits) = narrowed;
         }
     }
 
@@ -402,7 +466,7 @@ impl<'a, const N: usize> Bracket<'a, N> {
         let Bracket {
             low, high, bits, ..
         } = narrowed;
-        self.narrowest.replace(Some(Narrowed { low, high, bits }));
+        self.narrowest.replace(Some((low, high, bits)));
         self.enough.set(narrowed.enough.get());
     }
 
@@ -423,7 +487,8 @@ impl<'a, const N: usize> Bracket<'a, N> {
 
     /// The same for a polynomial that is likely to be 0 there.
     pub(super) fn sturm_sign_of(&self, q: Poly<N>) -> Ordering {
-        sturm::sign_at_root(self.poly, q, self.before, &self.low, &self.high)
+        let [low, high] = self.ends();
+        sturm::sign_at_root(self.poly, q, self.before, low, high)
     }
 
     /// The value of a polynomial at `low` and how much it changes at most up to `high`, both times
@@ -436,8 +501,8 @@ impl<'a, const N: usize> Bracket<'a, N> {
     }
 
     fn value_at_low(&self, q: &Poly<N>, degree: usize) -> Integer {
-        let missing = self.exponent() - self.low.exponent;
-        let value = q.evaluate_as(degree, &self.low);
+        let missing = self.exponent() - self.low.at.exponent;
+        let value = q.evaluate_as(degree, &self.low.at);
         value.shifted(degree as u64 * missing)
     }
 
@@ -449,8 +514,9 @@ impl<'a, const N: usize> Bracket<'a, N> {
     /// The distance of the ends, times 2 to the power of the exponent of both.
     fn width(&self) -> Integer {
         let exponent = self.exponent();
-        let mut width = self.high.numerator.shifted(exponent - self.high.exponent);
-        width.sub_shifted(&self.low.numerator, exponent - self.low.exponent);
+        let [low, high] = self.ends();
+        let mut width = high.numerator.shifted(exponent - high.exponent);
+        width.sub_shifted(&low.numerator, exponent - low.exponent);
         width
     }
 }

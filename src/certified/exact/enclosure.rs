@@ -58,10 +58,7 @@ impl<const N: usize> Poly<N> {
         let k = at.exponent as i64 - length as i64;
         let kept = length.min(bits + 8);
         let factor = at.numerator.shifted_down(length - kept);
-        let terms = (0i64..).zip(self.coefficients());
-        let sizes = terms.clone().filter(|(_, c)| !c.is_zero());
-        let size = sizes.map(|(i, c)| c.bits() as i64 - i * k).max();
-        let unit = size.unwrap_or(0) - bits as i64;
+        let unit = self.size(at) - bits as i64;
         let mut value = Integer::ZERO;
         // Ends: one turn for each coefficient.
         for (i, coefficient) in self.coefficients().iter().enumerate().rev() {
@@ -78,6 +75,15 @@ impl<const N: usize> Poly<N> {
             error: Integer::from(3 * self.degree() as i128 + 1),
             unit,
         }
+    }
+
+    /// The largest `s` such that a term may be as large as `2^s` at a time, which is not 0.
+    fn size(&self, at: &Dyadic) -> i64 {
+        let k = at.exponent as i64 - at.numerator.bits() as i64;
+        let terms = (0i64..).zip(self.coefficients());
+        let terms = terms.filter(|(_, c)| !c.is_zero());
+        let size = terms.map(|(i, c)| c.bits() as i64 - i * k).max();
+        size.unwrap_or(0)
     }
 
     /// What `tell` says of an enclosure of the value at a time, with more and more bits; `None`
@@ -144,15 +150,29 @@ impl<const N: usize> Poly<N> {
 
     /// The value at a time as `x 2^e`, where `x` has a relative error of about `2^-bits`, and the
     /// right sign.
-    pub(super) fn leading_at(&self, at: &Dyadic, enough: &Cell<u64>, bits: u64) -> (Integer, i64) {
-        let told = self.told(at, enough, |Enclosure { value, error, unit }| {
-            let is_known = value.bits() > error.bits() + bits;
-            is_known.then(|| (value.clone(), *unit))
-        });
-        told.unwrap_or_else(|| {
-            let scale = self.degree() as i64 * at.exponent as i64;
-            (self.evaluate(at), -scale)
-        })
+    ///
+    /// `lost` is how many leading bits are expected to cancel, and becomes how many do.
+    pub(super) fn leading_at(&self, at: &Dyadic, lost: &mut u64, bits: u64) -> (Integer, i64) {
+        let whole = self.value_bits(at);
+        if whole > SHORT && !at.numerator.is_zero() {
+            let mut tried = *lost + bits + 16;
+            // Ends: the bits grow by half each time, up to a share of those of the exact value.
+            while 2 * tried <= whole {
+                let Enclosure { value, error, unit } = self.enclose(at, tried);
+                if value.bits() > error.bits() + bits {
+                    *lost = tried.saturating_sub(value.bits());
+                    return (value, unit);
+                }
+                tried += tried / 2;
+            }
+        }
+        let scale = self.degree() as i64 * at.exponent as i64;
+        let value = self.evaluate(at);
+        *lost = match at.numerator.is_zero() {
+            true => 0,
+            false => (self.size(at) + scale - value.bits() as i64).max(0) as u64,
+        };
+        (value, -scale)
     }
 
     /// The sign of the value at a time, if its magnitude is above `2^exponent`. `None` says that it

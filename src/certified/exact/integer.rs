@@ -482,12 +482,28 @@ fn sum_of_limbs(a: &[u64], b: &[u64]) -> Vec<u64> {
     sum
 }
 
+/// Row by row, two rows at a time: the carries of two do not wait for each other, and a limb of `to`
+/// is read and written once for both.
 fn multiply_plainly(to: &mut [u64], a: &[u64], b: &[u64]) {
-    for (i, &x) in b.iter().enumerate() {
-        let mut carry = 0;
+    let mut rows = b.chunks_exact(2);
+    for (i, pair) in (0..).step_by(2).zip(&mut rows) {
+        let (x, y) = (pair[0], pair[1]);
         let (row, rest) = to[i..].split_at_mut(a.len());
-        for (limb, &y) in row.iter_mut().zip(a) {
-            (*limb, carry) = multiply_add(x, y, *limb, carry);
+        let (mut carry, mut next, mut before) = (0, 0, 0);
+        for (limb, &z) in row.iter_mut().zip(a) {
+            let low;
+            (low, carry) = multiply_add(x, z, *limb, carry);
+            (*limb, next) = multiply_add(y, before, low, next);
+            before = z;
+        }
+        // What is left: the first row's carry, and the second row's last limb.
+        (rest[0], rest[1]) = multiply_add(y, before, carry, next);
+    }
+    if let &[x] = rows.remainder() {
+        let (row, rest) = to[b.len() - 1..].split_at_mut(a.len());
+        let mut carry = 0;
+        for (limb, &z) in row.iter_mut().zip(a) {
+            (*limb, carry) = multiply_add(x, z, *limb, carry);
         }
         rest[0] = carry;
     }

@@ -1,10 +1,13 @@
 //! Two roots that may be as near as one likes, parted by the root of the derivative between them.
 
+use std::cell::Cell;
+
 use smallvec::SmallVec;
 
 use super::bernstein::Piece;
 use super::bracket::Bracket;
 use super::dyadic::Dyadic;
+use super::enclosure::FIRST;
 use super::poly::Poly;
 
 /// A simple root by itself.
@@ -33,6 +36,10 @@ pub(super) fn two_or_none<const N: usize>(
     let between = |low: &Dyadic, high: &Dyadic| Found::Between((low.clone(), high.clone()));
     let turn = Bracket::new(derivative, low.clone(), high.clone(), sign.reverse());
     let mut turn = turn.far();
+    // Where the polynomial is known to have the sign of the piece, or need not be asked: an end of
+    // that, and where it was asked last, on each side.
+    let mut known = [low.clone(), high.clone()];
+    let enough = Cell::new(FIRST);
     // Ends: as said above; integers alone decide that the derivative has one root here, and each
     // turn narrows its bracket.
     loop {
@@ -41,11 +48,13 @@ pub(super) fn two_or_none<const N: usize>(
             Some(at) => [at, at],
             None => turn.ends(),
         };
-        for (at, is_before) in ends.into_iter().zip([true, false]) {
-            if at.compare(&low).is_le() || at.compare(&high).is_ge() {
+        for ((at, is_before), known) in ends.into_iter().zip([true, false]).zip(&mut known) {
+            let is_new = at.compare(known).is_ne();
+            if !is_new || at.compare(&low).is_le() || at.compare(&high).is_ge() {
                 continue;
             }
-            let here = poly.sign_at(at);
+            *known = at.clone();
+            let here = poly.sign_near(at, &enough);
             if here == sign.reverse() {
                 return [between(&low, at), between(at, &high)].into();
             }
@@ -56,6 +65,8 @@ pub(super) fn two_or_none<const N: usize>(
                     false => [between(&low, at), root].into(),
                 };
             }
+            // The other end comes as near: one of them is enough.
+            break;
         }
         if met.is_some() || turn.plain_sign_of(poly).is_some() {
             return SmallVec::new();

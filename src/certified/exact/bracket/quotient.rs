@@ -40,7 +40,7 @@ impl<const N: usize> Bracket<'_, N> {
                 return exact_ratio(n, d, &at);
             }
         }
-        exact_ratio(n, d, &bracket.low)
+        exact_ratio(n, d, &bracket.low.at)
     }
 
     /// The same, if it is known near enough in this bracket.
@@ -64,8 +64,8 @@ impl<const N: usize> Bracket<'_, N> {
         variations: &[Integer; 2],
     ) -> Option<Option<(f64, f64)>> {
         let unit = -(degree as i64 * self.exponent() as i64);
-        n.told(&self.low, &self.enough, |n| {
-            let d = d.enclose(&self.low, self.enough.get().max(FIRST));
+        n.told(&self.low.at, &self.enough, |n| {
+            let d = d.enclose(&self.low.at, self.enough.get().max(FIRST));
             let ([n_low, n_high], [d_low, d_high]) = (n.bounds(unit)?, d.bounds(unit)?);
             if d_low.sign() != d_high.sign() {
                 return None;

@@ -48,6 +48,29 @@ proptest! {
     }
 
     #[test]
+    fn enclosure_leads_with_as_many_bits_as_are_asked_for(
+        (poly, at) in case(),
+        bits in 1u64..400,
+        expected in 0u64..3000,
+    ) {
+        let exact = poly.evaluate(&at);
+        let mut lost = expected;
+        let (value, unit) = poly.leading_at(&at, &mut lost, bits);
+        prop_assert_eq!(value.sign(), exact.sign());
+        // Both in multiples of the smaller unit.
+        let exact_unit = -(poly.degree() as i64 * at.exponent as i64);
+        let least = exact_unit.min(unit);
+        let exact = exact.shifted((exact_unit - least).unsigned_abs());
+        let value = value.shifted((unit - least).unsigned_abs());
+        let error = Integer::difference(&value, &exact);
+        prop_assert!(error.is_zero() || error.bits() + bits <= exact.bits() + 1);
+        // What is lost is the same whatever was expected.
+        let mut again = 0;
+        poly.leading_at(&at, &mut again, bits);
+        prop_assert!(lost.abs_diff(again) <= 1);
+    }
+
+    #[test]
     fn enclosure_tells_the_sign_beyond_a_power_of_two((poly, at) in case(), from in -700i64..1500) {
         // |p| > 2^from, in multiples of 2^-(degree exponent)
         let exact = poly.evaluate(&at);
