@@ -145,7 +145,7 @@ fn check(counts: &Counts) -> i32 {
         return 0;
     }
     if code != 0 {
-        println!("if it is meant: cargo bench --bench instructions --features wire -- record");
+        println!("if it is meant: cargo bench --bench instructions -- record");
     }
     code
 }

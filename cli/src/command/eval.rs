@@ -8,8 +8,8 @@ use clap::Args;
 use tunnelproof_reference::certify::batch::map_chunks_in_order;
 use tunnelproof_reference::certify::run::RunError;
 use tunnelproof_reference::certify::source::Source;
-use tunnelproof_reference::corpus::Entry;
 use tunnelproof_reference::corpus::turning::{self, TurningEntry};
+use tunnelproof_reference::corpus::{Entry, folder};
 use tunnelproof_reference::report::answer;
 use tunnelproof_reference::subject::Subject;
 
@@ -82,9 +82,10 @@ impl Eval {
         let answering = self.programs.start(&self.subject)?;
         check_turning(slice::from_ref(&answering))?;
         let mut output = BufWriter::new(io::stdout().lock());
-        for path in &self.files {
+        let files = self.files.iter().map(|path| folder::files(path));
+        for path in files.collect::<Result<Vec<_>, _>>()?.concat() {
             map_chunks_in_order(
-                turning::open(path)?.map(|entry| entry.map_err(Failure::from)),
+                turning::open(&path)?.map(|entry| entry.map_err(Failure::from)),
                 CHUNK,
                 |entries: Vec<TurningEntry>| turning_lines(answering.subject(), &entries),
                 |lines: Vec<String>| write_lines(&mut output, &lines),

@@ -234,18 +234,18 @@ pub(super) fn asked(text: &str) -> Result<Asked, String> {
 pub(super) fn asked_list(text: &str) -> Result<AskedList, String> {
     let mut list = Vec::new();
     let mut rest = Some(text);
-    while let Some(text) = rest {
+    while let Some(text) = rest.map(str::trim_start) {
         let is_end = |comma: &usize| {
             let next = text[comma + 1..].split(',').next();
             !is_program(text)
-                || text.starts_with(LIBRARY) && next.is_some_and(|next| asked(next).is_ok())
+                || text.starts_with(LIBRARY) && next.is_some_and(|next| asked(next.trim()).is_ok())
         };
         let mut commas = text.match_indices(',').map(|(comma, _)| comma);
         let (first, more) = match commas.find(is_end) {
             Some(comma) => (&text[..comma], Some(&text[comma + 1..])),
             None => (text, None),
         };
-        list.push(asked(first)?);
+        list.push(asked(first.trim())?);
         rest = more;
     }
     Ok(AskedList(list))
@@ -305,6 +305,11 @@ mod tests {
         };
         for (text, expected) in [
             ("oracle,certified", "oracle | certified"),
+            (" oracle, certified ", "oracle | certified"),
+            (
+                "lib:a.so, oracle , lib:b.so",
+                "lib:a.so | oracle | lib:b.so",
+            ),
             ("lib:a.so,oracle,lib:b.so", "lib:a.so | oracle | lib:b.so"),
             ("lib:a,b.so,cmd:./c 1,2", "lib:a,b.so | cmd:./c 1,2"),
             ("oracle,cmd:./c 1,oracle", "oracle | cmd:./c 1,oracle"),

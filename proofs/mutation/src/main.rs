@@ -6,6 +6,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 use std::fs::{self, File};
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -48,9 +49,18 @@ struct Options {
     /// Threads
     #[arg(long, default_value_t = 2)]
     jobs: usize,
-    /// Tests that take longer than this get only mutants that give other answers
+    /// Tests that take longer than this get only mutants that no other test kills
     #[arg(long, value_name = "S", default_value_t = 8)]
     longest: u64,
+    /// For how long each of these is run on a mutant that gives the same exact answers
+    #[arg(long, value_name = "S", default_value_t = 5)]
+    patience: u64,
+    /// Only these programs of tests, by their names; the unit tests are "lib"
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    tests: Vec<String>,
+    /// End with 1 if an exact answer is another one and no test fails
+    #[arg(long)]
+    strict: bool,
     /// Count the mutants, and run no test
     #[arg(long)]
     list: bool,
@@ -60,11 +70,13 @@ struct Options {
 }
 
 const AFTER: &str = "\
-Goes on where it was stopped: results are kept in target/mutation/SUBJECT/results.jsonl. Remove it after a change of sources or tests.";
+Goes on where it was stopped: results are kept in target/mutation/SUBJECT, for as long as the programs of tests stay the same.";
 
 const CERTIFIED: Subject = Subject {
     package: ".",
     sources: &["src/certified"],
+    features: "tunnelproof/rayon",
+    answers: include_str!("certified.rs.txt"),
 };
 const JUDGES: Subject = Subject {
     package: "reference",
@@ -72,57 +84,47 @@ const JUDGES: Subject = Subject {
         "reference/src/oracle",
         "reference/src/algebraic",
         "reference/src/poly",
-        "reference/src/places",
         "reference/src/places.rs",
+        "reference/src/scaled.rs",
+        "reference/src/normal.rs",
+        "reference/src/normal",
+        "reference/src/shadow",
+        "reference/src/difference",
     ],
+    features: "",
+    answers: include_str!("judges.rs.txt"),
 };
 
 /// The tests of the certified path: unit tests, and those of whole answers.
 const CERTIFIED_TESTS: &[&str] = &[
-    "--lib",
-    "--test",
+    "lib",
     "advance",
-    "--test",
     "certified",
-    "--test",
     "conformance",
-    "--test",
     "discrete",
-    "--test",
     "figures",
-    "--test",
     "normal",
-    "--test",
     "rigid",
-    "--test",
     "rigid_normal",
-    "--test",
     "symmetry",
-    "--test",
     "thick",
-    "--test",
     "underflow",
-    "--test",
     "vertex_face",
-    "--test",
     "cascade",
-    "--test",
     "worst",
-    "--test",
     "mesh",
 ];
 const JUDGES_TESTS: &[&str] = &[
-    "--lib",
-    "--test",
+    "lib",
     "agreement",
-    "--test",
     "conformance",
-    "--test",
     "rigid",
-    "--test",
     "vertex_face",
-    "--test",
     "figures",
+    "normal",
+    "difference",
+    "errata",
+    "field",
 ];
 
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -132,6 +134,15 @@ struct Outcome {
     /// The test that noticed.
     by: Option<String>,
     seconds: f64,
+}
+
+impl Outcome {
+    /// Says which mutant it is of if no test noticed that.
+    fn print(&self, mutant: &Mutant) {
+        if !matches!(self.verdict, Verdict::Killed | Verdict::TimedOut) {
+            println!("{}: {}", self.verdict.name(), said(mutant));
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]
@@ -180,7 +191,7 @@ impl Verdict {
 fn main() -> Result<()> {
     let options = Options::parse();
     let project = fs::canonicalize(&options.project)?;
-    let (subject, arguments, filter) = match options.subject.as_str() {
+    let (subject, tests, filter) = match options.subject.as_str() {
         "certified" => (CERTIFIED, CERTIFIED_TESTS, "certified::"),
         "judges" => (JUDGES, JUDGES_TESTS, ""),
         other => bail!("no subject {other}"),
@@ -196,14 +207,38 @@ fn main() -> Result<()> {
         return Ok(());
     }
     let longest = Duration::from_secs(options.longest);
-    let tests = suite::baseline(&tree, arguments, filter, longest, options.jobs)?;
+    let named = tests
+        .iter()
+        .copied()
+        .filter(|name| options.tests.is_empty() || options.tests.iter().any(|asked| asked == name));
+    let arguments: Vec<_> = named
+        .flat_map(|name| match name {
+            "lib" => vec!["--lib"],
+            name => vec!["--test", name],
+        })
+        .collect();
+    if let Some(other) = options.tests.iter().find(|name| !tests.contains(&&***name)) {
+        bail!(
+            "no tests {other} for this subject: there are {}",
+            tests.join(", ")
+        );
+    }
+    let asker = suite::asker(&tree, &subject)?;
+    let (key, tests) = suite::baseline(&tree, &subject, &arguments, filter, longest, options.jobs)?;
     println!(
         "{} tests, {:.0} s in all",
         tests.len(),
         tests.iter().map(|test| test.seconds).sum::<f64>()
     );
-    let outcomes = judge(&wanted, &tests, &tree, options.jobs)?;
+    let outcomes = judge(&wanted, &tests, &key, &tree, asker, &options)?;
     report(&wanted, &outcomes);
+    let is_wrong = |mutant: &Mutant| {
+        let outcome = outcomes.get(&mutant.id);
+        outcome.is_some_and(|outcome| outcome.verdict == Verdict::Wrong)
+    };
+    if options.strict && wanted.iter().any(is_wrong) {
+        bail!("exact answers are others, and no test notices");
+    }
     Ok(())
 }
 
@@ -231,8 +266,10 @@ fn wanted(mutants: &[Mutant], options: &Options) -> Vec<Mutant> {
 fn judge(
     mutants: &[Mutant],
     tests: &[Test],
+    key: &str,
     tree: &Path,
-    jobs: usize,
+    asker: PathBuf,
+    options: &Options,
 ) -> Result<HashMap<u32, Outcome>> {
     let mut reaching: HashMap<u32, Vec<&Test>> = HashMap::new();
     for test in tests {
@@ -240,7 +277,6 @@ fn judge(
             reaching.entry(site).or_default().push(test);
         }
     }
-    let asker = suite::asker(tree)?;
     let started = Instant::now();
     let usual = suite::ask(&asker, None, Duration::from_secs(600))?
         .context("the sources as they are give no answers")?;
@@ -249,8 +285,11 @@ fn judge(
         asker,
         usual,
         limit: 20 * started.elapsed() + Duration::from_secs(5),
+        patience: Duration::from_secs(options.patience),
     };
-    let path = tree.with_file_name("results.jsonl");
+    let mut hasher = DefaultHasher::new();
+    (key, options.patience).hash(&mut hasher);
+    let path = tree.with_file_name(format!("results-{:016x}.jsonl", hasher.finish()));
     let mut known = HashMap::new();
     if let Ok(file) = File::open(&path) {
         for line in BufReader::new(file).lines() {
@@ -259,17 +298,17 @@ fn judge(
             }
         }
     }
-    let left: Vec<&Mutant> = mutants
+    let (earlier, left): (Vec<&Mutant>, Vec<&Mutant>) = mutants
         .iter()
-        .filter(|mutant| !known.contains_key(&mutant.id))
-        .collect();
+        .partition(|mutant| known.contains_key(&mutant.id));
+    for mutant in earlier {
+        known[&mutant.id].print(mutant);
+    }
     let file = Mutex::new((File::options().create(true).append(true).open(path)?, 0));
     let started = Instant::now();
-    let outcomes = suite::spread(&left, jobs, |mutant| {
+    let outcomes = suite::spread(&left, options.jobs, |mutant| {
         let outcome = judge.look(mutant)?;
-        if !matches!(outcome.verdict, Verdict::Killed | Verdict::TimedOut) {
-            println!("{}: {}", outcome.verdict.name(), said(mutant));
-        }
+        outcome.print(mutant);
         let mut file = file
             .lock()
             .map_err(|_| anyhow::anyhow!("a thread failed"))?;
@@ -297,11 +336,13 @@ struct Judge<'a> {
     asker: PathBuf,
     usual: Said,
     limit: Duration,
+    /// How long a long test runs on a mutant of which no exact answer differs.
+    patience: Duration,
 }
 
 impl Judge<'_> {
-    /// Runs the tests that reach it until one fails. If none does, answers and work are compared; if what is exact differs, it gets
-    /// the long tests too.
+    /// Runs the tests that reach it until one fails. If none does, answers and work are compared, and it gets the long tests too: whole
+    /// if what is exact differs, else for some seconds each.
     fn look(&self, mutant: &Mutant) -> Result<Outcome> {
         let started = Instant::now();
         let outcome = |(verdict, by): (Verdict, Option<&Test>)| Outcome {
@@ -310,7 +351,7 @@ impl Judge<'_> {
             by: by.map(|test| format!("{} {}", test.target, test.name)),
             seconds: started.elapsed().as_secs_f64(),
         };
-        if let Some(killed) = self.test(mutant, false)? {
+        if let Some(killed) = self.test(mutant, |test| !test.is_long, None)? {
             return Ok(outcome(killed));
         }
         let verdict = match suite::ask(&self.asker, Some(mutant.id), self.limit)? {
@@ -320,25 +361,31 @@ impl Judge<'_> {
             Some(said) if said == self.usual => Verdict::Same,
             Some(said) if said.answers == self.usual.answers => Verdict::Costs,
             Some(said) if said.exact == self.usual.exact => Verdict::Places,
-            _ => {
-                let killed = self.test(mutant, true)?;
-                return Ok(outcome(killed.unwrap_or((Verdict::Wrong, None))));
-            }
+            _ => Verdict::Wrong,
         };
-        Ok(outcome((verdict, None)))
+        let most = (verdict != Verdict::Wrong).then_some(self.patience);
+        let killed = self.test(mutant, |test| test.is_long, most)?;
+        Ok(outcome(killed.unwrap_or((verdict, None))))
     }
 
-    /// The verdict of the first test that fails, of those that are long or those that are not.
-    fn test(&self, mutant: &Mutant, long: bool) -> Result<Option<(Verdict, Option<&Test>)>> {
+    /// The verdict of the first of some tests that fails. Those that run for `most` are stopped then, and say nothing.
+    fn test(
+        &self,
+        mutant: &Mutant,
+        is_asked: impl Fn(&Test) -> bool,
+        most: Option<Duration>,
+    ) -> Result<Option<(Verdict, Option<&Test>)>> {
         let tests = self.reaching.get(&mutant.site).into_iter().flatten();
-        for test in tests.filter(|test| test.is_long == long) {
-            let limit = Duration::from_secs_f64(5.0 + 10.0 * test.seconds);
+        for test in tests.filter(|test| is_asked(test)) {
+            let ends = Duration::from_secs_f64(5.0 + 10.0 * test.seconds);
+            let limit = most.unwrap_or(ends);
             let id = mutant.id.to_string();
             match suite::run(test, limit, |command| command.env("MUTANT", id))
                 .context("a test cannot be run")?
             {
                 End::Passed => {}
                 End::Failed => return Ok(Some((Verdict::Killed, Some(test)))),
+                End::TimedOut if limit < ends || !test.is_done => {}
                 End::TimedOut => return Ok(Some((Verdict::TimedOut, Some(test)))),
             }
         }

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result, ensure};
 use serde::{Deserialize, Serialize};
 
-use crate::tree::cargo;
+use crate::tree::{Subject, cargo};
 
 /// A test of a program of tests.
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -22,8 +22,10 @@ pub struct Test {
     pub seconds: f64,
     /// Whether it is asked for less, where it can be.
     pub is_less: bool,
-    /// Whether it takes so long that it gets only mutants that give other answers.
+    /// Whether it takes so long that it gets only mutants that no quicker one kills.
     pub is_long: bool,
+    /// Whether it passed without a mutant. Else it was stopped, and what it reaches after that is not known.
+    pub is_done: bool,
     /// The places that it reaches, in order.
     pub reaches: Vec<u32>,
 }
@@ -50,7 +52,11 @@ pub enum End {
 }
 
 /// The programs of tests, built: each with its package's folder, its name, and whether it is the tests of a library.
-fn programs(tree: &Path, arguments: &[&str]) -> Result<Vec<(PathBuf, PathBuf, Target)>> {
+fn programs(
+    tree: &Path,
+    subject: &Subject,
+    arguments: &[&str],
+) -> Result<Vec<(PathBuf, PathBuf, Target)>> {
     let output = cargo(tree)
         .args([
             "test",
@@ -62,6 +68,8 @@ fn programs(tree: &Path, arguments: &[&str]) -> Result<Vec<(PathBuf, PathBuf, Ta
             "tunnelproof",
             "-p",
             "tunnelproof-reference",
+            "--features",
+            subject.features,
         ])
         .args(arguments)
         .stderr(Stdio::inherit())
@@ -88,21 +96,22 @@ fn programs(tree: &Path, arguments: &[&str]) -> Result<Vec<(PathBuf, PathBuf, Ta
     Ok(programs)
 }
 
-/// How many times longer than the others tests may take that get only some mutants.
+/// How many times longer than the others tests run at most when they are measured.
 const LONG: u32 = 20;
 
 /// Builds the tests, and runs each alone, without any mutant: how long it takes, and what it reaches. Those that take longer than
-/// `longest` are long ones; those that take [`LONG`] times that are left out, and told. Kept in a file, as long as the programs are the
-/// same.
+/// `longest` are long ones; those that take [`LONG`] times that are stopped. Kept in a file, as long as the programs are the same; with
+/// them what tells that.
 pub fn baseline(
     tree: &Path,
+    subject: &Subject,
     arguments: &[&str],
     filter: &str,
     longest: Duration,
     jobs: usize,
-) -> Result<Vec<Test>> {
+) -> Result<(String, Vec<Test>)> {
     let mut all = Vec::new();
-    for (program, folder, target) in programs(tree, arguments)? {
+    for (program, folder, target) in programs(tree, subject, arguments)? {
         let is_lib = target.kind.iter().any(|kind| kind.contains("lib"));
         let listed = Command::new(&program)
             .args(["--list", "--format", "terse"])
@@ -126,6 +135,7 @@ pub fn baseline(
                     seconds: 0.0,
                     is_less: true,
                     is_long: false,
+                    is_done: false,
                     reaches: Vec::new(),
                 });
             }
@@ -143,14 +153,14 @@ pub fn baseline(
         && let Ok((of, tests)) = serde_json::from_str::<(String, Vec<Test>)>(&text)
         && of == key
     {
-        return Ok(tests);
+        return Ok((key, tests));
     }
     let measured = spread(&all, jobs, |test| measure(test, tree, longest))?;
     let mut tests: Vec<Test> = measured.into_iter().flatten().collect();
     ensure!(!tests.is_empty(), "no test reaches what is mutated");
     tests.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
-    fs::write(&kept, serde_json::to_string(&(key, &tests))?)?;
-    Ok(tests)
+    fs::write(&kept, serde_json::to_string(&(&key, &tests))?)?;
+    Ok((key, tests))
 }
 
 /// When the program was built.
@@ -187,16 +197,13 @@ fn measure(test: &Test, tree: &Path, longest: Duration) -> Result<Option<Test>> 
             );
         }
         End::Failed => anyhow::bail!("{} {} fails without any mutant", test.target, test.name),
-        End::TimedOut => {
-            println!(
-                "left out, as it takes more than {} s: {} {}",
-                most.as_secs(),
-                test.target,
-                test.name
-            );
-            return Ok(None);
-        }
-        End::Passed if reached.is_empty() => return Ok(None),
+        _ if reached.is_empty() => return Ok(None),
+        End::TimedOut => println!(
+            "takes more than {} s: {} {}",
+            most.as_secs(),
+            test.target,
+            test.name
+        ),
         End::Passed => {}
     }
     let reaches = (0..)
@@ -207,6 +214,7 @@ fn measure(test: &Test, tree: &Path, longest: Duration) -> Result<Option<Test>> 
     Ok(Some(Test {
         seconds: started.elapsed().as_secs_f64(),
         is_long: started.elapsed() > longest,
+        is_done: end == End::Passed,
         reaches,
         ..test.clone()
     }))
@@ -259,8 +267,8 @@ pub struct Said {
 }
 
 /// The program that asks.
-pub fn asker(tree: &Path) -> Result<PathBuf> {
-    let programs = programs(tree, &["--test", "mutation_answers"])?;
+pub fn asker(tree: &Path, subject: &Subject) -> Result<PathBuf> {
+    let programs = programs(tree, subject, &["--test", "mutation_answers"])?;
     programs
         .into_iter()
         .map(|(program, ..)| program)

@@ -19,6 +19,10 @@ pub struct Subject {
     pub package: &'static str,
     /// The folders and files that are mutated, from that of the project.
     pub sources: &'static [&'static str],
+    /// The features of the package that are on.
+    pub features: &'static str,
+    /// The source of the test that asks for answers.
+    pub answers: &'static str,
 }
 
 /// Copies what Git knows of the project but the files `except`. What did not change is not written, so that it is not compiled anew.
@@ -178,12 +182,8 @@ pub fn mutate(project: &Path, tree: &Path, subject: &Subject) -> Result<Vec<Muta
             numbers.sites
         );
         put(&package.join("src/mutation.rs"), schema.as_bytes())?;
-        if subject.package == "." {
-            put(
-                &tree.join("tests/mutation_answers.rs"),
-                include_bytes!("answers.rs.txt"),
-            )?;
-        }
+        let asker = package.join("tests/mutation_answers.rs");
+        put(&asker, subject.answers.as_bytes())?;
         let text = fs::read_to_string(project.join(lib))?;
         put(
             &tree.join(lib),
@@ -237,6 +237,8 @@ fn refused(tree: &Path, subject: &Subject) -> Result<BTreeSet<u32>> {
             "--lib",
             "--message-format",
             "json",
+            "--features",
+            subject.features,
             "--manifest-path",
         ])
         .arg(package.join("Cargo.toml"))
