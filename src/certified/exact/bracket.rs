@@ -73,8 +73,9 @@ struct End {
 enum Value {
     /// What [`Poly::approximate_at`] says.
     Approximate(Ordering, (f64, i64)),
-    /// What [`Poly::leading_at`] says, and the bits that it was asked for.
-    Leading(Integer, i64, u64),
+    /// What [`Poly::leading_at`] says, and the bits that it was asked for. On the heap, as most
+    /// brackets have none, and move a lot.
+    Leading(Box<(Integer, i64, u64)>),
 }
 
 impl End {
@@ -114,13 +115,14 @@ impl End {
         lost: &mut u64,
         bits: u64,
     ) -> (Integer, i64) {
-        if let Some(Value::Leading(value, exponent, own)) = &self.value
-            && *own >= bits
+        if let Some(Value::Leading(known)) = &self.value
+            && known.2 >= bits
         {
-            return (value.clone(), *exponent);
+            return (known.0.clone(), known.1);
         }
         let (value, exponent) = poly.leading_at(&self.at, lost, bits);
-        self.value = Some(Value::Leading(value.clone(), exponent, bits));
+        let known = (value.clone(), exponent, bits);
+        self.value = Some(Value::Leading(Box::new(known)));
         (value, exponent)
     }
 }
@@ -313,7 +315,7 @@ impl<'a, const N: usize> Bracket<'a, N> {
     fn chord(&mut self, bits: u32) -> Option<Integer> {
         let (poly, before) = (self.poly, self.before);
         let is_around = |low: Ordering, high: Ordering| low != before.reverse() && high != before;
-        if self.is_far {
+        if bits > MOST_BITS {
             let [(low, own), (high, other)] = [&mut self.low, &mut self.high]
                 .map(|end| end.leading(poly, &mut self.lost, u64::from(bits) + 64));
             if !is_around(low.sign(), high.sign()) {
@@ -344,11 +346,11 @@ impl<'a, const N: usize> Bracket<'a, N> {
     /// it is the root.
     fn cut(&mut self, at: &Dyadic) -> Ordering {
         let mut end = End::proved(at.clone());
+        // It is nearer to the root by as much as cells are shorter than the bracket.
+        self.lost += u64::from(self.bits);
         // More than the sign: what the next chord wants to know if the cell is right.
-        let sign = if self.is_far {
-            let next = (2 * self.bits).min(self.most_cells(at.exponent));
-            // It is nearer to the root by as much as cells are shorter than the bracket.
-            self.lost += u64::from(self.bits);
+        let next = (2 * self.bits).min(self.most_cells(at.exponent));
+        let sign = if next > MOST_BITS {
             let (value, _) = end.leading(self.poly, &mut self.lost, u64::from(next) + 64);
             value.sign()
         } else {
