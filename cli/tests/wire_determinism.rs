@@ -2,8 +2,8 @@
 //!
 //! It runs optimised (`cargo test`, `cargo test --release`) and not
 //! (`cargo test --config profile.dev.package.tunnelproof.opt-level=0 --test wire_determinism`): a
-//! transformation that changed floating-point results would show here. A change of the stepper that changes results on
-//! purpose changes the hash.
+//! transformation that changed floating-point results would show here. A change of the stepper that
+//! changes results on purpose changes the hash.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

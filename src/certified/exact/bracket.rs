@@ -32,8 +32,10 @@ use super::modular::are_coprime;
 use super::poly::Poly;
 use super::sturm;
 
+mod end;
 mod quotient;
 
+use end::End;
 pub(super) use quotient::exact_ratio;
 
 /// The only root of a polynomial strictly between two numbers, a simple one.
@@ -50,81 +52,19 @@ pub(super) struct Bracket<'a, const N: usize = 4> {
     enough: Cell<u64>,
     /// How many leading bits cancelled in the last of its values that was asked for as a number.
     lost: u64,
-    /// The ends as far as any question has narrowed it, and `bits` there.
-    narrowest: RefCell<Option<(End, End, u32)>>,
+    /// The ends as far as any question has narrowed it.
+    narrowest: RefCell<Option<Narrowed>>,
     /// Whether more cells than floating point tells apart may be tried, so that few steps lead to
     /// many bits.
     is_far: bool,
 }
 
-/// An end of a bracket.
+/// Ends of a bracket, nearer than its own, and its `bits` there.
 #[derive(Clone, Debug)]
-struct End {
-    at: Dyadic,
-    /// Whether the polynomial is known not to be 0 there; another root may be there at first.
-    is_proved: bool,
-    /// The value of the polynomial there, as far as it was computed. An end stays where it is while
-    /// the other one moves.
-    value: Option<Value>,
-}
-
-/// What is known of a value.
-#[derive(Clone, Debug)]
-enum Value {
-    /// What [`Poly::approximate_at`] says.
-    Approximate(Ordering, (f64, i64)),
-    /// What [`Poly::leading_at`] says, and the bits that it was asked for. On the heap, as most
-    /// brackets have none, and move a lot.
-    Leading(Box<(Integer, i64, u64)>),
-}
-
-impl End {
-    fn new(at: Dyadic) -> Self {
-        End {
-            at,
-            is_proved: false,
-            value: None,
-        }
-    }
-
-    fn proved(at: Dyadic) -> Self {
-        End {
-            is_proved: true,
-            ..End::new(at)
-        }
-    }
-
-    /// [`Poly::approximate_at`] there.
-    fn approximate<const N: usize>(
-        &mut self,
-        poly: &Poly<N>,
-        enough: &Cell<u64>,
-    ) -> (Ordering, (f64, i64)) {
-        if let Some(Value::Approximate(sign, value)) = self.value {
-            return (sign, value);
-        }
-        let (sign, value) = poly.approximate_at(&self.at, enough);
-        self.value = Some(Value::Approximate(sign, value));
-        (sign, value)
-    }
-
-    /// [`Poly::leading_at`] there, with so many bits or more.
-    fn leading<const N: usize>(
-        &mut self,
-        poly: &Poly<N>,
-        lost: &mut u64,
-        bits: u64,
-    ) -> (Integer, i64) {
-        if let Some(Value::Leading(known)) = &self.value
-            && known.2 >= bits
-        {
-            return (known.0.clone(), known.1);
-        }
-        let (value, exponent) = poly.leading_at(&self.at, lost, bits);
-        let known = (value.clone(), exponent, bits);
-        self.value = Some(Value::Leading(Box::new(known)));
-        (value, exponent)
-    }
+struct Narrowed {
+    low: End,
+    high: End,
+    bits: u32,
 }
 
 /// A root compared with the `f64`s.
@@ -172,11 +112,15 @@ impl<'a, const N: usize> Bracket<'a, N> {
     /// The only root of `poly` strictly between `low` and `high`; `before` is the sign between
     /// `low` and the root.
     pub(super) fn new(poly: &'a Poly<N>, low: Dyadic, high: Dyadic, before: Ordering) -> Self {
+        Bracket::between(poly, End::new(low), End::new(high), before)
+    }
+
+    fn between(poly: &'a Poly<N>, low: End, high: End, before: Ordering) -> Self {
         Bracket {
             poly,
             before,
-            low: End::new(low),
-            high: End::new(high),
+            low,
+            high,
             // A line is its own chord.
             bits: if poly.degree() == 1 { MOST_BITS } else { 1 },
             enough: Cell::new(FIRST),
@@ -188,9 +132,7 @@ impl<'a, const N: usize> Bracket<'a, N> {
 
     /// The same for ends that are known not to be roots.
     pub(super) fn proved(poly: &'a Poly<N>, low: Dyadic, high: Dyadic, before: Ordering) -> Self {
-        let mut bracket = Bracket::new(poly, low, high, before);
-        (bracket.low.is_proved, bracket.high.is_proved) = (true, true);
-        bracket
+        Bracket::between(poly, End::proved(low), End::proved(high), before)
     }
 
     /// The same, to be narrowed far: with more cells at a step than floating point tells apart.
@@ -275,7 +217,7 @@ impl<'a, const N: usize> Bracket<'a, N> {
         let width = self.width();
         let one = Integer::from(1);
         let cells = one.shifted(self.bits.into());
-        let Some(index) = self.chord(self.bits) else {
+        let Some(index) = self.chord() else {
             return Some(self.low.at.clone());
         };
         let index = index.clamp(Integer::ZERO, Integer::difference(&cells, &one));
@@ -312,8 +254,8 @@ impl<'a, const N: usize> Bracket<'a, N> {
 
     /// In which of `2^bits` cells between the ends the chord of the polynomial is 0, about. `None`
     /// if the sign at an end is that of the other side of the root.
-    fn chord(&mut self, bits: u32) -> Option<Integer> {
-        let (poly, before) = (self.poly, self.before);
+    fn chord(&mut self) -> Option<Integer> {
+        let (poly, before, bits) = (self.poly, self.before, self.bits);
         let is_around = |low: Ordering, high: Ordering| low != before.reverse() && high != before;
         if bits > MOST_BITS {
             let [(low, own), (high, other)] = [&mut self.low, &mut self.high]
@@ -457,9 +399,9 @@ impl<'a, const N: usize> Bracket<'a, N> {
     fn narrow_as_kept(&mut self) {
         let own = self.exponent();
         if let Some(narrowed) = self.narrowest.take()
-            && narrowed.0.at.exponent.max(narrowed.1.at.exponent) > own
+            && narrowed.low.at.exponent.max(narrowed.high.at.exponent) > own
         {
-            (self.low, self.high, self.bits) = narrowed;
+            (self.low, self.high, self.bits) = (narrowed.low, narrowed.high, narrowed.bits);
         }
     }
 
@@ -468,7 +410,7 @@ impl<'a, const N: usize> Bracket<'a, N> {
         let Bracket {
             low, high, bits, ..
         } = narrowed;
-        self.narrowest.replace(Some((low, high, bits)));
+        self.narrowest.replace(Some(Narrowed { low, high, bits }));
         self.enough.set(narrowed.enough.get());
     }
 

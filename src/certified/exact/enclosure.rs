@@ -153,18 +153,14 @@ impl<const N: usize> Poly<N> {
     ///
     /// `lost` is how many leading bits are expected to cancel, and becomes how many do.
     pub(super) fn leading_at(&self, at: &Dyadic, lost: &mut u64, bits: u64) -> (Integer, i64) {
-        let whole = self.value_bits(at);
-        if whole > SHORT && !at.numerator.is_zero() {
-            let mut tried = *lost + bits + 16;
-            // Ends: the bits grow by half each time, up to a share of those of the exact value.
-            while 2 * tried <= whole {
-                let Enclosure { value, error, unit } = self.enclose(at, tried);
-                if value.bits() > error.bits() + bits {
-                    *lost = tried.saturating_sub(value.bits());
-                    return (value, unit);
-                }
-                tried += tried / 2;
-            }
+        let tried = Cell::new(*lost + bits + 16);
+        let told = self.told(at, &tried, |Enclosure { value, error, unit }| {
+            let is_known = value.bits() > error.bits() + bits;
+            is_known.then(|| (value.clone(), *unit))
+        });
+        if let Some((value, unit)) = told {
+            *lost = tried.get().saturating_sub(value.bits());
+            return (value, unit);
         }
         let scale = self.degree() as i64 * at.exponent as i64;
         let value = self.evaluate(at);
