@@ -245,7 +245,9 @@ pub(super) fn asked_list(text: &str) -> Result<AskedList, String> {
             Some(comma) => (&text[..comma], Some(&text[comma + 1..])),
             None => (text, None),
         };
-        list.push(asked(first.trim())?);
+        // What stands behind a command is the command's.
+        let is_command = first.starts_with(COMMAND);
+        list.push(asked(if is_command { first } else { first.trim_end() })?);
         rest = more;
     }
     Ok(AskedList(list))
@@ -312,6 +314,7 @@ mod tests {
             ),
             ("lib:a.so,oracle,lib:b.so", "lib:a.so | oracle | lib:b.so"),
             ("lib:a,b.so,cmd:./c 1,2", "lib:a,b.so | cmd:./c 1,2"),
+            ("oracle, cmd:./c ", "oracle | cmd:./c "),
             ("oracle,cmd:./c 1,oracle", "oracle | cmd:./c 1,oracle"),
         ] {
             assert_eq!(names(text).as_deref(), Some(expected), "{text}");
