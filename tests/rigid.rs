@@ -1,7 +1,7 @@
 //! Bodies that turn: the certified path gives the oracle's answer on every family.
 
 use tunnelproof::certified::{decide_rigid, decide_rigid_exactly};
-use tunnelproof::contact::{Case, EdgePlace, Hit, Place};
+use tunnelproof::contact::{Case, ContactKind, EdgePlace, Hit, Place};
 use tunnelproof::nalgebra::Quaternion;
 use tunnelproof::query::QueryKind;
 use tunnelproof::rigid::{EdgeTurningEdge, Pose, RigidMotion, RigidQuery, Side};
@@ -271,4 +271,25 @@ fn rigid_answers_are_the_same_at_every_scale() {
         }
     }
     assert!(hits > 300, "{hits}");
+}
+
+/// A rod that turns in the plane of a wire, with its end on the wire for an instant or through it: where the
+/// end only touches, nothing changes sides.
+#[test]
+fn rigid_end_that_touches_a_wire_in_its_plane_does_not_cross_it() {
+    let pose = |z: f64| Pose::new(Point::origin(), Quaternion::new(1.0, 0.0, 0.0, z));
+    let motion = RigidMotion::new(pose(-0.375), pose(0.375)).expect("82 degrees");
+    let rod = [Point::new(0.0, 0.5, 0.0), Point::new(0.0, 1.0, 0.0)];
+    for (height, kind) in [(1.0, ContactKind::Graze), (0.9375, ContactKind::Crossing)] {
+        let wire = [-1.0, 1.0].map(|x| Point::new(x, height, 0.0));
+        let query = EdgeTurningEdge::new(wire, wire, rod, motion).expect("finite");
+        let query = RigidQuery::from(query);
+        let truth = decide_rigid_query(&query);
+        for in_integers in [false, true] {
+            let hit = answer(&query, in_integers).expect("a contact");
+            assert!(is_right(Some(&hit), &truth), "{height} {in_integers}");
+            assert_eq!(hit.kind, kind, "{height} {in_integers}");
+            assert_eq!(hit.toi == 0.5, kind == ContactKind::Graze);
+        }
+    }
 }
