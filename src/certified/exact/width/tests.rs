@@ -55,6 +55,8 @@ fn check<const L: usize, const Q: usize, const C: usize, const QV: usize, const 
     }
     same(&quadratic, &sum)?;
     same(&reversed, &difference)?;
+    let product = Fixed::<L, Q, C, QV, CV>::times_quadratics(&reversed, &quadratic);
+    same(&product, &Integer::product(&difference, &sum))?;
     let (twice, double) = (quadratic.add(&quadratic), Integer::sum(&sum, &sum));
     let value = Fixed::<L, Q, C, QV, CV>::quadratic_at(&[quadratic, twice, quadratic], grid_time);
     let exact = [sum.clone(), double, sum].map(Boxed::from);
