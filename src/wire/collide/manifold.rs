@@ -33,7 +33,7 @@ pub(super) fn contacts_of(
     let Collider::Body(other) = b else { return };
     let contacts = spots.iter().map(|spot| ContactConstraint {
         key: 0,
-        a: place(world, a, spot.points[0]),
+        a: place(world, a, spot),
         b: on_body(world, other, spot.points[1]),
         normal: spot.normal,
         gap: spot.gap,
@@ -68,14 +68,18 @@ fn is_beside_contact_node(world: &World, id: SegmentId, body: BodyId, arc: f64) 
     nearer.kind.is_on(body)
 }
 
-/// The place of a point that is on the surface of a thing.
-fn place(world: &World, thing: Collider, point: Point) -> ContactSite {
+/// The place of a thing that touches at its surface. On a segment it is the place of the midline that the
+/// surface is next to, along the normal: a point of the surface may be beside another place, and of a
+/// segment shorter than it is thick beyond both ends.
+fn place(world: &World, thing: Collider, spot: &ManifoldPoint) -> ContactSite {
+    let surface = spot.points[0];
     match thing {
-        Collider::Body(body) => on_body(world, body, point),
+        Collider::Body(body) => on_body(world, body, surface),
         Collider::Segment(id) => {
+            let midline = surface + spot.normal * id.of(world).material.radius;
             let [start, end] = id.ends(world);
             let span = end - start;
-            let parameter = (point - start).dot(&span) / span.norm_squared();
+            let parameter = (midline - start).dot(&span) / span.norm_squared();
             let parameter = if parameter.is_finite() {
                 parameter
             } else {

@@ -64,8 +64,9 @@ impl WireContacts {
     pub(super) fn refresh(&mut self, world: &World, thickness: Thickness) {
         let mut taken: PairSet = self.list.iter().filter_map(|t| t.pair(world)).collect();
         for mut touch in std::mem::take(&mut self.list) {
-            let pair = touch.pair(world).filter(|&pair| !joined(world, pair));
-            let Some(pair) = pair else { continue };
+            let Some(pair) = touch.pair(world) else {
+                continue;
+            };
             touch.slide(world, pair, thickness, &mut taken);
             match self
                 .list
@@ -161,8 +162,25 @@ impl WireContacts {
 }
 
 impl WireContact {
+    /// Its segments. A place at a node is on two: if those after the nodes are joined, the closest of the
+    /// other pairs that are not.
     fn pair(&self, world: &World) -> Option<[SegmentId; 2]> {
-        pair_at(world, &self.sites)
+        let after = pair_at(world, &self.sites)?;
+        if !joined(world, after) {
+            return Some(after);
+        }
+        let before = |k: usize| {
+            let SegmentId { wire, segment } = after[k];
+            let is_at_node = after[k].nodes(world)[0].arc == self.sites[k].arc;
+            let segment = segment.checked_sub(1).filter(|_| is_at_node)?;
+            Some(SegmentId { wire, segment })
+        };
+        let (a, b) = (before(0), before(1));
+        let others = [(a, Some(after[1])), (Some(after[0]), b), (a, b)];
+        let others = others.into_iter().filter_map(|(a, b)| Some([a?, b?]));
+        let apart = others.filter(|pair| !joined(world, *pair));
+        let distance = |pair: &[SegmentId; 2]| Closest::of(world, *pair).distance();
+        apart.min_by(|x, y| distance(x).total_cmp(&distance(y)))
     }
 
     /// Whether it keeps these places apart in this direction already.

@@ -4,8 +4,8 @@ use super::super::{Collisions, StepRecord};
 use crate::query::Point;
 use crate::wire::model::box_mesh;
 use crate::wire::{
-    BodyPlan, ContactConstraint, ContactSite, Drive, Material, Phase, Settings, Shape, Stop,
-    Vector, WirePlan, World,
+    BodyPlan, ContactConstraint, ContactRecord, ContactSite, Drive, Material, Phase, Settings,
+    Shape, Stop, Vector, WirePlan, World,
 };
 use nalgebra::UnitQuaternion;
 
@@ -121,6 +121,41 @@ fn contacts_of_a_chain_at_rest_are_one_at_each_node_and_keep_their_keys() {
     let first = keys(&step(&mut world, &mut collisions, 1));
     assert_eq!(first.len(), 9);
     assert_eq!(keys(&step(&mut world, &mut collisions, 30)), first);
+}
+
+/// The surface below its upper end is beside no place of such a segment.
+#[test]
+fn segment_shorter_than_it_is_thick_is_held_at_both_ends_however_it_is_tilted() {
+    const LENGTH: f64 = 0.004;
+    const RADIUS: f64 = 0.01;
+    let flat = grounds().into_iter().take(4);
+    for (ground, tilt) in flat.flat_map(|ground| [0.1, 0.5].map(|tilt| (ground.clone(), tilt))) {
+        let mut world = world();
+        world.add_body(ground.clone()).unwrap();
+        let lower = Point::new(0.0, 0.0, RADIUS);
+        let upper = lower + Vector::new(f64::cos(tilt), 0.0, f64::sin(tilt)) * LENGTH;
+        let route = [lower, upper].map(Stop::Free).to_vec();
+        let plan = WirePlan::new(Material::steel(RADIUS).chain(), 1.0, route);
+        world.add_wire(&plan).unwrap();
+        let mut collisions = Collisions::default();
+        let arc = |contact: &ContactRecord| match contact.contact.a {
+            ContactSite::Wire { arc, .. } => arc,
+            _ => f64::NAN,
+        };
+        let record = step(&mut world, &mut collisions, 1);
+        let mut arcs: Vec<f64> = record.contacts.iter().map(arc).collect();
+        arcs.sort_by(f64::total_cmp);
+        assert!(
+            arcs.len() == 2 && arcs[0] == 0.0 && (arcs[1] / LENGTH - 1.0).abs() < 1e-6,
+            "{ground:?} {tilt} {arcs:?}"
+        );
+        step(&mut world, &mut collisions, 10);
+        assert!(
+            lowest(&world) > RADIUS - 1e-4,
+            "{ground:?} {tilt} {}",
+            lowest(&world)
+        );
+    }
 }
 
 #[test]

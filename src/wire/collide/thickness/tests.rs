@@ -1,5 +1,6 @@
 use super::*;
 use crate::wire::collide::remesh;
+use crate::wire::collide::wire_contacts::WireContacts;
 use crate::wire::{
     Collisions, ContactSite, Material, Mode, Remesh, RemeshKind, Settings, StepRecord, Stop,
     Vector, WireId, WirePlan,
@@ -241,4 +242,42 @@ fn change_of_resolution_that_comes_near_is_refused() {
         [0.0, 0.3, 0.39, 0.41, 0.5].map(meets),
         [false, false, false, true, true]
     );
+}
+
+/// The segments after the nodes at which it is are neighbours.
+#[test]
+fn contact_at_two_nodes_stays_with_the_segments_that_it_is_of() {
+    let mut world = weightless();
+    let turn = [
+        [-1.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0],
+        [0.0, 0.0, 0.02],
+        [-1.0, 0.0, 0.2],
+    ];
+    add(&mut world, &turn, Stop::Free, Vector::zeros());
+    let node = |at: usize| WireSite {
+        wire: WireId(0),
+        arc: world.wires()[0].nodes()[at].arc,
+    };
+    for ends in [[1, 2], [2, 1]] {
+        let sites = ends.map(node);
+        let mut contacts = WireContacts::default();
+        let contact = contacts.make(sites, Vector::z());
+        let key = contact.key;
+        contacts.list.push(contact);
+        for _ in 0..2 {
+            contacts.refresh(&world, Thickness(0.5));
+        }
+        let [kept] = contacts.list.as_slice() else {
+            panic!("{:?}", contacts.list);
+        };
+        assert_eq!((kept.key, kept.sites), (key, sites));
+    }
+    // Neighbours and nothing else: no contact.
+    let sites = [0, 1].map(node);
+    let mut contacts = WireContacts::default();
+    let contact = contacts.make(sites, Vector::z());
+    contacts.list.push(contact);
+    contacts.refresh(&world, Thickness(0.5));
+    assert!(contacts.list.is_empty());
 }
