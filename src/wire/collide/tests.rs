@@ -343,3 +343,103 @@ fn passage_at_the_border_of_two_steps_is_a_tunnel() {
     use CrossingOutcome::{Grazed, Tunnelled};
     assert_eq!(outcomes, [vec![Grazed], vec![Tunnelled], vec![]]);
 }
+
+/// A wire over another one that has two crests, so far apart.
+fn crests(apart: f64) -> (World, [[f64; 2]; 2]) {
+    let mut world = weightless();
+    let route = [-1.0, 1.0].map(|x| Stop::Free(Point::new(x, 0.0, 0.045)));
+    let mut plan = WirePlan::new(Material::steel(0.02).chain(), 10.0, route.to_vec());
+    plan.resolution.adaptive = false;
+    world.add_wire(&plan).unwrap();
+    let at = apart / 2.0;
+    let under = [
+        [-1.0, -1.0],
+        [-at, 0.0],
+        [0.0, -0.001],
+        [at, 0.0],
+        [1.0, -1.0],
+    ];
+    plan.route = under
+        .map(|[x, z]| Stop::Free(Point::new(x, 0.0, z)))
+        .to_vec();
+    world.add_wire(&plan).unwrap();
+    let arc = |node: usize| world.wires()[1].nodes()[node].arc;
+    let places = [[1.0 - at, arc(1)], [1.0 + at, arc(3)]];
+    (world, places)
+}
+
+#[test]
+fn contacts_become_one_only_when_they_are_far_nearer_than_new_ones_may_be() {
+    let spacing = 0.04;
+    let mut seen = Vec::new();
+    for (apart, stay, may_come) in [
+        (0.3, 1, false),
+        (0.45, 1, false),
+        (0.9, 2, false),
+        (1.2, 2, true),
+    ] {
+        let (world, places) = crests(apart * spacing);
+        let sites = places.map(|arcs| {
+            let site = |wire: usize| crate::wire::site::WireSite {
+                wire: WireId(wire),
+                arc: arcs[wire],
+            };
+            [site(0), site(1)]
+        });
+        let mut contacts = WireContacts::default();
+        let [first, second] = sites.map(|sites| contacts.make(sites, Vector::z()));
+        contacts.list = vec![first.clone(), second.clone()];
+        contacts.refresh(&world, Thickness::default());
+        seen.push(contacts.list.len());
+        assert_eq!(contacts.list.len(), stay, "{apart}: {:?}", contacts.list);
+        contacts.list = vec![first];
+        contacts.add(&world, Thickness::default(), [second]);
+        assert_eq!(contacts.list.len() == 2, may_come, "{apart}");
+    }
+    assert_eq!(seen, [1, 1, 2, 2]);
+}
+
+/// More contacts than the Schur complement is formed for: wires side by side on a floor, and as many across.
+#[test]
+fn many_contacts_come_to_rest() {
+    const COUNT: usize = 16;
+    let mut world = World::new(Settings::default()).unwrap();
+    world
+        .add_body(BodyPlan::fixed(Shape::Plane, Point::origin()))
+        .unwrap();
+    let length = 0.05 * COUNT as f64;
+    for k in 0..COUNT {
+        let at = 0.05 * (k as f64 + 0.5);
+        for [from, to] in [
+            [[0.0, at, 0.0051], [length, at, 0.0051]],
+            [[at, 0.0, 0.0153], [at, length, 0.0153]],
+        ] {
+            let route = [from, to].map(|point| Stop::Free(point.into())).to_vec();
+            let mut plan = WirePlan::new(Material::steel(0.005), 0.05, route);
+            plan.resolution.adaptive = false;
+            world.add_wire(&plan).unwrap();
+        }
+    }
+    let mut collisions = Collisions::default();
+    let mut last = None;
+    for _ in 0..40 {
+        last = Some(world.step_colliding(&mut collisions, &[]).unwrap());
+    }
+    let record = last.unwrap();
+    assert!(record.contacts.len() > 256 && record.solver.sweeps == 0);
+    assert!(record.solver.contact_residual < 1e-5, "{:?}", record.solver);
+    let wires = world.wires().iter().flat_map(|wire| wire.nodes());
+    let fastest = wires.map(|node| node.velocity.norm()).fold(0.0, f64::max);
+    assert!(fastest < 1e-5, "{fastest}");
+    let weight = world
+        .wires()
+        .iter()
+        .map(|wire| wire.material.mass_per_length() * length * 9.80665);
+    let weight: f64 = weight.sum();
+    let carried = record
+        .contacts
+        .iter()
+        .filter(|contact| matches!(contact.contact.b, crate::wire::ContactSite::Body { .. }));
+    let carried: f64 = carried.map(|contact| contact.force.z).sum();
+    assert!((carried / weight - 1.0).abs() < 1e-4, "{carried} {weight}");
+}

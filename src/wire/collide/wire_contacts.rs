@@ -43,6 +43,10 @@ pub(in crate::wire) struct WireContacts {
     pub(in crate::wire) made: u64,
 }
 
+/// Contacts become one when they are nearer than this part of the spacing from which on there are two. So
+/// none comes and goes from step to step: it would come without an impulse, and go with one.
+const MERGED: f64 = 0.5;
+
 type PairSet = BTreeSet<[SegmentId; 2]>;
 
 impl WireContacts {
@@ -68,11 +72,8 @@ impl WireContacts {
                 continue;
             };
             touch.slide(world, pair, thickness, &mut taken);
-            match self
-                .list
-                .iter_mut()
-                .find(|older| older.is_at(world, &touch.sites, thickness))
-            {
+            let mut older = self.list.iter_mut();
+            match older.find(|older| older.is_within(MERGED, world, &touch.sites, thickness)) {
                 Some(older) => older.wrong |= touch.wrong,
                 None => self.list.push(touch),
             }
@@ -195,13 +196,24 @@ impl WireContact {
         self.is_at(world, sites, thickness) && self.normal.dot(normal) > ALIKE
     }
 
-    /// Whether it is one contact with these places: not farther along either wire than the spacing.
+    /// Whether it is one contact with these places.
     fn is_at(&self, world: &World, sites: &[WireSite; 2], thickness: Thickness) -> bool {
+        self.is_within(1.0, world, sites, thickness)
+    }
+
+    /// Whether these places are not farther along either wire than a part of the spacing.
+    fn is_within(
+        &self,
+        part: f64,
+        world: &World,
+        sites: &[WireSite; 2],
+        thickness: Thickness,
+    ) -> bool {
         let same = |k: usize| self.sites[k].wire == sites[k].wire;
         if !(same(0) && same(1)) {
             return false;
         }
-        let spacing = thickness.spacing(world, sites);
+        let spacing = part * thickness.spacing(world, sites);
         (0..2).all(|k| (self.sites[k].arc - sites[k].arc).abs() <= spacing)
     }
 

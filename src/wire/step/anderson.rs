@@ -66,21 +66,18 @@ fn impulses(blocks: &[Block]) -> Vec<f64> {
 
 /// What a sweep changed, in units in which a change moves its own contact alike, and the impulses
 /// and velocities that it came to.
-fn sample(before: &[f64], blocks: &[Block], delassus: &Delassus, units: &[f64]) -> Vec<f64> {
-    let after = impulses(blocks);
-    let changes = after.iter().zip(before).zip(units);
+fn sample(before: &[f64], blocks: &[Block], delassus: &Delassus, units: &[f64]) -> Sample {
+    let mut values = impulses(blocks);
+    let changes = values.iter().zip(before).zip(units);
     let changes = changes.map(|((after, before), unit)| unit * (after - before));
-    let mut sample = Vec::with_capacity(3 * after.len());
-    sample.extend(changes);
-    sample.extend_from_slice(&after);
-    sample.extend_from_slice(&delassus.excess);
-    sample
+    let changes = changes.collect();
+    values.extend_from_slice(&delassus.excess);
+    Sample { changes, values }
 }
 
 /// Takes impulses and velocities from a sample, and impulses back to their cones.
-fn start_from(sample: &[f64], blocks: &mut [Block], delassus: &mut Delassus) {
-    let (_, rest) = sample.split_at(3 * blocks.len());
-    let (impulses, excess) = rest.split_at(3 * blocks.len());
+fn start_from(sample: &Sample, blocks: &mut [Block], delassus: &mut Delassus) {
+    let (impulses, excess) = sample.values.split_at(3 * blocks.len());
     delassus.excess.copy_from_slice(excess);
     for ((at, block), impulse) in blocks.iter_mut().enumerate().zip(impulses.chunks_exact(3)) {
         let impulse = Vector::from_column_slice(impulse);
@@ -89,31 +86,49 @@ fn start_from(sample: &[f64], blocks: &mut [Block], delassus: &mut Delassus) {
     }
 }
 
-/// What the last sweeps taught.
+/// What one application of a map changed, in units that make changes alike, and the values that it came
+/// to.
+#[derive(Clone, Debug)]
+pub(super) struct Sample {
+    pub(super) changes: Vec<f64>,
+    pub(super) values: Vec<f64>,
+}
+
+impl Sample {
+    /// All of its numbers, and those of another one.
+    fn pairs<'s>(&'s mut self, other: &'s Sample) -> impl Iterator<Item = (&'s mut f64, &'s f64)> {
+        let changes = self.changes.iter_mut().zip(&other.changes);
+        changes.chain(self.values.iter_mut().zip(&other.values))
+    }
+}
+
+/// What the last applications taught.
 #[derive(Default)]
-struct History {
+pub(super) struct History {
     /// Differences of samples, one after the other.
-    differences: VecDeque<Vec<f64>>,
+    differences: VecDeque<Sample>,
     /// The products of their changes, of each with itself and those before it.
     products: VecDeque<VecDeque<f64>>,
-    last: Option<Vec<f64>>,
+    last: Option<Sample>,
     /// The square of the last sweep's change.
     change: f64,
 }
 
 impl History {
-    fn learn(&mut self, sample: &[f64]) {
+    pub(super) fn learn(&mut self, sample: &Sample) {
         let change = product(sample, sample);
         if self.last.is_some() && change > WORSE * self.change {
             *self = History::default();
         }
         self.change = change;
-        let Some(last) = self.last.replace(sample.to_vec()) else {
+        let Some(last) = self.last.replace(sample.clone()) else {
             return;
         };
-        let pairs = sample.iter().zip(&last);
-        self.differences
-            .push_back(pairs.map(|(new, old)| new - old).collect());
+        let mut difference = sample.clone();
+        for (new, old) in difference.pairs(&last) {
+            *new -= old;
+        }
+        self.differences.push_back(difference);
         let new = &self.differences[self.differences.len() - 1];
         let products = self.differences.iter().map(|old| product(new, old));
         self.products.push_back(products.collect());
@@ -128,7 +143,7 @@ impl History {
 
     /// Takes from a sample the combination of differences that leaves the least change: least
     /// squares by the normal equations.
-    fn extrapolate(&self, sample: &mut [f64]) {
+    pub(super) fn extrapolate(&self, sample: &mut Sample) {
         let trace: f64 = self.products.iter().filter_map(VecDeque::back).sum();
         let mut matrix = Vec::with_capacity(self.products.len());
         for (k, row) in self.products.iter().enumerate() {
@@ -146,18 +161,16 @@ impl History {
             return;
         }
         for (difference, coefficient) in self.differences.iter().zip(coefficients) {
-            for (value, difference) in sample.iter_mut().zip(difference) {
+            for (value, difference) in sample.pairs(difference) {
                 *value -= coefficient * difference;
             }
         }
     }
 }
 
-/// The product of the changes of two samples, which are their first thirds. Four sums, which a
-/// processor does at once.
-fn product(a: &[f64], b: &[f64]) -> f64 {
-    let changes = a.len() / 3;
-    let (a, b) = (a[..changes].chunks_exact(4), b[..changes].chunks_exact(4));
+/// The product of the changes of two samples. Four sums, which a processor does at once.
+fn product(a: &Sample, b: &Sample) -> f64 {
+    let (a, b) = (a.changes.chunks_exact(4), b.changes.chunks_exact(4));
     let rest = a.remainder().iter().zip(b.remainder());
     let rest = rest.fold(0.0, |sum, (a, b)| sum + a * b);
     let mut sums = [0.0; 4];

@@ -118,11 +118,41 @@ impl Augmented {
         given_way.max(unbound * self.softness.mobility)
     }
 
+    /// What an impulse changes of its own velocity, about, in 1/kg.
+    pub(super) fn mobility(&self) -> f64 {
+        self.softness.mobility
+    }
+
+    /// What Coulomb's law allows of an impulse.
+    pub(super) fn allowed(&self, impulse: &Vector) -> Vector {
+        to_cone(impulse, self.friction)
+    }
+
+    /// The velocity of a contact that pushes with an impulse and sticks.
+    pub(super) fn sticking(&self, impulse: &Vector) -> Vector {
+        Vector::new(self.target - self.sigma * impulse.x, 0.0, 0.0)
+    }
+
+    /// The predicted impulse.
+    pub(super) fn prediction(&self) -> Vector {
+        self.predicted
+    }
+
+    /// Predicts what Coulomb's law allows of an impulse.
+    pub(super) fn predict(&mut self, impulse: &Vector) {
+        self.predicted = self.allowed(impulse);
+        self.bound = self.friction * self.predicted.x;
+    }
+
     /// Predicts the impulse that came out at a velocity.
     pub(super) fn update_prediction(&mut self, velocity: &Vector, impulse: &Vector) {
         self.slides = self.is_sliding(velocity);
         self.predicted = Vector::new(impulse.x.max(0.0), impulse.y, impulse.z);
         self.bound = self.friction * self.predicted.x;
+    }
+
+    /// Gives way less to what is not predicted.
+    pub(super) fn harden(&mut self) {
         self.softness.harden();
     }
 

@@ -176,6 +176,11 @@ pub(super) fn best_multiple(blocks: &[Block], excess: &[f64]) -> f64 {
         let now = block.impulse.dot(&Vector::from_column_slice(excess));
         (curved + now - due, linear + due)
     });
+    best_fraction(curved, linear)
+}
+
+/// Where `curved s^2 / 2 + linear s` is least from 0 to 1; 0 if that is not finite.
+pub(super) fn best_fraction(curved: f64, linear: f64) -> f64 {
     if !(curved.is_finite() && linear.is_finite()) {
         0.0
     } else if curved > 0.0 {

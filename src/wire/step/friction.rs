@@ -24,7 +24,7 @@ use crate::wire::world::World;
 /// How many contacts have their Schur complement formed if they do not converge in
 /// [`FIRST_SWEEPS`]. Fewer cost little either way; with more, a sweep with it costs more than one
 /// without.
-const FORMED: RangeInclusive<usize> = 8..=256;
+pub(super) const FORMED: RangeInclusive<usize> = 8..=256;
 
 /// Sweeps that are tried before the Schur complement is formed.
 const FIRST_SWEEPS: usize = 10;

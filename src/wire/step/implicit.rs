@@ -35,6 +35,8 @@ pub(super) struct Implicit {
     impulse: Vector,
     /// How fast that falls there.
     slope: Matrix3<f64>,
+    /// The impulse of the last solution, if the contact was not in the matrix.
+    solved: Option<Vector>,
 }
 
 /// Three unknowns, a velocity, and what a contact has of it; of a body three more, its angular
@@ -98,8 +100,9 @@ impl Implicit {
             velocity: Vector::zeros(),
             impulse: Vector::zeros(),
             slope: Matrix3::zeros(),
+            solved: None,
         };
-        let mobility = own.mobility(masses);
+        let mobility = own.mobility_by(masses);
         if mobility > 0.0 {
             own.law = Augmented::new(mobility, row, contact.friction, &(frame * impulse));
         }
@@ -107,7 +110,7 @@ impl Implicit {
     }
 
     /// A third of the trace of its mobility, with nothing else but the diagonal of the masses.
-    fn mobility(&self, masses: &[f64]) -> f64 {
+    fn mobility_by(&self, masses: &[f64]) -> f64 {
         let mut sum = 0.0;
         for point in &self.points {
             for axis in 0..3 {
@@ -134,6 +137,73 @@ impl Implicit {
         }
         self.impulse = self.law.impulse(&self.velocity);
         self.slope = self.law.slope(&self.velocity);
+        self.solved = None;
+    }
+
+    /// The impulse of the linearisation.
+    pub(super) fn linearised(&self) -> Vector {
+        self.impulse
+    }
+
+    /// The impulse of the last solution, or else of the linearisation.
+    pub(super) fn solved(&self) -> Vector {
+        self.solved.unwrap_or(self.impulse)
+    }
+
+    /// Takes an impulse for that of the solution: it is in no matrix.
+    pub(super) fn set_solved(&mut self, impulse: Vector) {
+        self.solved = Some(impulse);
+    }
+
+    /// What Coulomb's law allows of that.
+    pub(super) fn solved_in_cone(&self) -> Vector {
+        self.law.allowed(&self.solved())
+    }
+
+    /// The velocity at a solution, less that which a contact has that pushes with an impulse and sticks.
+    pub(super) fn excess(&self, impulse: &Vector, x: &[f64]) -> Vector {
+        self.at(x) - self.law.sticking(impulse)
+    }
+
+    /// How fast the linearised impulse falls with the velocity.
+    pub(super) fn slope(&self) -> &Matrix3<f64> {
+        &self.slope
+    }
+
+    /// What an impulse changes of its own velocity, about, in 1/kg; with no other contact, and no wire that
+    /// resists.
+    pub(super) fn mobility(&self) -> f64 {
+        self.law.mobility()
+    }
+
+    /// The velocity of the linearisation less that at a solution.
+    pub(super) fn velocity_missing(&self, x: &[f64]) -> Vector {
+        self.velocity - self.at(x)
+    }
+
+    /// The velocity that unknowns give beside what is prescribed.
+    pub(super) fn velocity_of(&self, x: &[f64]) -> Vector {
+        self.at(x) - self.frame * self.given
+    }
+
+    /// Adds an impulse, in its frame, to the unknowns.
+    pub(super) fn push(&self, impulse: &Vector, x: &mut [f64]) {
+        self.each_part(impulse, |component, part| x[component] += part);
+    }
+
+    /// The predicted impulse.
+    pub(super) fn prediction(&self) -> Vector {
+        self.law.prediction()
+    }
+
+    /// Predicts what Coulomb's law allows of an impulse.
+    pub(super) fn predict(&mut self, impulse: &Vector) {
+        self.law.predict(impulse);
+    }
+
+    /// Makes the law harder.
+    pub(super) fn harden(&mut self) {
+        self.law.harden();
     }
 
     /// Calls back for each entry that it adds to the mass matrix, on and above the diagonal.
@@ -168,9 +238,13 @@ impl Implicit {
     }
 
     /// Calls back for each impulse that it has if no unknown moves.
-    pub(super) fn each_impulse(&self, mut take: impl FnMut(usize, f64)) {
-        let impulse = self.linear(&(self.frame * self.given));
-        let impulse = self.frame.tr_mul(&impulse);
+    pub(super) fn each_impulse(&self, take: impl FnMut(usize, f64)) {
+        self.each_part(&self.linear(&(self.frame * self.given)), take);
+    }
+
+    /// Calls back for each unknown that an impulse changes.
+    fn each_part(&self, impulse: &Vector, mut take: impl FnMut(usize, f64)) {
+        let impulse = self.frame.tr_mul(impulse);
         for point in &self.points {
             take(point.first, point.weight * impulse.x);
             take(point.first + 1, point.weight * impulse.y);
@@ -228,8 +302,10 @@ impl Implicit {
         self.frame * sum
     }
 
-    /// The impulse at a velocity, by the law taken as linear.
+    /// The impulse at a velocity, by the law taken as linear; that of the solution, where it is no
+    /// function of velocity.
     fn linear(&self, velocity: &Vector) -> Vector {
-        self.impulse + self.slope * (self.velocity - velocity)
+        let linear = || self.impulse + self.slope * (self.velocity - velocity);
+        self.solved.unwrap_or_else(linear)
     }
 }

@@ -10,30 +10,38 @@
 use super::active_set::{advance, leaves_hard_branch, line_search, update_branches};
 use super::budget::Budget;
 use super::capstan;
+use super::conjugate_gradients;
 use super::friction_bounds::BoundSearch;
-use super::system::System;
+use super::predictions::Predictions;
+use super::system::{ContactMethod, System};
 use crate::wire::Vector;
 use crate::wire::error::Reason;
 
-/// The most factorisations; some dozens are usual.
+/// The most Newton steps; some dozens are usual.
 const TRIES: usize = 200;
 
 /// The most predictions; a dozen is usual. Then the solution is accepted, and the record has its
 /// residual.
 const ROUNDS: usize = 30;
 
-/// The largest linearisation error that is accepted, as a fraction of the residual.
+/// The largest linearisation error that is accepted, as a fraction of the residual, in the matrix and by
+/// gradients.
 const LINEARISATION: f64 = 0.1;
+const GRADIENTS_LINEARISATION: f64 = 0.5;
 
 /// Relative resolution of the line search.
 const RESOLUTION: f64 = 1e-3;
 
 /// A residual of at most `NEARLY` times the tolerance that does not fall `STAYS` times in a row is
 /// accepted: it is rounding, or no contact can have the impulses that are asked for. A larger one has
-/// `FAR_STAYS` times: where things jam there may be no solution at all.
+/// `FAR_STAYS` times: where things jam there may be no solution at all. Without hardening residuals fall
+/// slowly where wires are stiff; what is not found in one step is looked for from there in the next.
 const NEARLY: f64 = 100.0;
 const STAYS: usize = 3;
 const FAR_STAYS: usize = 6;
+const GRADIENTS_NEARLY: f64 = 1000.0;
+const GRADIENTS_STAYS: usize = 2;
+const GRADIENTS_FAR_STAYS: usize = 4;
 
 /// A solution for some prediction.
 pub(super) struct Solution {
@@ -68,10 +76,16 @@ pub(super) fn solve(
 ) -> Result<Option<Solution>, Reason> {
     let mut search = BoundSearch::new();
     let mut best: Option<Solution> = None;
-    let (mut stayed, mut factorisations, mut is_settled) = (0, 0, false);
+    let mut predictions = Predictions::new(system);
+    let (mut stayed, mut steps, mut is_settled) = (0, 0, false);
     for round in 1..=ROUNDS {
-        let phase = minimise_for_predicted(system, &mut x, tolerance, &mut factorisations, budget)?;
+        let phase = minimise_for_predicted(system, &mut x, tolerance, &mut steps, budget)?;
         let Some(contact_residual) = phase else {
+            if best.is_none() && system.method == ContactMethod::ByGradients {
+                let x = conjugate_gradients::end_within_cones(system);
+                let [law, predicted] = residuals(system, &x);
+                best = Some(Solution::of(system, law.max(predicted))?);
+            }
             break;
         };
         let least = best
@@ -87,21 +101,21 @@ pub(super) fn solve(
             budget.spend(system.multiplications_of_solve());
         }
         let converged = contact_residual <= tolerance && !capstan::bounds_differ(&system.rows, &x);
-        let near = least <= NEARLY * tolerance;
-        is_settled = converged || round == ROUNDS || stayed >= if near { STAYS } else { FAR_STAYS };
+        let stays = match system.method {
+            ContactMethod::ByGradients if least <= GRADIENTS_NEARLY * tolerance => GRADIENTS_STAYS,
+            ContactMethod::ByGradients => GRADIENTS_FAR_STAYS,
+            ContactMethod::InMatrix if least <= NEARLY * tolerance => STAYS,
+            ContactMethod::InMatrix => FAR_STAYS,
+        };
+        is_settled = converged || round == ROUNDS || stayed >= stays;
         if is_settled {
             break;
         }
         search.update(system, &x, budget);
-        for row in &mut system.rows {
-            row.update_prediction(&x);
-        }
-        for contact in &mut system.implicit {
-            contact.update_prediction(&x);
-        }
+        predictions.update(system, &x);
     }
     Ok(best.map(|best| Solution {
-        factorisations,
+        factorisations: system.factorisations,
         is_settled,
         ..best
     }))
@@ -130,23 +144,32 @@ fn minimise_for_predicted(
     system: &mut System,
     x: &mut Vec<f64>,
     tolerance: f64,
-    factorisations: &mut usize,
+    steps: &mut usize,
     budget: &mut Budget,
 ) -> Result<Option<f64>, Reason> {
     // The first linearisation is at the predicted impulses: the velocities so far minimise another
     // function.
     let mut predicted = true;
-    while *factorisations < TRIES && !budget.is_spent() {
+    let accepted = match system.method {
+        ContactMethod::InMatrix => LINEARISATION,
+        ContactMethod::ByGradients => GRADIENTS_LINEARISATION,
+    };
+    while *steps < TRIES && !budget.is_spent() {
         update_branches(&mut system.rows, x, predicted);
         for contact in &mut system.implicit {
             contact.linearise(x, predicted);
         }
+        let before = system.factorisations;
         system.factor()?;
-        budget.spend(system.multiplications());
-        *factorisations += 1;
-        let newton = system.estimate();
+        let factored = system.factorisations - before;
+        budget.spend(factored * system.multiplications() + system.multiplications_of_laws());
+        *steps += 1;
+        let newton = match system.method {
+            ContactMethod::InMatrix => system.estimate(),
+            ContactMethod::ByGradients => conjugate_gradients::solve(system, tolerance, budget),
+        };
         let [linearisation_error, contact_residual] = residuals(system, &newton);
-        if linearisation_error <= LINEARISATION * contact_residual.max(tolerance)
+        if linearisation_error <= accepted * contact_residual.max(tolerance)
             && !leaves_hard_branch(&system.rows, &newton)
         {
             *x = newton;
@@ -174,4 +197,4 @@ fn residuals(system: &System, x: &[f64]) -> [f64; 2] {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

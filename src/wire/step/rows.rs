@@ -38,9 +38,9 @@ pub(super) struct Row {
 /// A law that gives way to a multiplier that was not predicted.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Softened {
-    softness: Softness,
+    pub(super) softness: Softness,
     /// The predicted multiplier in N s.
-    predicted: f64,
+    pub(super) predicted: f64,
 }
 
 impl Row {
@@ -195,6 +195,12 @@ impl Row {
     pub(super) fn update_prediction(&mut self, x: &[f64]) {
         if let Some(soft) = &mut self.softened {
             soft.predicted = x[self.multiplier].max(0.0);
+        }
+    }
+
+    /// Gives way less to what is not predicted.
+    pub(super) fn harden(&mut self) {
+        if let Some(soft) = &mut self.softened {
             soft.softness.harden();
         }
     }

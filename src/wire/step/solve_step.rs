@@ -5,11 +5,11 @@ use super::active_set::{find_active_set, violates_branches};
 use super::budget::Budget;
 use super::capstan::{bound_residual, stop_slip};
 use super::contact_blocks::Swept;
-use super::friction::{contact_residual, sweep};
+use super::friction::{FORMED, contact_residual, sweep};
 use super::multipliers;
 use super::order::{self, Block};
 use super::start::Start;
-use super::system::System;
+use super::system::{ContactMethod, System};
 use crate::wire::Vector;
 use crate::wire::clock::Clock;
 use crate::wire::contact::ContactConstraint;
@@ -76,8 +76,14 @@ impl World {
         if let Some(order) = by_least_degree {
             let mut system = self.assemble(&order, structure, phases);
             let mut part = budget.part(IN_SYSTEM);
-            let candidate =
-                self.solve_with_implicit_contacts(&mut system, contacts, start, &mut part, phases);
+            let candidate = self.solve_with_implicit_contacts(
+                &mut system,
+                contacts,
+                start,
+                ContactMethod::InMatrix,
+                &mut part,
+                phases,
+            );
             budget.take_back(part);
             match candidate {
                 Some(candidate) => return Ok((system, candidate)),
@@ -86,6 +92,21 @@ impl World {
             }
         }
         let mut system = self.assemble(&order::by_wires(self), structure, phases);
+        if contacts.len() > *FORMED.end() {
+            let candidate = self.solve_with_implicit_contacts(
+                &mut system,
+                contacts,
+                start,
+                ContactMethod::ByGradients,
+                budget,
+                phases,
+            );
+            if let Some(candidate) = candidate {
+                return Ok((system, candidate));
+            }
+            *structure = system.take_structure();
+            system = self.assemble(&order::by_wires(self), structure, phases);
+        }
         let candidate =
             self.solve_with_swept_contacts(&mut system, contacts, &start.impulses, budget, phases)?;
         Ok((system, candidate))
@@ -160,11 +181,12 @@ impl World {
         system: &mut System,
         contacts: &[ContactConstraint],
         start: &Start,
+        method: ContactMethod,
         budget: &mut Budget,
         phases: &mut Phases,
     ) -> Option<Candidate> {
         let mut clock = Clock::start();
-        system.take(self, contacts, start);
+        system.take(self, contacts, start, method);
         let tolerance = self.settings.contact_tolerance;
         let found = multipliers::solve(system, system.start(self), tolerance, budget);
         system.release_contacts();

@@ -28,6 +28,8 @@ pub(super) struct System {
     pub(super) inertias: Vec<TransverseInertia>,
     /// Contacts that are solved with the rest.
     pub(super) implicit: Vec<Implicit>,
+    /// How they are.
+    pub(super) method: ContactMethod,
     /// Entries: first those of masses, then those of contacts and rows.
     triplets: Triplets,
     mass_entries: usize,
@@ -35,6 +37,17 @@ pub(super) struct System {
     is_velocity: Vec<bool>,
     right: Vec<f64>,
     structure: Option<Structure>,
+    /// Factorisations so far.
+    pub(super) factorisations: usize,
+}
+
+/// How the linearised laws of contacts are solved with the rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum ContactMethod {
+    /// They are in the matrix that is factored.
+    InMatrix,
+    /// By [conjugate gradients](super::conjugate_gradients), with the factor of everything else.
+    ByGradients,
 }
 
 impl System {
@@ -49,10 +62,12 @@ impl System {
             is_velocity: vec![true; layout.size],
             right: vec![0.0; layout.size],
             structure,
+            factorisations: 0,
             layout,
             rows,
             inertias: transverse_inertias(world),
             implicit: Vec::new(),
+            method: ContactMethod::InMatrix,
         };
         for row in &system.rows {
             system.is_velocity[row.multiplier] = false;
@@ -143,8 +158,15 @@ impl System {
     }
 
     /// Takes contacts into the system, with their predicted impulses, and softens what chains hold.
-    pub(super) fn take(&mut self, world: &World, contacts: &[ContactConstraint], start: &Start) {
+    pub(super) fn take(
+        &mut self,
+        world: &World,
+        contacts: &[ContactConstraint],
+        start: &Start,
+        method: ContactMethod,
+    ) {
         self.release_contacts();
+        self.method = method;
         let mut masses = vec![0.0; self.layout.size];
         let entries = self.triplets.index.iter().zip(&self.triplets.value);
         for (&(i, j), value) in entries.take(self.mass_entries) {
@@ -194,12 +216,13 @@ impl System {
         x
     }
 
-    /// Factors the system with the rows that are active now.
+    /// Factors the system with the rows that are active now, unless no entry has changed.
     pub(super) fn factor(&mut self) -> Result<(), Reason> {
         // Where entries are depends on what contacts and rows there are, not on their state.
         let is_indexed = self.triplets.index.len() > self.mass_entries;
         let triplets = &mut self.triplets;
-        triplets.value.truncate(self.mass_entries);
+        let masses = triplets.value[..self.mass_entries].to_vec();
+        let before = std::mem::replace(&mut triplets.value, masses);
         let mut add = |i: usize, j: usize, value: f64| {
             if is_indexed {
                 let index = triplets.index.get(triplets.value.len());
@@ -209,8 +232,10 @@ impl System {
                 triplets.add(i, j, value);
             }
         };
-        for contact in &self.implicit {
-            contact.each_entry(&mut add);
+        if self.method == ContactMethod::InMatrix {
+            for contact in &self.implicit {
+                contact.each_entry(&mut add);
+            }
         }
         for row in &self.rows {
             // A row that is not active keeps its place in the structure: -1 x multiplier = 0.
@@ -221,6 +246,10 @@ impl System {
             add(row.multiplier, row.multiplier, -sigma);
             self.right[row.multiplier] = weight * (row.target + start - row.given());
         }
+        if is_indexed && self.structure.is_some() && before == self.triplets.value {
+            return Ok(());
+        }
+        self.factorisations += 1;
         let stands = |s: &Structure| is_indexed || s.index == self.triplets.index;
         let structure = self.structure.take().filter(stands);
         let mut structure = structure.unwrap_or_else(|| {
@@ -238,13 +267,27 @@ impl System {
     /// Multiplications of a factorisation and a solve, and what putting the system together takes as
     /// long as.
     pub(super) fn multiplications(&self) -> usize {
-        /// Of an entry, and of a contact: its law, and its part in a line search.
+        /// Of an entry.
         const ENTRY: usize = 8;
-        const CONTACT: usize = 500;
-        let own = ENTRY * self.triplets.index.len() + CONTACT * self.implicit.len();
+        let own = ENTRY * self.triplets.index.len();
         own + self.ldl().map_or(0, |ldl| {
             ldl.multiplications() + ldl.multiplications_of_solve()
         })
+    }
+
+    /// What the laws of contacts and a line search with them take as long as.
+    pub(super) fn multiplications_of_laws(&self) -> usize {
+        /// Of a contact.
+        const CONTACT: usize = 500;
+        CONTACT * self.implicit.len()
+    }
+
+    /// Multiplications of a [`response`](Self::response), and of what contacts make of it.
+    pub(super) fn multiplications_of_response(&self) -> usize {
+        /// Of a contact.
+        const CONTACT: usize = 60;
+        let own = CONTACT * self.implicit.len();
+        own + self.ldl().map_or(0, Ldl::multiplications_of_solve)
     }
 
     /// Multiplications of a solve that is refined and checked.

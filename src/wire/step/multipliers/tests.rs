@@ -14,7 +14,7 @@ use crate::wire::step::start::Start;
 use crate::wire::{Material, Settings, Stop, Vector, WireId, WirePlan, World};
 
 /// A wire on a floor, dragged and thrown, with a contact at every node; some are loose.
-fn dragged(
+pub(in crate::wire::step) fn dragged(
     rng: &mut ChaCha8Rng,
     material: Material,
     speed: f64,
@@ -54,7 +54,7 @@ fn dragged(
 
 /// The same with short wires across, which lie on every other node, and on the floor with both
 /// ends.
-fn laid_across(
+pub(in crate::wire::step) fn laid_across(
     rng: &mut ChaCha8Rng,
     material: Material,
     speed: f64,
@@ -101,7 +101,8 @@ fn found_with(
 ) -> (System, Option<Solution>) {
     let order = by_least_degree(world, contacts, usize::MAX).unwrap();
     let mut system = System::new(world, &order, None);
-    system.take(world, contacts, &Start::of_step(world, contacts));
+    let start = Start::of_step(world, contacts);
+    system.take(world, contacts, &start, ContactMethod::InMatrix);
     let start = system.start(world);
     let found = solve(&mut system, start, world.settings.contact_tolerance, budget).unwrap();
     (system, found)
@@ -268,4 +269,83 @@ fn impulses_are_those_that_sweeps_come_to() {
             );
         }
     }
+}
+
+/// What steps do that go on from each other: each predicts what the last one came to.
+#[test]
+fn gradients_come_to_the_solution_of_the_matrix() {
+    let rng = &mut ChaCha8Rng::seed_from_u64(4);
+    let mut solves = Vec::new();
+    for k in 0..20 {
+        let scene = [dragged, laid_across][k % 2];
+        let (world, contacts) = scene(rng, Material::steel(0.01), 0.3);
+        let (system, expected, _) = found(&world, &contacts);
+        let velocities = |system: &System, x: &[f64]| -> Vec<Vector> {
+            let contacts = contacts.iter();
+            contacts
+                .map(|contact| velocity(&world, system, contact, x))
+                .collect()
+        };
+        let expected = velocities(&system, &expected.x);
+        let mut start = Start::of_step(&world, &contacts);
+        let tolerance = world.settings.contact_tolerance;
+        let mut done = false;
+        for solve_number in 1..=20 {
+            let mut system = System::new(&world, &by_wires(&world), None);
+            system.take(&world, &contacts, &start, ContactMethod::ByGradients);
+            let x = system.start(&world);
+            let budget = &mut Budget::new(usize::MAX);
+            let found = solve(&mut system, x, tolerance, budget).unwrap().unwrap();
+            assert!(found.is_settled && found.factorisations >= 1);
+            let off = velocities(&system, &found.x);
+            let off = off.iter().zip(&expected).map(|(u, due)| (u - due).amax());
+            let off = off.fold(0.0, f64::max);
+            if found.contact_residual <= 1e-7 {
+                assert!(off < 1e-5, "{k}: {off}");
+                solves.push(solve_number);
+                done = true;
+                break;
+            }
+            start.impulses = found.impulses;
+        }
+        assert!(done, "{k}");
+    }
+    solves.sort_unstable();
+    assert!(solves[solves.len() / 2] <= 3, "{solves:?}");
+}
+
+/// With too little to spend for one prediction, there is a motion all the same.
+#[test]
+fn gradients_that_are_cut_short_move_as_their_impulses_say() {
+    let rng = &mut ChaCha8Rng::seed_from_u64(5);
+    let mut cut = 0;
+    for k in 0..20 {
+        let (world, contacts) = dragged(rng, Material::steel(0.01), 1.0);
+        let mut system = System::new(&world, &by_wires(&world), None);
+        let start = Start::of_step(&world, &contacts);
+        system.take(&world, &contacts, &start, ContactMethod::ByGradients);
+        let x = system.start(&world);
+        let budget = &mut Budget::new(10_000 * (k + 1));
+        let found = solve(&mut system, x, 1e-8, budget).unwrap();
+        let found = found.expect("some motion");
+        cut += usize::from(!found.is_settled);
+        for (contact, impulse) in contacts.iter().zip(&found.impulses) {
+            let push = impulse.dot(&contact.normal);
+            let friction = (impulse - contact.normal * push).norm();
+            let over = friction - contact.friction * push;
+            assert!(
+                push >= -1e-12 && over < 1e-9 + found.contact_residual,
+                "{k}: {push} {over} {}",
+                found.contact_residual
+            );
+        }
+        let impulses = found.impulses.clone();
+        let moved = moved_by(&mut system, &world, &contacts, &impulses);
+        for contact in &contacts {
+            let [u, expected] = [&found.x, &moved].map(|x| velocity(&world, &system, contact, x));
+            let most = 1e-6 + found.contact_residual;
+            assert!((u - expected).amax() < most, "{k}: {u} {expected}");
+        }
+    }
+    assert!(cut > 10, "{cut}");
 }
