@@ -77,7 +77,7 @@ fn steps_with_bodies_give_the_same_bits_in_every_build() {
     // Nothing fell through the plane.
     let heights = world.bodies()[1..].iter().map(|body| body.position().z);
     assert!(heights.fold(f64::INFINITY, f64::min) > 0.0);
-    assert_eq!(hash(&world), 0xa5e9_28ef_55ac_c790, "{:#x}", hash(&world));
+    assert_eq!(hash(&world), 0x501c_cd16_0f9d_8393, "{:#x}", hash(&world));
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn steps_with_contact_nodes_that_come_and_go_give_the_same_bits_in_every_build()
         left += record.slides.iter().filter(|slide| slide.left).count();
     }
     assert!(left > 0);
-    assert_eq!(hash(&world), 0xa4b0_a1b2_1b2d_dced, "{:#x}", hash(&world));
+    assert_eq!(hash(&world), 0x8e50_cce8_cf1a_80a3, "{:#x}", hash(&world));
 }
 
 /// Basic collision is above.
@@ -114,7 +114,7 @@ fn other_scenes_of_the_thesis_give_the_same_bits_in_every_build() {
     for (name, steps, expected) in [
         ("pulling-anchor", 600, 0xbb89_bda8_e9ca_1e4e),
         ("twisting-under-load", 60, 0x5e5e_693a_eff1_2430),
-        ("chains-on-deck", 60, 0x769a_6837_ee7f_4d65),
+        ("chains-on-deck", 60, 0x99e7_e221_df27_1213),
     ] {
         let scene = Scene::embedded(name).unwrap();
         let mut world = scene.world().unwrap();

@@ -68,26 +68,34 @@ fn is_beside_contact_node(world: &World, id: SegmentId, body: BodyId, arc: f64) 
     nearer.kind.is_on(body)
 }
 
-/// The place of a thing that touches at its surface. On a segment it is the place of the midline that the
-/// surface is next to, along the normal: a point of the surface may be beside another place, and of a
-/// segment shorter than it is thick beyond both ends.
+/// The place of a thing that touches at its surface. On a segment it is the one beside the surface, or the node
+/// that it is next to, so that neighbours have one place there. On a segment shorter than it is thick, where the
+/// surface may be beyond both ends, it is that of the midline, along the normal.
 fn place(world: &World, thing: Collider, spot: &ManifoldPoint) -> ContactSite {
+    /// Of the length of a segment.
+    const NEXT: f64 = 1e-3;
     let surface = spot.points[0];
-    match thing {
-        Collider::Body(body) => on_body(world, body, surface),
-        Collider::Segment(id) => {
-            let midline = surface + spot.normal * id.of(world).material.radius;
-            let [start, end] = id.ends(world);
-            let span = end - start;
-            let parameter = (midline - start).dot(&span) / span.norm_squared();
-            let parameter = if parameter.is_finite() {
-                parameter
-            } else {
-                0.0
-            };
-            id.site(world, parameter).into()
-        }
-    }
+    let id = match thing {
+        Collider::Body(body) => return on_body(world, body, surface),
+        Collider::Segment(id) => id,
+    };
+    let [start, end] = id.ends(world);
+    let span = end - start;
+    let radius = id.of(world).material.radius;
+    let point = if span.norm() < 2.0 * radius {
+        surface + spot.normal * radius
+    } else {
+        surface
+    };
+    let parameter = (point - start).dot(&span) / span.norm_squared();
+    let parameter = if !parameter.is_finite() || parameter < NEXT {
+        0.0
+    } else if parameter > 1.0 - NEXT {
+        1.0
+    } else {
+        parameter
+    };
+    id.site(world, parameter).into()
 }
 
 fn on_body(world: &World, id: BodyId, point: Point) -> ContactSite {

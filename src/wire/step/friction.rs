@@ -22,8 +22,8 @@ use crate::wire::settings::Settings;
 use crate::wire::world::World;
 
 /// How many contacts have their Schur complement formed if they do not converge in
-/// [`FIRST_SWEEPS`]. Fewer cost little either way; with more, a sweep with it costs more than one
-/// without.
+/// [`FIRST_SWEEPS`]. Fewer cost little either way; more are solved by
+/// [gradients](super::conjugate_gradients), and swept where that fails.
 pub(super) const FORMED: RangeInclusive<usize> = 8..=256;
 
 /// Sweeps that are tried before the Schur complement is formed.

@@ -1,4 +1,5 @@
-//! The solution of a step with the contacts in the system.
+//! The solution of a step with contacts by Newton's method, in the matrix or by
+//! [gradients](super::conjugate_gradients).
 //!
 //! For predicted impulses and bounds of friction, the velocities of a step minimise a convex
 //! function, with contacts as with chains ([`active_set`](super::active_set)). Newton's method with
@@ -154,7 +155,9 @@ fn minimise_for_predicted(
         ContactMethod::InMatrix => LINEARISATION,
         ContactMethod::ByGradients => GRADIENTS_LINEARISATION,
     };
-    while *steps < TRIES && !budget.is_spent() {
+    // By gradients there is a motion after each Newton step, so one is done whatever there is to spend.
+    let at_least = usize::from(system.method == ContactMethod::ByGradients);
+    while *steps < TRIES && (*steps < at_least || !budget.is_spent()) {
         update_branches(&mut system.rows, x, predicted);
         for contact in &mut system.implicit {
             contact.linearise(x, predicted);

@@ -4,8 +4,8 @@
 //! Contacts tie what they press together. Where the factor hardly fills for that, as with chains on
 //! a deck or wires that lie across one, Newton's method finds what pushes, sticks and slips along
 //! with what pulls ([`multipliers`](super::multipliers)). Where it would, as with wires that are
-//! wound
-//! about each other, contacts are swept ([`friction`](super::friction)).
+//! wound about each other, contacts are swept ([`friction`](super::friction)), or, if they are many,
+//! found by [conjugate gradients](super::conjugate_gradients).
 
 use crate::wire::contact::{ContactConstraint, ContactSite};
 use crate::wire::model::NodeKind;

@@ -325,7 +325,7 @@ fn gradients_that_are_cut_short_move_as_their_impulses_say() {
         let start = Start::of_step(&world, &contacts);
         system.take(&world, &contacts, &start, ContactMethod::ByGradients);
         let x = system.start(&world);
-        let budget = &mut Budget::new(10_000 * (k + 1));
+        let budget = &mut Budget::new(10_000 * k);
         let found = solve(&mut system, x, 1e-8, budget).unwrap();
         let found = found.expect("some motion");
         cut += usize::from(!found.is_settled);
