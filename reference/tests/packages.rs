@@ -16,7 +16,7 @@ fn judge_pulls_in_few_packages_and_not_the_stepper() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
     let manifest = format!(
-        "[package]\nname = \"judged\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[dependencies]\n\
+        "[package]\nname = \"judged\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[workspace]\n\n[dependencies]\n\
          tunnelproof.path = {0:?}\ntunnelproof-reference.path = {1:?}\n",
         root,
         root.join("reference"),
