@@ -23,7 +23,7 @@ fn run(text: &str, steps: u64) -> (StepRecord, Report) {
 }
 
 #[test]
-fn knot_of_chain_is_drawn_tight_and_keeps_half_of_its_thickness() {
+fn knot_of_chain_is_drawn_tight_keeps_half_of_its_thickness_and_rests() {
     let (last, report) = run(include_str!("../scenes/knot-of-chain.toml"), 300);
     assert!(report.is_exact(), "{report:?}");
     assert_eq!(report.guarded_thickness, 0.5);
@@ -32,6 +32,11 @@ fn knot_of_chain_is_drawn_tight_and_keeps_half_of_its_thickness() {
     assert!(deepest.low > 0.1 && deepest.high < 0.51, "{deepest:?}");
     // The ends came as far as their script.
     assert!((last.bodies[1].after.position.x - 0.487).abs() < 0.02);
+    // It has been at rest for a second.
+    let ways = last.wires[0].before.iter().zip(&last.wires[0].after);
+    let longest = ways.map(|(before, after)| (after - before).norm());
+    let fastest = 60.0 * longest.fold(0.0, f64::max);
+    assert!(fastest < 1e-9, "{fastest} m/s");
 }
 
 #[test]

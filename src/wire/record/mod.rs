@@ -58,12 +58,10 @@ pub struct StepRecord {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct AddedInertia {
-    /// At how many nodes or segments it acts.
+    /// At how many nodes it acts; one between segments of both kinds counts twice.
     pub places: usize,
     /// What it took from the motion in this step, in J, to first order in what it changed.
     pub damped: f64,
-    /// Its kinetic energy in J, of far too short segments; [`StepRecord::energy`] does not count it.
-    pub kinetic: f64,
 }
 
 /// A wire in a step. Its nodes move on straight lines.

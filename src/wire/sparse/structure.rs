@@ -16,11 +16,16 @@ impl Structure {
     pub(in crate::wire) fn refined(&self, b: &[f64]) -> Vec<f64> {
         let mut x = b.to_vec();
         self.ldl.solve(&mut x);
-        let mut correction = self.matrix.residual(b, &x);
+        self.refine(b, &mut x);
+        x
+    }
+
+    /// Refines a solution of `A x = b` once more.
+    pub(in crate::wire) fn refine(&self, b: &[f64], x: &mut [f64]) {
+        let mut correction = self.matrix.residual(b, x);
         self.ldl.solve(&mut correction);
         for (x, correction) in x.iter_mut().zip(&correction) {
             *x += correction;
         }
-        x
     }
 }

@@ -68,7 +68,7 @@ impl World {
         let slid = self.commit(&system, &candidate, motion);
         record.after(self);
         record.energy = self.energy_of_motion(&system, &candidate);
-        record.added_inertia = added_inertia(self, &system);
+        record.added_inertia = added_inertia(self, &system, &candidate.x);
         self.cache.structure = system.take_structure();
         phases.commit = clock.lap();
         record.slides = capstan::slides(self, &slid);
@@ -159,20 +159,13 @@ impl World {
 }
 
 /// What there was beside the masses, at short segments, in the motion that was made.
-fn added_inertia(world: &World, system: &System) -> AddedInertia {
-    let mut added = AddedInertia {
-        places: system.inertias.len(),
-        ..AddedInertia::default()
-    };
-    for inertia in &system.inertias {
-        let energy = inertia.energy(world);
-        if inertia.damps {
-            added.damped += energy;
-        } else {
-            added.kinetic += energy / 2.0;
-        }
+fn added_inertia(world: &World, system: &System, x: &[f64]) -> AddedInertia {
+    let inertias = &system.inertias;
+    let short = inertias.short.iter().map(|inertia| inertia.energy(world));
+    AddedInertia {
+        places: inertias.short.len() + inertias.nodes.len(),
+        damped: short.sum::<f64>() + system.energy_of_steep_segments(x),
     }
-    added
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use smallvec::SmallVec;
 
 use super::order::Block;
+use super::transverse::SteepNode;
 use crate::wire::model::{BodyId, NodeKind};
 use crate::wire::world::World;
 use crate::wire::{ContactConstraint, ContactSite, Vector};
@@ -66,9 +67,9 @@ impl Carrier {
 
 /// The numbering of the unknowns: velocities and multipliers in order of elimination.
 ///
-/// Free nodes, each followed by the rows that it can eliminate, and bodies come in a given order
-/// ([`order`](super::order)), then what slides over contact nodes, and last the rows without a free
-/// node.
+/// Free nodes, each followed by what keeps [steep segments](super::transverse) beside it stable and
+/// by the rows that it can eliminate, and bodies come in a given order ([`order`](super::order)), then
+/// what slides over contact nodes, and last what belongs to no free node.
 #[derive(Clone, Debug)]
 pub(super) struct Layout {
     /// How many unknowns there are.
@@ -83,6 +84,8 @@ pub(super) struct Layout {
     pub(super) stretch: Vec<usize>,
     /// The first multiplier of each node's bend rows.
     pub(super) bend: Vec<Option<usize>>,
+    /// The first of three impulses of each node beside steep segments.
+    pub(super) steep: Vec<Option<usize>>,
     /// The speed of sliding over each contact node. The multiplier of its friction is the next
     /// unknown.
     pub(super) slides: Vec<Option<usize>>,
@@ -92,8 +95,11 @@ const UNSET: usize = usize::MAX;
 
 impl Layout {
     /// Numbers blocks in the order given, each followed by the rows that it can eliminate.
-    pub(super) fn new(world: &World, order: &[Block]) -> Self {
+    pub(super) fn new(world: &World, order: &[Block], steep: &[SteepNode]) -> Self {
         let mut layout = Layout::carried(world);
+        for at in steep {
+            layout.steep[layout.first_node[at.wire] + at.node] = Some(UNSET);
+        }
         for block in order {
             match *block {
                 Block::Node { wire, node } => {
@@ -129,6 +135,7 @@ impl Layout {
             size: 0,
             stretch: vec![UNSET; nodes.len() - first_node.len()],
             bend,
+            steep: vec![None; nodes.len()],
             slides,
             nodes,
             first_node,
@@ -144,6 +151,9 @@ impl Layout {
     fn eliminate_node(&mut self, wire: usize, node: usize, count: usize) {
         let at = self.first_node[wire] + node;
         self.nodes[at] = Carrier::Free(self.take(3));
+        if self.steep[at].is_some() {
+            self.steep[at] = Some(self.take(3));
+        }
         let before = (node > 0).then(|| at - wire - 1);
         let after = (node + 1 < count).then_some(at - wire);
         for segment in [before, after].into_iter().flatten() {
@@ -162,6 +172,11 @@ impl Layout {
         for at in 0..self.slides.len() {
             if self.slides[at].is_some() {
                 self.slides[at] = Some(self.take(2));
+            }
+        }
+        for at in 0..self.steep.len() {
+            if self.steep[at] == Some(UNSET) {
+                self.steep[at] = Some(self.take(3));
             }
         }
         for segment in 0..self.stretch.len() {

@@ -9,7 +9,7 @@ use super::order::Block;
 use super::rows::{Row, rows};
 use super::spin::spin_freely;
 use super::start::Start;
-use super::transverse::{TransverseInertia, transverse_inertias};
+use super::transverse::{SteepSegment, TransverseInertias, transverse_inertias};
 use crate::wire::contact::ContactConstraint;
 use crate::wire::error::Reason;
 use crate::wire::sparse::{Ldl, SparseColumns, Structure, Symmetric, Triplets};
@@ -25,7 +25,7 @@ pub(super) struct System {
     pub(super) layout: Layout,
     pub(super) rows: Vec<Row>,
     /// What there is beside the masses, at short segments.
-    pub(super) inertias: Vec<TransverseInertia>,
+    pub(super) inertias: TransverseInertias,
     /// Contacts that are solved with the rest.
     pub(super) implicit: Vec<Implicit>,
     /// How they are.
@@ -53,7 +53,8 @@ pub(super) enum ContactMethod {
 impl System {
     /// Puts the system of the next step together. `structure` is that of the last one.
     pub(super) fn new(world: &World, order: &[Block], structure: Option<Structure>) -> Self {
-        let layout = Layout::new(world, order);
+        let inertias = transverse_inertias(world);
+        let layout = Layout::new(world, order, &inertias.nodes);
         let mut rows = rows(world, &layout);
         rows.extend(capstan::friction_rows(world, &layout));
         let mut system = System {
@@ -65,16 +66,20 @@ impl System {
             factorisations: 0,
             layout,
             rows,
-            inertias: transverse_inertias(world),
+            inertias,
             implicit: Vec::new(),
             method: ContactMethod::InMatrix,
         };
         for row in &system.rows {
             system.is_velocity[row.multiplier] = false;
         }
+        for first in system.layout.steep.iter().flatten() {
+            system.is_velocity[*first..first + 3].fill(false);
+        }
         system.add_nodes(world);
         system.add_bodies(world);
-        system.add_transverse_inertias(world);
+        system.add_transverse_inertias();
+        system.add_steep_segments();
         system.mass_entries = system.triplets.index.len();
         system
     }
@@ -132,15 +137,11 @@ impl System {
         }
     }
 
-    /// The inertias, with the momentum of those that do not damp.
-    fn add_transverse_inertias(&mut self, world: &World) {
-        for inertia in &self.inertias {
+    /// What there is at segments that are too short, and not steep.
+    fn add_transverse_inertias(&mut self) {
+        for inertia in &self.inertias.short {
             let first = self.layout.first_node[inertia.wire];
-            let mut momentum = if inertia.damps {
-                Vector::zeros()
-            } else {
-                inertia.velocity(world)
-            };
+            let mut momentum = Vector::zeros();
             let mut columns: [Columns; 3] = Default::default();
             for (node, part) in &inertia.terms {
                 let carrier = self.layout.nodes[first + node];
@@ -155,6 +156,82 @@ impl System {
                 push(&mut self.right, columns, *momentum);
             }
         }
+    }
+
+    /// `K_s z` in the equations of motion, and `K_s v - (c M + K_s) z = 0`.
+    fn add_steep_segments(&mut self) {
+        for node in &self.inertias.nodes {
+            let at = self.layout.first_node[node.wire] + node.node;
+            let Some(first) = self.layout.steep[at] else {
+                continue;
+            };
+            let own = node.followed / (node.needed * node.needed);
+            for axis in first..first + 3 {
+                self.triplets.add(axis, axis, -own);
+            }
+        }
+        let scales = self.scales_of_steep_nodes();
+        for segment in &self.inertias.steep {
+            let ends = self.ends_of(segment);
+            let impulses = ends.map(|at| self.layout.steep[at].map(|first| (first, scales[at])));
+            for (q, impulse) in impulses.iter().enumerate() {
+                let Some((column, scale)) = *impulse else {
+                    continue;
+                };
+                for p in 0..2 {
+                    let sign = if p == q { scale } else { -scale };
+                    let part = segment.stiffness * sign;
+                    let carrier = self.layout.nodes[ends[p]];
+                    let given = part * carrier.prescribed_velocity();
+                    for axis in 0..3 {
+                        carrier.each_column(&part.column(axis).into_owned(), |motion, value| {
+                            self.triplets.add(motion, column + axis, value);
+                        });
+                        self.right[column + axis] -= given[axis];
+                    }
+                    let Some((other, of_other)) = impulses[p].filter(|_| p <= q) else {
+                        continue;
+                    };
+                    for i in 0..3 {
+                        for j in if p == q { i } else { 0 }..3 {
+                            let value = -part[(i, j)] * of_other;
+                            self.triplets.add(other + i, column + j, value);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// The nodes of a segment, among all.
+    fn ends_of(&self, segment: &SteepSegment) -> [usize; 2] {
+        let first = self.layout.first_node[segment.wire] + segment.segment;
+        [first, first + 1]
+    }
+
+    /// What `z` is of an unknown, at each node, in 1/kg; 0 where there is none.
+    fn scales_of_steep_nodes(&self) -> Vec<f64> {
+        let mut scales = vec![0.0; self.layout.nodes.len()];
+        for node in &self.inertias.nodes {
+            scales[self.layout.first_node[node.wire] + node.node] = 1.0 / node.needed;
+        }
+        scales
+    }
+
+    /// `v . W v` of steep segments in J.
+    pub(super) fn energy_of_steep_segments(&self, x: &[f64]) -> f64 {
+        let scales = self.scales_of_steep_nodes();
+        let z = |at: usize| {
+            self.layout.steep[at].map_or_else(Vector::zeros, |first| {
+                Vector::new(x[first], x[first + 1], x[first + 2]) * scales[at]
+            })
+        };
+        let energies = self.inertias.steep.iter().map(|segment| {
+            let [start, end] = self.ends_of(segment);
+            let velocity = |at: usize| self.layout.nodes[at].velocity(x);
+            (z(end) - z(start)).dot(&(segment.stiffness * (velocity(end) - velocity(start))))
+        });
+        energies.sum()
     }
 
     /// Takes contacts into the system, with their predicted impulses, and softens what chains hold.
@@ -172,6 +249,14 @@ impl System {
         for (&(i, j), value) in entries.take(self.mass_entries) {
             if i == j {
                 masses[i as usize] += value;
+            }
+        }
+        for node in &self.inertias.nodes {
+            let at = self.layout.first_node[node.wire] + node.node;
+            if let Carrier::Free(first) = self.layout.nodes[at] {
+                masses[first..first + 3]
+                    .iter_mut()
+                    .for_each(|mass| *mass += node.needed);
             }
         }
         let contacts = contacts.iter().zip(&start.impulses);
@@ -304,8 +389,14 @@ impl System {
             return Ok((Vec::new(), 0.0));
         };
         let right = self.right_side(impulses);
-        let x = structure.refined(&right);
-        let error = self.backward_error(&structure.matrix.residual_and_magnitude(&right, &x));
+        let error_of =
+            |x: &[f64]| self.backward_error(&structure.matrix.residual_and_magnitude(&right, x));
+        let mut x = structure.refined(&right);
+        let mut error = error_of(&x);
+        if error > RESIDUAL {
+            structure.refine(&right, &mut x);
+            error = error_of(&x);
+        }
         if error <= RESIDUAL {
             Ok((x, error))
         } else {

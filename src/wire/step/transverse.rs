@@ -30,36 +30,56 @@
 //! A node on a body counts with the mass that the body has there, at least: what its mobility at the
 //! place leaves, shared by all nodes on it. A node whose motion is prescribed needs nothing.
 //!
-//! `W` grows with the square of `K`: a mode far beyond what a step can follow comes to rest by the
-//! part `32 s^4 / A` in a step, which is slow. Where `h^2 T / (l s^2)` is more than [`STEEPEST`] times the
-//! mass at an end, the segment is given inertia `w = (h^2 T / (l s^2) - m) / 4` instead, against
-//! transverse motion of its ends relative to each other, with `w v` on the right side, too. That is
-//! stable as well, since `h^2 T / (l s^2) <= m + 4 w`, and damps nothing. It slows what a step can
-//! follow by the part `(omega h)^2 / (8 s^2)`, and a swinging load by a part of order `h^2 g / (s^2
-//! L)` for `L` of wire.
+//! `W` grows with the square of `K`, and so does what it adds to a mode far beyond what a step can
+//! follow: that comes to rest by the part `32 s^4 / A` in a step, which is slow. Segments for which `h^2
+//! T / (l s^2)` is more than [`STEEPEST`] times the mass at an end are *steep*. With `K_s = h^2 K / s^2` of
+//! these alone they have
+//!
+//! ```text
+//! W = K_s (c M + K_s)^-1 K_s,   c = 12 + 8 sqrt(2)
+//! ```
+//!
+//! It is zero for what swings as one line, too. It takes the part `B^2 / 2 c` of what a step follows
+//! well, where `B = M^-1/2 K_s M^-1/2`. What is far beyond goes by the part `s^2` of its way to rest in
+//! each step. That is stable as well: `4 + 2 B^2 / (c + B) >= B` is `B^2 + (4 - c) B + 4 c >= 0`, and `c`
+//! is the largest number with that. No inverse is put into a matrix: `W v = K_s z` with three more
+//! unknowns `z` for each node, for which `K_s v = (c M + K_s) z`. They are scaled so that an unknown is
+//! an impulse and its row a velocity.
 //!
 //! `T` is the largest tension of the last steps, by which resolution is chosen too. The margin is the
 //! room for what it grows to in this one.
 
 use nalgebra::Matrix3;
-use smallvec::{SmallVec, smallvec};
+use smallvec::SmallVec;
 
 use crate::wire::model::{Body, BodyId, NodeKind, Wire};
 use crate::wire::vector::{Vector, unit};
 use crate::wire::world::World;
 
-/// The largest `h^2 T / (l s^2)` over the mass of an end for which `W` is used.
+/// The largest `h^2 T / (l s^2)` over the mass of an end of a segment that is not steep.
 const STEEPEST: f64 = 500.0;
 
-/// What resists a velocity `u` that is linear in those of nodes, or its change, like a mass.
+/// `12 + 8 sqrt(2)`.
+const FOLLOWED: f64 = 12.0 + 8.0 * std::f64::consts::SQRT_2;
+
+/// What there is beside the masses in a step.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct TransverseInertias {
+    /// At nodes beside segments that are too short, and not steep.
+    pub(super) short: Vec<TransverseInertia>,
+    /// Segments that are steep.
+    pub(super) steep: Vec<SteepSegment>,
+    /// Ends of these that can move.
+    pub(super) nodes: Vec<SteepNode>,
+}
+
+/// What resists a velocity `u` that is linear in those of nodes, like a mass.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TransverseInertia {
     /// The wire.
     pub(super) wire: usize,
     /// The mass `m` in kg.
     pub(super) mass: f64,
-    /// Whether it resists `u` itself, and not its change.
-    pub(super) damps: bool,
     /// Nodes of the wire, and what their velocities give to `u`.
     pub(super) terms: SmallVec<[(usize, Matrix3<f64>); 3]>,
 }
@@ -78,9 +98,33 @@ impl TransverseInertia {
     }
 }
 
+/// What a steep segment gives to `K_s`.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct SteepSegment {
+    /// The wire.
+    pub(super) wire: usize,
+    /// Which of its segments.
+    pub(super) segment: usize,
+    /// `h^2 T / (l s^2) P` in kg.
+    pub(super) stiffness: Matrix3<f64>,
+}
+
+/// A node with a mass beside steep segments.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct SteepNode {
+    /// The wire.
+    pub(super) wire: usize,
+    /// Which of its nodes.
+    pub(super) node: usize,
+    /// `c` times its mass, in kg.
+    pub(super) followed: f64,
+    /// The sum of `h^2 T / (l s^2)` of these segments, in kg.
+    pub(super) needed: f64,
+}
+
 /// The inertias of a world in its next step.
-pub(super) fn transverse_inertias(world: &World) -> Vec<TransverseInertia> {
-    let mut inertias = Vec::new();
+pub(super) fn transverse_inertias(world: &World) -> TransverseInertias {
+    let mut all = TransverseInertias::default();
     let mut counts = None;
     for (at, wire) in world.wires.iter().enumerate() {
         // That of the segment before the node.
@@ -88,27 +132,64 @@ pub(super) fn transverse_inertias(world: &World) -> Vec<TransverseInertia> {
         for node in 0..wire.nodes.len() {
             let short = (node < wire.segments.len()).then(|| Short::new(world, wire, node));
             let mut after = short.flatten();
-            if let Some(short) = &after {
+            if let Some(short) = &mut after {
                 let counts = counts.get_or_insert_with(|| nodes_on_bodies(world));
                 let masses =
                     [node, node + 1].map(|node| mass_of(world, counts, wire, node, short.half));
-                if short.needed > STEEPEST * masses[0].min(masses[1]) {
-                    inertias.push(between_ends(at, node, short));
-                    after = None;
+                short.is_steep = short.needed > STEEPEST * masses[0].min(masses[1]);
+                if short.is_steep {
+                    all.steep.push(SteepSegment {
+                        wire: at,
+                        segment: node,
+                        stiffness: short.across * short.needed,
+                    });
                 }
             }
-            let sides = [before, after];
-            let half = sides.iter().flatten().map(|short| short.half).sum();
-            if let (true, Some(counts)) = (half > 0.0, &counts) {
-                let mass = mass_of(world, counts, wire, node, half);
-                if mass.is_finite() {
-                    inertias.push(of_node(at, node, mass, sides));
-                }
+            if let Some(counts) = &counts {
+                all.add_node(world, counts, at, node, [before, after]);
             }
             before = after;
         }
     }
-    inertias
+    all
+}
+
+impl TransverseInertias {
+    /// Adds what acts at a node with these segments before and after it.
+    fn add_node(
+        &mut self,
+        world: &World,
+        counts: &[f64],
+        wire: usize,
+        node: usize,
+        sides: [Option<Short>; 2],
+    ) {
+        let of_kind =
+            |is_steep: bool| sides.map(|side| side.filter(|short| short.is_steep == is_steep));
+        let [short, steep] = [false, true].map(of_kind);
+        let is_there = |sides: &[Option<Short>; 2]| sides.iter().any(Option::is_some);
+        let own = &world.wires[wire];
+        let is_free = own.nodes[node].kind == NodeKind::Free;
+        // What a body has there is shared by both kinds.
+        let is_shared = !is_free && is_there(&short) && is_there(&steep);
+        let mass = |sides: &[Option<Short>; 2]| {
+            let half = sides.iter().flatten().map(|short| short.half).sum();
+            let mass = mass_of(world, counts, own, node, half);
+            if is_shared { mass / 2.0 } else { mass }
+        };
+        let moves = |sides: &[Option<Short>; 2]| is_there(sides) && mass(sides).is_finite();
+        if moves(&short) {
+            self.short.push(of_node(wire, node, mass(&short), short));
+        }
+        if moves(&steep) {
+            self.nodes.push(SteepNode {
+                wire,
+                node,
+                followed: FOLLOWED * mass(&steep),
+                needed: steep.iter().flatten().map(|short| short.needed).sum(),
+            });
+        }
+    }
 }
 
 /// A segment that is too short for its tension.
@@ -120,6 +201,7 @@ struct Short {
     needed: f64,
     /// Half of its mass in kg.
     half: f64,
+    is_steep: bool,
 }
 
 impl Short {
@@ -135,6 +217,7 @@ impl Short {
             across: Matrix3::identity() - t * t.transpose(),
             needed: reach * reach * tension / length,
             half: wire.material.mass_per_length() * wire.rest_length(segment) / 2.0,
+            is_steep: false,
         };
         (short.needed > 2.0 * short.half).then_some(short)
     }
@@ -159,23 +242,7 @@ fn of_node(
         terms.push((neighbour, -part));
     }
     terms.push((node, own));
-    TransverseInertia {
-        wire,
-        mass,
-        damps: true,
-        terms,
-    }
-}
-
-/// `u = P (v_end - v_start)` with `w`.
-fn between_ends(wire: usize, segment: usize, short: &Short) -> TransverseInertia {
-    let mass = (short.needed - 2.0 * short.half) / 4.0;
-    TransverseInertia {
-        wire,
-        mass,
-        damps: false,
-        terms: smallvec![(segment, -short.across), (segment + 1, short.across)],
-    }
+    TransverseInertia { wire, mass, terms }
 }
 
 /// The mass in kg of a node of which `half` is on segments that are too short; infinite if its

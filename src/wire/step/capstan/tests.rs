@@ -222,7 +222,7 @@ fn segments_keep_a_sixteenth_of_their_wire_however_fast_it_slides() {
     let world = over_a_node(FRICTION, 1.0, 0.0);
     let rest = world.wires[0].rest_length(0);
     let farthest = rest * 15.0 / 16.0 / world.settings.step;
-    let layout = Layout::new(&world, &by_wires(&world));
+    let layout = Layout::new(&world, &by_wires(&world), &[]);
     for (speed, expected) in [
         (0.5 * farthest, 0.5 * farthest),
         (-0.5 * farthest, -0.5 * farthest),

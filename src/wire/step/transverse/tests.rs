@@ -1,3 +1,5 @@
+use nalgebra::{DMatrix, DVector};
+
 use super::*;
 use crate::query::Point;
 use crate::wire::{BodyPlan, Material, Settings, Shape, Stop, WirePlan};
@@ -52,14 +54,51 @@ fn shake(world: &mut World, next: &mut impl FnMut() -> f64) {
     }
 }
 
+/// `K_s`, and `K_s v`.
+fn steep_pushes(world: &World, inertias: &TransverseInertias) -> (DMatrix<f64>, DVector<f64>) {
+    let nodes = &world.wires[0].nodes;
+    let mut stiffness = DMatrix::zeros(3 * nodes.len(), 3 * nodes.len());
+    for steep in &inertias.steep {
+        let first = 3 * steep.segment;
+        for (p, q, sign) in [(0, 0, 1.0), (3, 3, 1.0), (0, 3, -1.0), (3, 0, -1.0)] {
+            let mut block = stiffness.fixed_view_mut::<3, 3>(first + p, first + q);
+            block += steep.stiffness * sign;
+        }
+    }
+    let velocities = nodes.iter().flat_map(|node| node.velocity.iter().copied());
+    let pushed = &stiffness * DVector::from_iterator(3 * nodes.len(), velocities);
+    (stiffness, pushed)
+}
+
+/// `v . W v` of steep segments, from dense matrices.
+fn steep_form(world: &World, inertias: &TransverseInertias) -> f64 {
+    if inertias.nodes.is_empty() {
+        return 0.0;
+    }
+    let (stiffness, pushed) = steep_pushes(world, inertias);
+    // Nodes that cannot move have no unknown.
+    let moving = inertias
+        .nodes
+        .iter()
+        .flat_map(|at| (0..3).map(|axis| 3 * at.node + axis));
+    let moving: Vec<usize> = moving.collect();
+    let mut whole = stiffness.select_rows(&moving).select_columns(&moving);
+    for (at, node) in inertias.nodes.iter().enumerate() {
+        for axis in 0..3 {
+            whole[(3 * at + axis, 3 * at + axis)] += node.followed;
+        }
+    }
+    let pushed = pushed.select_rows(&moving);
+    let solved = whole.lu().solve(&pushed).expect("a positive matrix");
+    pushed.dot(&solved)
+}
+
 /// `4 v M v`, what is added to it for a step to be stable, and `h^2 v K v` of tensions `factor` times
 /// as large.
 fn forms(world: &World, factor: f64) -> [f64; 3] {
     let inertias = transverse_inertias(world);
-    let added = inertias.iter().map(|inertia| {
-        let counts = if inertia.damps { 2.0 } else { 4.0 };
-        counts * inertia.energy(world)
-    });
+    let short = inertias.short.iter().map(|inertia| inertia.energy(world));
+    let added = 2.0 * (short.sum::<f64>() + steep_form(world, &inertias));
     let wire = &world.wires[0];
     let step = world.settings.step;
     let stiffness = (0..wire.segments.len()).map(|segment| {
@@ -69,7 +108,7 @@ fn forms(world: &World, factor: f64) -> [f64; 3] {
         let tension = factor * wire.segments[segment].largest_tension();
         step * step * tension / length * across.norm_squared()
     });
-    [8.0 * world.kinetic_energy(), added.sum(), stiffness.sum()]
+    [8.0 * world.kinetic_energy(), added, stiffness.sum()]
 }
 
 /// Numbers from -1 to 1 that differ from run to run of the generator alone.
@@ -138,25 +177,39 @@ fn inertia_is_no_larger_than_stability_asks_for() {
     assert!(nearest > 0.999, "{nearest}");
 }
 
-#[test]
-fn what_moves_as_one_line_has_none_of_it() {
+/// A free wire that moves and turns as one line, under a tension.
+fn line(tension: f64) -> World {
     let mut world = World::new(Settings::default()).unwrap();
     let route = (0..=8).map(|i| Point::new(f64::from(i) / 4.0, 0.0, 0.0));
     let plan = WirePlan::new(Material::steel(0.002), 5.0, route.map(Stop::Free).collect());
     world.add_wire(&plan).unwrap();
     for segment in &mut world.wires[0].segments {
-        segment.tension_history[3] = 3e3;
+        segment.tension_history[3] = tension;
     }
     for node in &mut world.wires[0].nodes {
         node.velocity = Vector::new(7.0, 2.0 - node.position.x, 3.0 * node.position.x);
     }
+    world
+}
+
+#[test]
+fn what_moves_as_one_line_has_none_of_it() {
+    let world = line(3e3);
     let inertias = transverse_inertias(&world);
-    assert_eq!(inertias.len(), 9);
-    for inertia in &inertias[1..8] {
+    assert_eq!([inertias.short.len(), inertias.steep.len()], [9, 0]);
+    for inertia in &inertias.short[1..8] {
         let largest = inertia.terms.iter().map(|(_, part)| part.amax());
         let largest = largest.fold(0.0, f64::max);
         assert!(inertia.velocity(&world).norm() < 1e-12 * largest);
     }
+    // `W v` of steep segments is 0 where `K_s v` is.
+    let world = line(3e6);
+    let inertias = transverse_inertias(&world);
+    assert_eq!([inertias.short.len(), inertias.steep.len()], [0, 8]);
+    let (stiffness, pushed) = steep_pushes(&world, &inertias);
+    let inner = pushed.rows(3, 3 * 7);
+    assert!(inner.amax() < 1e-12 * stiffness.amax());
+    assert!(pushed.amax() > stiffness.amax() / 10.0);
 }
 
 #[test]
@@ -168,11 +221,18 @@ fn segments_that_are_long_enough_have_none() {
     let longest = longest.fold(0.0, f64::max);
     let speed = longest * 0.8 * 60.0;
     let most = speed * speed * material.mass_per_length();
-    assert!(transverse_inertias(&world(0.5 * most)).is_empty());
-    assert_eq!(transverse_inertias(&world(1.01 * most)).len(), 7);
-    assert!(transverse_inertias(&world(0.0)).is_empty());
-    // Far too short: one for each segment.
-    assert_eq!(transverse_inertias(&world(1e9 * most)).len(), 8);
+    let counts = |tension| {
+        let inertias = transverse_inertias(&world(tension));
+        [
+            inertias.short.len(),
+            inertias.steep.len(),
+            inertias.nodes.len(),
+        ]
+    };
+    assert_eq!(counts(0.5 * most), [0, 0, 0]);
+    assert_eq!(counts(1.01 * most), [7, 0, 0]);
+    assert_eq!(counts(0.0), [0, 0, 0]);
+    assert_eq!(counts(1e9 * most), [0, 8, 7]);
 }
 
 #[test]
