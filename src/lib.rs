@@ -72,6 +72,7 @@ pub mod contact;
 pub mod environment;
 pub mod mesh;
 pub mod narrow;
+mod parallel;
 pub mod query;
 pub mod rigid;
 pub mod thesis;

@@ -36,6 +36,12 @@ pub(crate) const SCENES: &[Scene] = &[
         thickness: None,
     },
     Scene {
+        name: "many",
+        make: many,
+        steps: 60,
+        thickness: None,
+    },
+    Scene {
         name: "press",
         make: press,
         steps: 60,
@@ -106,6 +112,20 @@ fn mats() -> Result<World, ModelError> {
             plan.resolution.adaptive = false;
             world.add_wire(&plan)?;
         }
+    }
+    Ok(world)
+}
+
+/// 200 wires side by side on a floor, which do not touch each other.
+fn many() -> Result<World, ModelError> {
+    let mut world = World::new(Settings::default())?;
+    world.add_body(BodyPlan::fixed(Shape::Plane, Point::origin()))?;
+    for k in 0..200 {
+        let at = |x: f64| Stop::Free(Point::new(x, 0.05 * f64::from(k), 0.006));
+        let route = vec![at(0.0), at(2.5)];
+        let mut plan = WirePlan::new(Material::steel(0.005), 0.05, route);
+        plan.resolution.adaptive = false;
+        world.add_wire(&plan)?;
     }
     Ok(world)
 }

@@ -5,6 +5,7 @@ use super::topology::{Feature, Mesh, Pair, Thickness, half};
 use super::tree::{Bounds, Grid, Lane, Meets, Task, Tree};
 use crate::certified::{Positions, Precision, rounding_of};
 use crate::environment;
+use crate::parallel::{both, mapped};
 use crate::query::Radius;
 
 /// A position as it is stored.
@@ -269,36 +270,6 @@ pub(super) fn sides(kind: PairKind, vertices: &[u32; 4]) -> (&[u32], &[u32]) {
         PairKind::Edges => 2,
         PairKind::Face => 1,
     })
-}
-
-/// What a function says of the numbers from 0, in order, by all threads: each takes a share of no
-/// less than some numbers.
-#[cfg(feature = "rayon")]
-fn mapped<A: Send>(count: usize, least: usize, each: impl Fn(usize) -> A + Sync + Send) -> Vec<A> {
-    use rayon::prelude::*;
-    let numbers = (0..count).into_par_iter().with_min_len(least);
-    numbers.map(each).collect()
-}
-
-/// What a function says of the numbers from 0, in order.
-#[cfg(not(feature = "rayon"))]
-fn mapped<A>(count: usize, _: usize, each: impl Fn(usize) -> A) -> Vec<A> {
-    (0..count).map(each).collect()
-}
-
-/// What two functions give, at the same time.
-#[cfg(feature = "rayon")]
-fn both<A: Send, B: Send>(
-    first: impl FnOnce() -> A + Send,
-    second: impl FnOnce() -> B + Send,
-) -> (A, B) {
-    rayon::join(first, second)
-}
-
-/// What two functions give.
-#[cfg(not(feature = "rayon"))]
-fn both<A, B>(first: impl FnOnce() -> A, second: impl FnOnce() -> B) -> (A, B) {
-    (first(), second())
 }
 
 fn check_positions(

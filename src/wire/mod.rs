@@ -43,6 +43,7 @@ mod sparse;
 #[cfg(feature = "recording")]
 pub mod state;
 mod step;
+mod union_find;
 mod vector;
 mod world;
 

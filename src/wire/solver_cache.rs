@@ -2,6 +2,8 @@
 //! within the tolerances, where sweeps that are cut off end; it is no part of the physical state.
 //! The bits of later steps depend on the impulses, so they are saved, and not on the structure.
 
+use std::collections::BTreeMap;
+
 use super::Vector;
 use super::sparse::Structure;
 
@@ -9,9 +11,11 @@ use super::sparse::Structure;
 #[derive(Clone, Debug, Default)]
 pub(in crate::wire) struct SolverCache {
     pub(in crate::wire) warm_start: WarmStart,
-    /// The structure of the last system that was solved.
-    pub(in crate::wire) structure: Option<Structure>,
+    pub(in crate::wire) structures: Structures,
 }
+
+/// The structures of the systems that were solved last, by the least member of their island.
+pub(in crate::wire) type Structures = BTreeMap<usize, Structure>;
 
 /// Contact impulses of the last step in N s along x, y, z, sorted by key: the next solve
 /// starts there.

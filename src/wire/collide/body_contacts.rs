@@ -13,6 +13,7 @@ use super::boxes::Boxes;
 use super::collision_shape::{CollisionShape, PlacedShape};
 use super::manifold::{Collider, along, contacts_of, join, leave_out_ends, things};
 use crate::broad::Method;
+use crate::parallel::mapped;
 use crate::query::Point;
 use crate::wire::contact::{ContactConstraint, ContactSite};
 use crate::wire::error::CollisionError;
@@ -23,6 +24,9 @@ use crate::wire::world::World;
 
 /// Where the keys of contacts with bodies start.
 pub(in crate::wire) const KEYS: u64 = 3 << 62;
+
+/// How many pairs a thread tests at a time.
+const SHARE: usize = 64;
 
 /// The contacts with bodies of one world, from step to step.
 pub(super) struct BodyContacts {
@@ -81,11 +85,16 @@ impl BodyContacts {
         let keep = |[a, b]: [usize; 2]| is_pair(world, [moving[a].thing, moving[b].thing]);
         let mut found = Vec::new();
         let pairs = self.boxes.pairs(keep);
-        for pair in pairs {
-            // Bodies come first: A is a segment or the later body.
-            let [b, a] = [pair.first(), pair.second()].map(|item| &moving[item.index()]);
-            let spots = a.placed.touches(&b.placed, a.travel + b.travel);
-            contacts_of(world, [a.thing, b.thing], spots, friction, &mut found);
+        // Bodies come first: A is a segment or the later body.
+        let of =
+            |at: usize| [pairs[at].second(), pairs[at].first()].map(|item| &moving[item.index()]);
+        let spots = mapped(pairs.len(), SHARE, |at| {
+            let [a, b] = of(at);
+            a.placed.touches(&b.placed, a.travel + b.travel)
+        });
+        for (at, spots) in spots.into_iter().enumerate() {
+            let things = of(at).map(|moving| moving.thing);
+            contacts_of(world, things, spots, friction, &mut found);
         }
         let tested = pairs.len();
         leave_out_ends(world, &mut found);

@@ -14,6 +14,7 @@ use super::segment::direction;
 use crate::broad::{Aabb, BroadError, Method};
 use crate::certified::decide_rigid;
 use crate::contact::{EdgePoint, FacePlace, Hit};
+use crate::parallel::mapped;
 use crate::query::Point;
 use crate::rigid::{EdgeTurningEdge, Pose, RigidError, RigidMotion, VertexTurningFace};
 use crate::wire::Vector;
@@ -28,6 +29,9 @@ use crate::wire::world::World;
 
 /// Segments in a run, the items of the broad phase.
 const RUN: usize = 16;
+
+/// How many runs beside one body a thread asks about at a time.
+const SHARE: usize = 16;
 
 /// The cores of all bodies, and what may come near them.
 pub(super) struct CoreDetection {
@@ -132,22 +136,21 @@ impl CoreDetection {
             record.tested_core_pairs += usize::from(tested);
             hits.bodies.extend(hit);
         }
-        for of_body in near.runs.chunk_by(|a, b| a.0 == b.0) {
-            let body = BodyId(of_body[0].0);
+        let of_bodies = near.runs.chunk_by(|a, b| a.0 == b.0);
+        let shares: Vec<_> = of_bodies.flat_map(|runs| runs.chunks(SHARE)).collect();
+        let touched = mapped(shares.len(), 1, |at| {
+            let body = BodyId(shares[at][0].0);
             let mut beside = Beside::new(&self.cores[body.0], &ways[body.0]);
-            for run in of_body.iter().map(|(_, run)| &runs[*run]) {
-                for segment in run.first..=run.last {
-                    let wire = WireId(run.wire);
-                    let id = SegmentId { wire, segment };
-                    let end = [0, 1].map(|k| nodes.end[run.wire][segment + k]);
-                    let way = SegmentWay::new(world, id, end, body);
-                    if let Some((times, touch)) = beside.first_touch(&way)? {
-                        let hit = beside.hit(world, &way, body, times, touch)?;
-                        hits.midlines.extend(hit);
-                    }
-                }
+            let mut midlines = Vec::new();
+            for run in shares[at].iter().map(|(_, run)| &runs[*run]) {
+                beside.add_hits(world, &nodes, run, body, &mut midlines)?;
             }
-            record.tested_cores += beside.tested;
+            Ok::<_, RigidError>((midlines, beside.tested))
+        });
+        for of_share in touched {
+            let (midlines, tested) = of_share?;
+            hits.midlines.extend(midlines);
+            record.tested_cores += tested;
         }
         Ok(hits)
     }
@@ -255,6 +258,27 @@ impl<'a> Beside<'a> {
             boxes: way.pieces.iter().map(|_| None).collect(),
             tested: 0,
         }
+    }
+
+    /// Adds the first touch of each segment of a run.
+    fn add_hits(
+        &mut self,
+        world: &World,
+        nodes: &Nodes,
+        run: &Run,
+        body: BodyId,
+        hits: &mut Vec<BodyHit>,
+    ) -> Result<(), RigidError> {
+        for segment in run.first..=run.last {
+            let wire = WireId(run.wire);
+            let id = SegmentId { wire, segment };
+            let end = [0, 1].map(|k| nodes.end[run.wire][segment + k]);
+            let way = SegmentWay::new(world, id, end, body);
+            if let Some((times, touch)) = self.first_touch(&way)? {
+                hits.extend(self.hit(world, &way, body, times, touch)?);
+            }
+        }
+        Ok(())
     }
 
     /// The first touch of a segment, and when the part of the step starts and ends that it is in.

@@ -7,6 +7,7 @@ use crate::wire::contact::{ContactConstraint, ContactSite};
 use crate::wire::model::{BodyId, WireId};
 use crate::wire::record::ScaledIsland;
 use crate::wire::step::motion::MotionScales;
+use crate::wire::union_find::UnionFind;
 use crate::wire::world::World;
 
 /// How often motion is shortened before nothing moves at all.
@@ -23,8 +24,8 @@ pub(super) const SAFETY: f64 = 0.9;
 /// motion is tested again. After [`ATTEMPTS`] nothing moves, and where nothing moves nothing new
 /// meets.
 pub(super) struct Islands {
-    /// Wires, then bodies: the parent of each in the union-find forest of islands.
-    parent: Vec<usize>,
+    /// Wires, then bodies.
+    groups: UnionFind,
     /// Of roots.
     scale: Vec<f64>,
     wires: usize,
@@ -36,7 +37,7 @@ impl Islands {
         let wires = world.wires.len();
         let count = wires + world.bodies.len();
         let mut islands = Islands {
-            parent: (0..count).collect(),
+            groups: UnionFind::new(count),
             scale: vec![1.0; count],
             wires,
             attempts: 0,
@@ -65,19 +66,9 @@ impl Islands {
         }
     }
 
-    fn root(&self, mut member: usize) -> usize {
-        while self.parent[member] != member {
-            member = self.parent[member];
-        }
-        member
-    }
-
-    fn join(&mut self, a: usize, b: usize) -> usize {
-        let [a, b] = [self.root(a), self.root(b)];
-        let (root, other) = (a.min(b), a.max(b));
-        self.parent[other] = root;
+    fn join(&mut self, a: usize, b: usize) {
+        let [root, other] = self.groups.join(a, b);
         self.scale[root] = self.scale[root].min(self.scale[other]);
-        root
     }
 
     /// Whether nothing moves any more.
@@ -117,7 +108,7 @@ impl Islands {
             .map(|hit| (hit.sites[0].wire.0, hit.contact.toi));
         let of_midlines = midlines.map(|hit| (hit.site.wire.0, hit.toi));
         for (member, toi) in of_wires.chain(of_midlines).chain(pairs) {
-            let root = self.root(member);
+            let root = self.groups.root(member);
             part[root] = part[root].min(SAFETY * toi);
         }
         for (scale, part) in self.scale.iter_mut().zip(part) {
@@ -126,8 +117,8 @@ impl Islands {
     }
 
     pub(super) fn motion_scales(&self, world: &World) -> MotionScales {
-        let all: Vec<f64> = (0..self.parent.len())
-            .map(|member| self.scale[self.root(member)])
+        let all: Vec<f64> = (0..self.groups.len())
+            .map(|member| self.scale[self.groups.root(member)])
             .collect();
         let (wires, bodies) = all.split_at(self.wires);
         MotionScales {
@@ -140,10 +131,10 @@ impl Islands {
 
     /// The islands whose motion was scaled down.
     pub(super) fn scaled(&self, world: &World) -> Vec<ScaledIsland> {
-        let roots = (0..self.parent.len()).filter(|&member| self.parent[member] == member);
+        let roots = (0..self.groups.len()).filter(|&member| self.groups.is_root(member));
         let short = roots.filter(|&root| self.scale[root] < 1.0);
         let islands = short.map(|root| {
-            let of = |member: usize| self.root(member) == root;
+            let of = |member: usize| self.groups.root(member) == root;
             let wires = (0..self.wires).filter(|&w| of(w)).map(WireId);
             let bodies = (0..world.bodies.len()).filter(|&b| of(self.wires + b));
             let bodies = bodies.map(BodyId).filter(|&body| moves(world, body));

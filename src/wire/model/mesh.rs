@@ -1,6 +1,7 @@
 //! Closed triangle meshes.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use nalgebra::Matrix3;
 
@@ -10,13 +11,13 @@ use super::shape::MassProperties;
 use crate::query::Point;
 use crate::wire::Vector;
 
-/// A closed surface of triangles around its centre of mass.
+/// A closed surface of triangles around its centre of mass. Copies share its vertices and triangles.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "Parts"))]
+#[cfg_attr(feature = "serde", serde(try_from = "Parts", into = "Parts"))]
 pub struct Mesh {
-    vertices: Vec<Point>,
-    triangles: Vec<[usize; 3]>,
+    vertices: Arc<[Point]>,
+    triangles: Arc<[[usize; 3]]>,
     centre: Point,
 }
 
@@ -29,22 +30,24 @@ impl Mesh {
     /// A coordinate that is not finite, a corner that is not there, an edge without its neighbour,
     /// or a volume that is not above 0 (turned inside out).
     pub fn new(vertices: Vec<Point>, triangles: Vec<[usize; 3]>) -> Result<Self, ModelError> {
-        let mut mesh = Mesh {
-            vertices,
-            triangles,
+        let mesh = Mesh {
+            vertices: vertices.into(),
+            triangles: triangles.into(),
             centre: Point::origin(),
         };
         let (volume, moment) = mesh.check()?;
-        mesh.centre = Point::from(moment / volume);
-        for vertex in &mut mesh.vertices {
-            *vertex -= mesh.centre.coords;
-        }
-        Ok(mesh)
+        let centre = Point::from(moment / volume);
+        let around = mesh.vertices.iter().map(|vertex| vertex - centre.coords);
+        Ok(Mesh {
+            vertices: around.collect(),
+            centre,
+            ..mesh
+        })
     }
 
     /// Whether it is a closed surface around a volume; returns its volume and first moment.
     fn check(&self) -> Result<(f64, Vector), ModelError> {
-        for vertex in &self.vertices {
+        for vertex in self.vertices.iter() {
             finite_point("vertex", vertex)?;
         }
         check_corners(&self.triangles, self.vertices.len())?;
@@ -116,16 +119,18 @@ pub(in crate::wire) struct Parts {
 #[cfg(feature = "serde")]
 impl From<&Mesh> for Parts {
     fn from(mesh: &Mesh) -> Self {
-        let Mesh {
-            vertices,
-            triangles,
-            centre,
-        } = mesh.clone();
         Parts {
-            vertices,
-            triangles,
-            centre,
+            vertices: mesh.vertices.to_vec(),
+            triangles: mesh.triangles.to_vec(),
+            centre: mesh.centre,
         }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<Mesh> for Parts {
+    fn from(mesh: Mesh) -> Self {
+        Parts::from(&mesh)
     }
 }
 
@@ -141,8 +146,8 @@ impl TryFrom<Parts> for Mesh {
         } = parts;
         finite_point("centre", &centre)?;
         let mesh = Mesh {
-            vertices,
-            triangles,
+            vertices: vertices.into(),
+            triangles: triangles.into(),
             centre,
         };
         mesh.check()?;

@@ -137,7 +137,8 @@ pub struct Slide {
     pub left: bool,
 }
 
-/// How a system was solved.
+/// How a step was solved: of each number the largest of all islands, of what contacts and bodies that
+/// forces move tie together.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SolverRecord {
@@ -160,7 +161,7 @@ pub struct SolverRecord {
     pub slide_residual: f64,
 }
 
-/// Wall-clock time in s by phase.
+/// Wall-clock time in s by phase; of islands that threads solve at the same time, the sum.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Phases {
@@ -180,6 +181,20 @@ pub struct Phases {
     pub commit: f64,
     /// Nodes that leave their bodies, and changes of resolution.
     pub resolution: f64,
+}
+
+impl Phases {
+    /// Adds the time that another part took.
+    pub(in crate::wire) fn add(&mut self, other: &Phases) {
+        self.assembly += other.assembly;
+        self.factor += other.factor;
+        self.solve += other.solve;
+        self.contacts += other.contacts;
+        self.broad += other.broad;
+        self.narrow += other.narrow;
+        self.commit += other.commit;
+        self.resolution += other.resolution;
+    }
 }
 
 impl StepRecord {

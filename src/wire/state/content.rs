@@ -159,7 +159,7 @@ impl From<&World> for WorldContent {
         // The structure of the last system follows from the entries of the next one.
         let SolverCache {
             warm_start,
-            structure: _,
+            structures: _,
         } = cache;
         let &Epoch { steps: since, time } = epoch;
         WorldContent {

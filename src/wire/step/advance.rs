@@ -5,18 +5,16 @@ use super::callbacks::{Given, MotionReview, StepCallbacks};
 use super::capstan;
 use super::contact_nodes;
 use super::motion::{MotionScales, ProposedMotion, SlideRate};
-use super::solve_step::{Candidate, SOLVE};
+use super::solution::{SOLVE, Solution};
 use super::start::Start;
-use super::system::System;
 use crate::wire::clock::Clock;
 use crate::wire::contact::{ContactConstraint, check};
 use crate::wire::energy::Energy;
 use crate::wire::error::{Reason, StepError};
 use crate::wire::model::wire::TENSION_HISTORY;
-use crate::wire::record::{AddedInertia, Phases, StepRecord};
+use crate::wire::record::{Phases, StepRecord};
 use crate::wire::resolution::{self, Permit, RemeshGuard};
-use crate::wire::solver_cache::WarmStart;
-use crate::wire::sparse::Structure;
+use crate::wire::solver_cache::{Structures, WarmStart};
 use crate::wire::world::World;
 
 /// A step is solved again as long as that may take one part in so many of what the first solve took.
@@ -54,22 +52,22 @@ impl World {
         let failed = |reason| StepError { step, reason };
         let mut phases = Phases::default();
         check(self, watch.contacts()).map_err(failed)?;
-        let mut structure = self.cache.structure.take();
-        let solved = self.solve_accepted(&mut structure, watch, &mut phases);
-        let (mut system, candidate, motion) = solved.map_err(failed)?;
+        let mut structures = std::mem::take(&mut self.cache.structures);
+        let solved = self.solve_accepted(&mut structures, watch, &mut phases);
+        let (solution, motion) = solved.map_err(failed)?;
         let mut clock = Clock::start();
         let mut record = StepRecord::before(self);
-        record.contacts = self.contact_records(watch.contacts(), &candidate.swept.impulses);
-        record.solver = candidate.solver.clone();
+        let impulses = solution.impulses(watch.contacts().len());
+        record.contacts = self.contact_records(watch.contacts(), &impulses);
+        record.solver = solution.record();
         record.turns(&motion);
         let keys = watch.contacts().iter().map(|contact| contact.key);
-        let impulses = candidate.swept.impulses.iter().copied();
         self.cache.warm_start = WarmStart::new(keys.zip(impulses));
-        let slid = self.commit(&system, &candidate, motion);
+        let slid = self.commit(&solution, motion);
         record.after(self);
-        record.energy = self.energy_of_motion(&system, &candidate);
-        record.added_inertia = added_inertia(self, &system, &candidate.x);
-        self.cache.structure = system.take_structure();
+        record.energy = self.energy_of_motion(&solution);
+        record.added_inertia = solution.added_inertia(self);
+        self.cache.structures = solution.structures(self);
         phases.commit = clock.lap();
         record.slides = capstan::slides(self, &slid);
         record.slides.extend(contact_nodes::release(self));
@@ -85,41 +83,39 @@ impl World {
     /// solution, the last one is kept and scaled.
     fn solve_accepted(
         &self,
-        structure: &mut Option<Structure>,
+        structures: &mut Structures,
         watch: &mut dyn StepCallbacks,
         phases: &mut Phases,
-    ) -> Result<(System, Candidate, ProposedMotion), Reason> {
+    ) -> Result<(Solution, ProposedMotion), Reason> {
         let contacts = watch.contacts();
         let mut budget = Budget::of_step(self, contacts);
         let whole = budget;
         let start = Start::of_step(self, contacts);
-        let (mut system, mut candidate) =
-            self.solve_step(structure, contacts, &start, &mut budget, phases)?;
+        let mut solution = Solution::new(self, structures, contacts, &start, &mut budget, phases)?;
         let of_first = budget.spent_since(whole);
         let mut scales = MotionScales::all(self);
         loop {
-            let mut motion = self.motion(&system.layout, &candidate.x, &scales);
+            let mut motion = self.motion(&solution.velocities(self), &scales);
             if !motion.is_finite() {
                 return Err(Reason::NotFinite);
             }
             capstan::shorten(self, &mut motion);
             let mut clock = Clock::start();
-            let judgement = watch.review(self, &motion, &candidate.swept.impulses)?;
+            let impulses = solution.impulses(watch.contacts().len());
+            let judgement = watch.review(self, &motion, &impulses)?;
             phases.narrow += clock.lap();
             match judgement {
-                MotionReview::Accept => return Ok((system, candidate, motion)),
+                MotionReview::Accept => return Ok((solution, motion)),
                 MotionReview::SolveAgain if budget.times(of_first / AGAIN) < SOLVE => {
-                    candidate.solver.cut_short = true;
+                    solution.cut_short();
                     watch.keep_solution();
                 }
                 MotionReview::SolveAgain => {
                     let contacts = watch.contacts();
-                    let impulses = candidate.swept.impulses.clone();
-                    let start = Start::again(self, contacts, (&system, &candidate.x), impulses);
-                    *structure = system.take_structure();
-                    match self.solve_step(structure, contacts, &start, &mut budget, phases) {
-                        Ok(solved) => (system, candidate) = solved,
-                        Err(_) => watch.keep_solution(),
+                    let start = Start::again(self, &solution, contacts.len());
+                    let solved = solution.update(self, contacts, &start, &mut budget, phases);
+                    if solved.is_err() {
+                        watch.keep_solution();
                     }
                 }
                 MotionReview::Scale(scales_now) => scales = scales_now,
@@ -128,43 +124,31 @@ impl World {
     }
 
     /// The energies of the motion that was made; see [`StepRecord::energy`].
-    fn energy_of_motion(&self, system: &System, candidate: &Candidate) -> Energy {
+    fn energy_of_motion(&self, solution: &Solution) -> Energy {
         let step = self.settings.step;
-        let rows = system.rows.iter();
         Energy {
             potential: self.potential_energy()
                 + step / 2.0 * self.settings.gravity.dot(&self.momentum()),
             kinetic: self.kinetic_energy(),
-            elastic: rows.map(|row| row.elastic_energy(&candidate.x, step)).sum(),
+            elastic: solution.elastic_energy(step),
         }
     }
 
-    fn commit(
-        &mut self,
-        system: &System,
-        candidate: &Candidate,
-        motion: ProposedMotion,
-    ) -> Vec<SlideRate> {
+    fn commit(&mut self, solution: &Solution, motion: ProposedMotion) -> Vec<SlideRate> {
         let slid = motion.apply(self);
         let slot = self.steps as usize % TENSION_HISTORY;
-        let segments = self.wires.iter_mut().flat_map(|wire| &mut wire.segments);
-        for (segment, row) in segments.zip(&system.rows) {
-            // T = -lambda / h, and the unknown is -lambda.
-            segment.tension = candidate.x[row.multiplier] / self.settings.step;
-            segment.tension_history[slot] = segment.tension;
+        for own in solution.islands() {
+            for (wire, impulses) in own.tensions(self) {
+                let segments = &mut self.wires[wire].segments;
+                for (segment, impulse) in segments.iter_mut().zip(impulses) {
+                    // T = -lambda / h, and the unknown is -lambda.
+                    segment.tension = impulse / self.settings.step;
+                    segment.tension_history[slot] = segment.tension;
+                }
+            }
         }
         self.steps += 1;
         slid
-    }
-}
-
-/// What there was beside the masses, at short segments, in the motion that was made.
-fn added_inertia(world: &World, system: &System, x: &[f64]) -> AddedInertia {
-    let inertias = &system.inertias;
-    let short = inertias.short.iter().map(|inertia| inertia.energy(world));
-    AddedInertia {
-        places: inertias.short.len() + inertias.nodes.len(),
-        damped: short.sum::<f64>() + system.energy_of_steep_segments(x),
     }
 }
 

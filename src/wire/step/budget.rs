@@ -43,6 +43,20 @@ impl Budget {
         part
     }
 
+    /// Takes such a part out and divides it by weights. If all of them are 0, nothing is taken.
+    pub(super) fn parts(&mut self, one_in: usize, weights: &[usize]) -> Vec<Self> {
+        let all = weights.iter().map(|&weight| weight as u128).sum::<u128>();
+        let share = self.share(one_in) as u128;
+        let part = |&weight: &usize| {
+            let part = (share * weight as u128).checked_div(all).unwrap_or(0);
+            // Not more than the share.
+            Budget::new(usize::try_from(part).unwrap_or(usize::MAX))
+        };
+        let parts: Vec<Budget> = weights.iter().map(part).collect();
+        self.left -= parts.iter().map(|part| part.left).sum::<i64>();
+        parts
+    }
+
     /// Takes back what is left of a part, or what it spent too much.
     pub(super) fn take_back(&mut self, part: Budget) {
         self.left = self.left.saturating_add(part.left);
@@ -88,6 +102,15 @@ mod tests {
         assert!(budget.is_spent());
         assert_eq!((budget.times(3), budget.spent_since(whole)), (0, 210));
         assert_eq!(budget.part(2).share(1), 0);
+        let mut budget = Budget::new(100);
+        let mut parts = |weights: &[usize]| {
+            let parts = budget.parts(2, weights).into_iter();
+            let shares: Vec<usize> = parts.map(|part| part.share(1)).collect();
+            (shares, budget.share(1))
+        };
+        assert_eq!(parts(&[3, 0, 4]), (vec![21, 0, 28], 51));
+        assert_eq!(parts(&[0, 0]), (vec![0, 0], 51));
+        assert_eq!(parts(&[7]), (vec![25], 26));
         let mut endless = Budget::new(usize::MAX);
         endless.spend(usize::MAX);
         assert!(endless.is_spent());

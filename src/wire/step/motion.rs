@@ -3,6 +3,7 @@
 use nalgebra::UnitQuaternion;
 
 use super::carrier::{Carrier, Layout};
+use super::islands::Island;
 use super::spin::turn;
 use super::stages::{Mover, is_followed, slowed, stages};
 use crate::query::Point;
@@ -10,6 +11,16 @@ use crate::wire::Vector;
 use crate::wire::model::BodyId;
 use crate::wire::record::Pose;
 use crate::wire::world::World;
+
+/// The velocities of a solution, as they are before any is scaled.
+pub(super) struct Velocities {
+    /// Of each node, by wire.
+    wires: Vec<Vec<Vector>>,
+    /// Velocity and angular velocity of each body.
+    bodies: Vec<[Vector; 2]>,
+    /// Every contact node.
+    slides: Vec<SlideRate>,
+}
 
 /// Positions and velocities at the end of a step.
 pub(in crate::wire) struct ProposedMotion {
@@ -74,28 +85,64 @@ impl MotionScales {
     }
 }
 
+impl Velocities {
+    /// Those that are prescribed; of wires none yet.
+    pub(super) fn prescribed(world: &World) -> Self {
+        let (time, step) = (world.time(), world.settings.step);
+        let bodies = world.bodies.iter().map(|body| match body.dynamic {
+            true => [Vector::zeros(); 2],
+            false => body.prescribed(time, step).into(),
+        });
+        Velocities {
+            wires: vec![Vec::new(); world.wires.len()],
+            bodies: bodies.collect(),
+            slides: Vec::new(),
+        }
+    }
+
+    /// Takes those of an island, from its solution `x`.
+    pub(super) fn take(&mut self, world: &World, island: &Island, layout: &Layout, x: &[f64]) {
+        for (&body, first) in island.bodies.iter().zip(&layout.bodies) {
+            if let Some(first) = *first {
+                self.bodies[body] = [first, first + 3].map(|at| Carrier::Free(at).velocity(x));
+            }
+        }
+        for (&wire, &first) in island.wires.iter().zip(&layout.first_node) {
+            let nodes = first..first + world.wires[wire].nodes.len();
+            let carriers = layout.nodes[nodes.clone()].iter();
+            self.wires[wire] = carriers.map(|carrier| carrier.velocity(x)).collect();
+            for (node, column) in layout.slides[nodes].iter().enumerate() {
+                if let Some(column) = *column {
+                    let speed = x[column];
+                    self.slides.push(SlideRate { wire, node, speed });
+                }
+            }
+        }
+    }
+}
+
 impl World {
-    /// The motion that the velocities of a solution `x` lead to, scaled: `v = scale v+`, `x+ = x +
+    /// The motion that the velocities of a solution lead to, scaled: `v = scale v+`, `x+ = x +
     /// h v`. What has a scale of 0 stays where it is, to the bit.
     pub(super) fn motion(
         &self,
-        layout: &Layout,
-        x: &[f64],
+        solved: &Velocities,
         motion_scales: &MotionScales,
     ) -> ProposedMotion {
         let step = self.settings.step;
         let mut moved = ProposedMotion {
             bodies: Vec::with_capacity(self.bodies.len()),
             wires: Vec::with_capacity(self.wires.len()),
-            slides: Vec::new(),
+            slides: Vec::with_capacity(solved.slides.len()),
         };
-        let velocities = self.body_velocities(layout, x, &motion_scales.bodies);
-        for ((body, &[velocity, angular_velocity]), &scale) in self
-            .bodies
-            .iter()
-            .zip(&velocities)
-            .zip(&motion_scales.bodies)
-        {
+        let bodies = self.bodies.iter().zip(&solved.bodies);
+        for ((body, &[velocity, spin]), &scale) in bodies.zip(&motion_scales.bodies) {
+            let spin = spin * scale;
+            let angular_velocity = match body.dynamic {
+                true => slowed(spin, step),
+                false => spin,
+            };
+            let velocity = velocity * scale;
             moved.bodies.push(BodyMotion {
                 between: Vec::new(),
                 is_followed: is_followed(&angular_velocity, step),
@@ -111,15 +158,11 @@ impl World {
             });
         }
         self.add_poses_between(&mut moved.bodies);
-        for ((wire, &first), scales) in self
-            .wires
-            .iter()
-            .zip(&layout.first_node)
-            .zip(&motion_scales.nodes)
-        {
-            let nodes = wire.nodes.iter().zip(&layout.nodes[first..]).zip(scales);
-            let nodes = nodes.map(|((node, carrier), &scale)| {
-                let velocity = carrier.velocity(x) * scale;
+        let wires = self.wires.iter().zip(&solved.wires);
+        for ((wire, velocities), scales) in wires.zip(&motion_scales.nodes) {
+            let nodes = wire.nodes.iter().zip(velocities).zip(scales);
+            let nodes = nodes.map(|((node, velocity), &scale)| {
+                let velocity = velocity * scale;
                 let position = match node.kind.carrier() {
                     Some((body, local)) => moved.bodies[body.0].point(&local),
                     None => node.position + velocity * step,
@@ -128,19 +171,11 @@ impl World {
             });
             moved.wires.push(nodes.collect());
         }
-        for (wire, (&first, scales)) in layout
-            .first_node
-            .iter()
-            .zip(&motion_scales.nodes)
-            .enumerate()
-        {
-            for (node, &scale) in scales.iter().enumerate() {
-                if let Some(column) = layout.slides[first + node] {
-                    let speed = x[column] * scale;
-                    moved.slides.push(SlideRate { wire, node, speed });
-                }
-            }
+        for &SlideRate { wire, node, speed } in &solved.slides {
+            let speed = speed * motion_scales.nodes[wire][node];
+            moved.slides.push(SlideRate { wire, node, speed });
         }
+        moved.slides.sort_by_key(|slid| (slid.wire, slid.node));
         moved
     }
 
@@ -168,28 +203,6 @@ impl World {
             });
             to.between = on_way.collect();
         }
-    }
-
-    /// The velocity and the angular velocity of each body in a solution `x`, scaled.
-    fn body_velocities(&self, layout: &Layout, x: &[f64], scales: &[f64]) -> Vec<[Vector; 2]> {
-        let step = self.settings.step;
-        let bodies = self.bodies.iter().zip(&layout.bodies).zip(scales);
-        let velocities = bodies.map(|((body, first), &scale)| {
-            let (velocity, spin) = match *first {
-                Some(first) => {
-                    let velocity = Carrier::Free(first).velocity(x);
-                    (velocity, Carrier::Free(first + 3).velocity(x))
-                }
-                None => body.prescribed(self.time(), step),
-            };
-            let spin = spin * scale;
-            let spin = match body.dynamic {
-                true => slowed(spin, step),
-                false => spin,
-            };
-            [velocity * scale, spin]
-        });
-        velocities.collect()
     }
 }
 

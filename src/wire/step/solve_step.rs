@@ -21,10 +21,6 @@ use crate::wire::world::World;
 /// How often contacts are swept again because other segments of chains pull.
 const ROUNDS: usize = 20;
 
-/// A solve may spend one part in so many of what is left: so there is something left for solving
-/// again.
-pub(super) const SOLVE: usize = 2;
-
 /// With the contacts in the system a solve may spend all but one part in so many, so that what did not come to an
 /// end can be swept.
 const IN_SYSTEM: usize = 2;
@@ -42,7 +38,7 @@ pub(super) struct Candidate {
 impl World {
     /// Solves for velocities, multipliers and contact impulses; finds out which segments of chains
     /// pull and which wires slide over contact nodes, starting from those that did in the last
-    /// step, and from what `start` predicts. Spends at most one part in [`SOLVE`] of the budget on it.
+    /// step, and from what `start` predicts.
     pub(super) fn solve_step(
         &self,
         structure: &mut Option<Structure>,
@@ -51,10 +47,7 @@ impl World {
         budget: &mut Budget,
         phases: &mut Phases,
     ) -> Result<(System, Candidate), Reason> {
-        let mut part = budget.part(SOLVE);
-        let solved = self.solution(structure, contacts, start, &mut part, phases);
-        budget.take_back(part);
-        let (system, mut candidate) = solved?;
+        let (system, mut candidate) = self.solution(structure, contacts, start, budget, phases)?;
         candidate.solver.slide_residual = bound_residual(&system.rows, &candidate.x);
         stop_slip(&system.rows, &mut candidate.x);
         Ok((system, candidate))

@@ -1,6 +1,7 @@
 //! Where a solve starts from.
 
-use super::system::System;
+use super::islands::Island;
+use super::solution::Solution;
 use crate::wire::Vector;
 use crate::wire::contact::ContactConstraint;
 use crate::wire::world::World;
@@ -10,36 +11,47 @@ use crate::wire::world::World;
 pub(super) struct Start {
     /// Of each contact on its place A, along x, y, z, in N s; 0 for a new one.
     pub(super) impulses: Vec<Vector>,
-    /// Of each segment, in N s.
-    pub(super) tensions: Vec<f64>,
+    /// Of each segment, by wire, in N s.
+    pub(super) tensions: Vec<Vec<f64>>,
 }
 
 impl Start {
     /// That of a step: what the last step came to.
     pub(super) fn of_step(world: &World, contacts: &[ContactConstraint]) -> Self {
         let impulse = |contact: &ContactConstraint| world.cache.warm_start.impulse(contact.key);
-        let segments = world.wires.iter().flat_map(|wire| &wire.segments);
+        let step = world.settings.step;
+        let tensions = world.wires.iter().map(|wire| {
+            let segments = wire.segments.iter();
+            segments.map(|segment| segment.tension * step).collect()
+        });
         Start {
             impulses: contacts.iter().map(impulse).collect(),
-            tensions: segments
-                .map(|segment| segment.tension * world.settings.step)
-                .collect(),
+            tensions: tensions.collect(),
         }
     }
 
-    /// That of another solve of the same step, with contacts that came behind the others.
-    pub(super) fn again(
-        world: &World,
-        contacts: &[ContactConstraint],
-        (system, x): (&System, &[f64]),
-        mut impulses: Vec<Vector>,
-    ) -> Self {
-        impulses.resize(contacts.len(), Vector::zeros());
-        let segments = world.wires.iter().map(|wire| wire.segments.len()).sum();
-        let stretch = system.rows.iter().take(segments);
+    /// That of another solution of the same step, with so many contacts, of which the last ones are
+    /// new.
+    pub(super) fn again(world: &World, solution: &Solution, contacts: usize) -> Self {
+        let mut tensions = vec![Vec::new(); world.wires.len()];
+        for own in solution.islands() {
+            for (wire, solved) in own.tensions(world) {
+                tensions[wire] = solved;
+            }
+        }
         Start {
-            impulses,
-            tensions: stretch.map(|row| x[row.multiplier]).collect(),
+            impulses: solution.impulses(contacts),
+            tensions,
+        }
+    }
+
+    /// That of an island.
+    pub(super) fn of(&self, island: &Island) -> Self {
+        let contacts = island.contacts.iter();
+        let wires = island.wires.iter();
+        Start {
+            impulses: contacts.map(|&at| self.impulses[at]).collect(),
+            tensions: wires.map(|&wire| self.tensions[wire].clone()).collect(),
         }
     }
 }

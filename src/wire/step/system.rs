@@ -264,7 +264,7 @@ impl System {
             Implicit::new(world, &self.layout, &masses, contact, impulse)
         });
         self.implicit = contacts.collect();
-        for (row, &tension) in self.rows.iter_mut().zip(&start.tensions) {
+        for (row, &tension) in self.rows.iter_mut().zip(start.tensions.iter().flatten()) {
             row.soften(&masses, tension);
         }
     }

@@ -85,16 +85,17 @@ pub(super) struct TransverseInertia {
 }
 
 impl TransverseInertia {
-    /// The velocity `u` of a world in m/s.
-    pub(super) fn velocity(&self, world: &World) -> Vector {
-        let nodes = &world.wires[self.wire].nodes;
+    /// The velocity `u` of the wire in m/s.
+    pub(super) fn velocity(&self, wire: &Wire) -> Vector {
         let terms = self.terms.iter();
-        terms.map(|(node, part)| part * nodes[*node].velocity).sum()
+        terms
+            .map(|(node, part)| part * wire.nodes[*node].velocity)
+            .sum()
     }
 
-    /// `m |u|^2` of a world in J.
-    pub(super) fn energy(&self, world: &World) -> f64 {
-        self.mass * self.velocity(world).norm_squared()
+    /// `m |u|^2` of the wire in J.
+    pub(super) fn energy(&self, wire: &Wire) -> f64 {
+        self.mass * self.velocity(wire).norm_squared()
     }
 }
 

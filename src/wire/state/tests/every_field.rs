@@ -1,5 +1,7 @@
 //! A state that is made by hand.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Matrix3, UnitQuaternion};
 
 use crate::broad::SlowPairs;
@@ -145,7 +147,7 @@ pub(super) fn every_field() -> State {
         },
         cache: SolverCache {
             warm_start: WarmStart::new(impulses.into_iter()),
-            structure: None,
+            structures: BTreeMap::new(),
         },
     };
     let site = |arc| WireSite {

@@ -356,7 +356,7 @@ fn structure_of_the_system_is_used_again_while_it_stands() {
     for _ in 0..20 {
         // The second way to the same step: nothing remembered.
         let mut fresh = world.clone();
-        fresh.cache.structure = None;
+        fresh.cache.structures.clear();
         let afresh = fresh.step(&[]).unwrap();
         last = world.step(&[]).unwrap();
         assert_eq!(last.wires, afresh.wires);

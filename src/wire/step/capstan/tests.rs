@@ -1,7 +1,8 @@
 use super::*;
 use crate::query::Point;
 use crate::wire::step::contact_nodes::detach;
-use crate::wire::step::motion::MotionScales;
+use crate::wire::step::islands::Island;
+use crate::wire::step::motion::{MotionScales, Velocities};
 use crate::wire::step::order::by_wires;
 use crate::wire::{BodyId, BodyPlan, Drive, Material, Phase, Settings, Shape, Stop, WirePlan};
 
@@ -223,13 +224,16 @@ fn segments_keep_a_sixteenth_of_their_wire_however_fast_it_slides() {
     let rest = world.wires[0].rest_length(0);
     let farthest = rest * 15.0 / 16.0 / world.settings.step;
     let layout = Layout::new(&world, &by_wires(&world), &[]);
+    let mut velocities = Velocities::prescribed(&world);
+    let island = Island::whole(&world, &[]);
+    velocities.take(&world, &island, &layout, &vec![0.0; layout.size]);
     for (speed, expected) in [
         (0.5 * farthest, 0.5 * farthest),
         (-0.5 * farthest, -0.5 * farthest),
         (3.0 * farthest, farthest),
         (-1e9, -farthest),
     ] {
-        let mut motion = world.motion(&layout, &vec![0.0; layout.size], &MotionScales::all(&world));
+        let mut motion = world.motion(&velocities, &MotionScales::all(&world));
         motion.slides[0].speed = speed;
         shorten(&world, &mut motion);
         let slid = motion.slides[0].speed;

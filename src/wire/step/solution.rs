@@ -1,0 +1,256 @@
+//! The solution of a step: that of every [island](super::islands).
+
+use std::collections::BTreeMap;
+
+use super::budget::Budget;
+use super::islands::{Island, islands};
+use super::motion::Velocities;
+use super::solve_step::Candidate;
+use super::start::Start;
+use super::system::System;
+use crate::parallel::made;
+use crate::wire::Vector;
+use crate::wire::contact::ContactConstraint;
+use crate::wire::error::Reason;
+use crate::wire::record::{AddedInertia, Phases, SolverRecord};
+use crate::wire::solver_cache::Structures;
+use crate::wire::sparse::Structure;
+use crate::wire::world::World;
+
+/// A solution may spend one part in so many of what is left: so there is something left for solving
+/// again.
+pub(super) const SOLVE: usize = 2;
+
+/// Islands, each with its solution.
+pub(super) struct Solution {
+    islands: Vec<Solved>,
+}
+
+/// An island and its solution, which numbers wires and bodies as the island does.
+pub(super) struct Solved {
+    pub(super) island: Island,
+    pub(super) system: System,
+    pub(super) candidate: Candidate,
+}
+
+impl Solution {
+    /// Solves from a start on, and spends at most one part in [`SOLVE`] of the budget on it.
+    ///
+    /// # Errors
+    ///
+    /// That of the first island that has one.
+    pub(super) fn new(
+        world: &World,
+        structures: &mut Structures,
+        contacts: &[ContactConstraint],
+        start: &Start,
+        budget: &mut Budget,
+        phases: &mut Phases,
+    ) -> Result<Self, Reason> {
+        let take = |island: Island| {
+            let structure = structures.remove(&island.key(world));
+            (island, structure)
+        };
+        let unsolved = islands(world, contacts).into_iter().map(take).collect();
+        let islands = solve(world, unsolved, contacts, start, budget, phases)?;
+        Ok(Solution { islands })
+    }
+
+    /// Solves the islands again that have other contacts than they had.
+    ///
+    /// # Errors
+    ///
+    /// That of the first island that has one. The solution is as before.
+    pub(super) fn update(
+        &mut self,
+        world: &World,
+        contacts: &[ContactConstraint],
+        start: &Start,
+        budget: &mut Budget,
+        phases: &mut Phases,
+    ) -> Result<(), Reason> {
+        let known = self
+            .islands
+            .iter_mut()
+            .map(|own| (own.island.key(world), own));
+        let mut known: BTreeMap<usize, &mut Solved> = known.collect();
+        let mut unsolved = Vec::new();
+        for island in islands(world, contacts) {
+            let before = known.get_mut(&island.key(world));
+            if before
+                .as_ref()
+                .is_some_and(|before| before.island == island)
+            {
+                continue;
+            }
+            let structure = before.and_then(|before| before.system.take_structure());
+            unsolved.push((island, structure));
+        }
+        let solved = solve(world, unsolved, contacts, start, budget, phases)?;
+        let mut is_solved = vec![false; world.wires.len() + world.bodies.len()];
+        for member in solved.iter().flat_map(|own| own.island.members(world)) {
+            is_solved[member] = true;
+        }
+        self.islands
+            .retain(|own| !own.island.members(world).any(|member| is_solved[member]));
+        self.islands.extend(solved);
+        self.islands.sort_by_key(|own| own.island.key(world));
+        Ok(())
+    }
+
+    /// By their least members.
+    pub(super) fn islands(&self) -> &[Solved] {
+        &self.islands
+    }
+
+    /// The velocities of everything.
+    pub(super) fn velocities(&self, world: &World) -> Velocities {
+        let mut velocities = Velocities::prescribed(world);
+        for own in &self.islands {
+            velocities.take(world, &own.island, &own.system.layout, &own.candidate.x);
+        }
+        velocities
+    }
+
+    /// The impulses of so many contacts, on their places A, in N s along x, y, z.
+    pub(super) fn impulses(&self, contacts: usize) -> Vec<Vector> {
+        let mut impulses = vec![Vector::zeros(); contacts];
+        for own in &self.islands {
+            let solved = &own.candidate.swept.impulses;
+            for (&at, impulse) in own.island.contacts.iter().zip(solved) {
+                impulses[at] = *impulse;
+            }
+        }
+        impulses
+    }
+
+    /// How it was solved: of each number the largest of any island.
+    pub(super) fn record(&self) -> SolverRecord {
+        let records = self.islands.iter().map(|own| &own.candidate.solver);
+        records.fold(SolverRecord::default(), |most, own| SolverRecord {
+            residual: most.residual.max(own.residual),
+            factorisations: most.factorisations.max(own.factorisations),
+            sweeps: most.sweeps.max(own.sweeps),
+            cut_short: most.cut_short || own.cut_short,
+            contact_residual: most.contact_residual.max(own.contact_residual),
+            slide_residual: most.slide_residual.max(own.slide_residual),
+        })
+    }
+
+    /// Notes that it was not looked for any longer.
+    pub(super) fn cut_short(&mut self) {
+        for own in &mut self.islands {
+            own.candidate.solver.cut_short = true;
+        }
+    }
+
+    /// The elastic energy of the forces that wires have, in J.
+    pub(super) fn elastic_energy(&self, step: f64) -> f64 {
+        let energies = self.islands.iter().flat_map(|own| {
+            let rows = own.system.rows.iter();
+            rows.map(|row| row.elastic_energy(&own.candidate.x, step))
+        });
+        energies.sum()
+    }
+
+    /// What there was beside the masses, at short segments, in the motion that was made.
+    pub(super) fn added_inertia(&self, world: &World) -> AddedInertia {
+        let mut added = AddedInertia::default();
+        for own in &self.islands {
+            let inertias = &own.system.inertias;
+            added.places += inertias.short.len() + inertias.nodes.len();
+            let wire = |at: usize| &world.wires[own.island.wires[at]];
+            let short = inertias.short.iter();
+            let short = short.map(|inertia| inertia.energy(wire(inertia.wire)));
+            added.damped +=
+                short.sum::<f64>() + own.system.energy_of_steep_segments(&own.candidate.x);
+        }
+        added
+    }
+
+    /// The structures of the systems, for the next step.
+    pub(super) fn structures(self, world: &World) -> Structures {
+        let islands = self.islands.into_iter();
+        let structures = islands.filter_map(|mut own| {
+            let structure = own.system.take_structure()?;
+            Some((own.island.key(world), structure))
+        });
+        structures.collect()
+    }
+}
+
+/// Solves islands, at the same time. Each may spend what its segments and contacts are of those that
+/// have anything to find.
+fn solve(
+    world: &World,
+    islands: Vec<(Island, Option<Structure>)>,
+    contacts: &[ContactConstraint],
+    start: &Start,
+    budget: &mut Budget,
+    phases: &mut Phases,
+) -> Result<Vec<Solved>, Reason> {
+    let weight = |(island, _): &(Island, Option<Structure>)| {
+        let iterates = island.iterates(world);
+        if iterates { island.things(world) } else { 0 }
+    };
+    let weights: Vec<usize> = islands.iter().map(weight).collect();
+    let jobs = islands.into_iter().zip(budget.parts(SOLVE, &weights));
+    let solved = made(jobs.collect(), |((island, structure), mut budget)| {
+        let mut phases = Phases::default();
+        let own = Solved::new(
+            world,
+            island,
+            structure,
+            contacts,
+            start,
+            &mut budget,
+            &mut phases,
+        );
+        (own, budget, phases)
+    });
+    let mut all = Vec::with_capacity(solved.len());
+    for (own, left, took) in solved {
+        budget.take_back(left);
+        phases.add(&took);
+        all.push(own);
+    }
+    all.into_iter().collect()
+}
+
+impl Solved {
+    /// The tensions of its segments, by wires of the whole world, as impulses in N s.
+    pub(super) fn tensions(&self, world: &World) -> Vec<(usize, Vec<f64>)> {
+        let mut rows = self.system.rows.iter();
+        let wires = self.island.wires.iter();
+        let tensions = wires.map(|&wire| {
+            let stretch = rows.by_ref().take(world.wires[wire].segments.len());
+            let impulses = stretch.map(|row| self.candidate.x[row.multiplier]);
+            (wire, impulses.collect())
+        });
+        tensions.collect()
+    }
+
+    fn new(
+        world: &World,
+        island: Island,
+        mut structure: Option<Structure>,
+        contacts: &[ContactConstraint],
+        start: &Start,
+        budget: &mut Budget,
+        phases: &mut Phases,
+    ) -> Result<Self, Reason> {
+        let own = island.world(world);
+        let (system, candidate) = own.as_ref().unwrap_or(world).solve_step(
+            &mut structure,
+            &island.contacts(contacts),
+            &start.of(&island),
+            budget,
+            phases,
+        )?;
+        Ok(Solved {
+            island,
+            system,
+            candidate,
+        })
+    }
+}
