@@ -26,12 +26,13 @@ pub(in crate::wire) fn dissect(run: Range<usize>, order: &mut Vec<usize>) {
 /// 55, 1967; George and Liu, SIAM Review 31, 1989). `ties` are the neighbours of each block,
 /// ascending.
 ///
-/// None if eliminating the blocks takes more than so many multiplications.
+/// With the order, how many multiplications eliminating the blocks takes; none if that is more than
+/// `most`.
 pub(in crate::wire) fn least_degree(
     sizes: &[usize],
     mut ties: Vec<Vec<usize>>,
     most: usize,
-) -> Option<Vec<usize>> {
+) -> Option<(Vec<usize>, usize)> {
     let degree = |ties: &[usize]| ties.iter().map(|&block| sizes[block]).sum::<usize>();
     let degrees = ties.iter().map(|ties| degree(ties)).enumerate();
     // What is known to have another degree stays in there and is passed over.
@@ -59,7 +60,7 @@ pub(in crate::wire) fn least_degree(
             open.push(Reverse((degree(&ties[other]), other)));
         }
     }
-    Some(order)
+    Some((order, multiplications))
 }
 
 /// Both lists, ascending, as one.
@@ -144,7 +145,7 @@ mod tests {
             ties.iter_mut().for_each(|ties| ties.sort_unstable());
             let (order, multiplications) = least_degree_slowly(&sizes, &ties);
             let enough = least_degree(&sizes, ties.clone(), multiplications);
-            assert_eq!(enough, Some(order));
+            assert_eq!(enough, Some((order, multiplications)));
             assert_eq!(least_degree(&sizes, ties, multiplications - 1), None);
         }
     }
@@ -157,6 +158,6 @@ mod tests {
             k.checked_sub(1).into_iter().chain(after).collect()
         });
         let order = least_degree(&vec![7; n], ties.collect(), n * 7 * 14 * 14);
-        assert_eq!(order.map(|order| order.len()), Some(n));
+        assert_eq!(order.map(|(order, _)| order.len()), Some(n));
     }
 }

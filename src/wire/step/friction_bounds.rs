@@ -39,6 +39,9 @@ impl BoundSearch {
     /// other nodes slide then, it goes on from where it was, with bounds that go half of the way to
     /// what follows from tensions, until the residual is a quarter of what it was.
     pub(super) fn update(&mut self, system: &mut System, x: &[f64], budget: &mut Budget) {
+        if !system.rows.iter().any(|row| row.law.bounds(x).is_some()) {
+            return;
+        }
         let residual = capstan::bound_residual(&system.rows, x);
         if let Some((before, bounds)) = self.before.take()
             && residual > before / 2.0

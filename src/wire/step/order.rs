@@ -5,7 +5,8 @@
 //! a deck or wires that lie across one, Newton's method finds what pushes, sticks and slips along
 //! with what pulls ([`multipliers`](super::multipliers)). Where it would, as with wires that are
 //! wound about each other, contacts are swept ([`friction`](super::friction)), or, if they are many,
-//! found by [conjugate gradients](super::conjugate_gradients).
+//! found by [conjugate gradients](super::conjugate_gradients). So are those of which the factor hardly
+//! fills, but takes more than the budget has.
 
 use crate::wire::contact::{ContactConstraint, ContactSite};
 use crate::wire::model::NodeKind;
@@ -55,13 +56,13 @@ pub(super) fn by_wires(world: &World) -> Vec<Block> {
     blocks
 }
 
-/// By least degree, with contacts as ties. None if contacts are few, or a factorisation takes more than
-/// `most` multiplications, or too many for each contact.
+/// By least degree, with contacts as ties, and how many multiplications a factorisation takes. None if
+/// contacts are few, or it takes more than `most`, or too many for each contact.
 pub(super) fn by_least_degree(
     world: &World,
     contacts: &[ContactConstraint],
     most: usize,
-) -> Option<Vec<Block>> {
+) -> Option<(Vec<Block>, usize)> {
     if contacts.len() < MANY {
         return None;
     }
@@ -98,8 +99,10 @@ pub(super) fn by_least_degree(
         ties.sort_unstable();
         ties.dedup();
     }
-    let order = least_degree(&sizes, ties, most.min(MOST * contacts.len()))?;
-    Some(order.into_iter().map(|block| blocks[block]).collect())
+    let most = most.min(MOST * contacts.len());
+    let (order, multiplications) = least_degree(&sizes, ties, most)?;
+    let order = order.into_iter().map(|block| blocks[block]).collect();
+    Some((order, multiplications))
 }
 
 /// All blocks, and which one carries what.
@@ -212,7 +215,7 @@ mod tests {
         };
         let [mut wires, mut ties] = [
             by_wires(&world),
-            by_least_degree(&world, &contacts, usize::MAX).unwrap(),
+            by_least_degree(&world, &contacts, usize::MAX).unwrap().0,
         ]
         .map(|order| {
             let numbers: Vec<_> = order.iter().map(number).collect();

@@ -36,14 +36,19 @@ impl Predictions {
     /// Makes the next one, after a solution.
     pub(super) fn update(&mut self, system: &mut System, x: &[f64]) {
         self.count += 1;
-        let before = values(system);
+        let is_extrapolated = system.method == ContactMethod::ByGradients;
+        let before = if is_extrapolated {
+            values(system)
+        } else {
+            Vec::new()
+        };
         for row in &mut system.rows {
             row.update_prediction(x);
         }
         for contact in &mut system.implicit {
             contact.update_prediction(x);
         }
-        if system.method == ContactMethod::InMatrix {
+        if !is_extrapolated {
             system.rows.iter_mut().for_each(|row| row.harden());
             let contacts = system.implicit.iter_mut();
             contacts.for_each(|contact| contact.harden());

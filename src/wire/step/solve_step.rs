@@ -25,7 +25,7 @@ const ROUNDS: usize = 20;
 /// end can be swept.
 const IN_SYSTEM: usize = 2;
 
-/// Factorisations that there have to be enough for, or the contacts are swept at once.
+/// Factorisations that there have to be enough for, or the contacts are found in another way at once.
 const NEWTON_STEPS: usize = 10;
 
 /// A solution of a step that is not committed yet.
@@ -63,10 +63,15 @@ impl World {
         phases: &mut Phases,
     ) -> Result<(System, Candidate), Reason> {
         let mut clock = Clock::start();
-        let most = budget.share(IN_SYSTEM * NEWTON_STEPS);
+        let affordable = budget.share(IN_SYSTEM * NEWTON_STEPS);
+        let are_many = contacts.len() > *FORMED.end();
+        let most = if are_many { affordable } else { usize::MAX };
         let by_least_degree = order::by_least_degree(self, contacts, most);
+        let hardly_fills = by_least_degree.is_some();
+        let by_least_degree = by_least_degree.filter(|(_, cost)| *cost <= affordable);
         phases.assembly += clock.lap();
-        if let Some(order) = by_least_degree {
+        let is_tried = by_least_degree.is_some();
+        if let Some((order, _)) = by_least_degree {
             let mut system = self.assemble(&order, structure, phases);
             let mut part = budget.part(IN_SYSTEM);
             let candidate = self.solve_with_implicit_contacts(
@@ -85,7 +90,7 @@ impl World {
             }
         }
         let mut system = self.assemble(&order::by_wires(self), structure, phases);
-        if contacts.len() > *FORMED.end() {
+        if are_many || hardly_fills && !is_tried {
             let candidate = self.solve_with_implicit_contacts(
                 &mut system,
                 contacts,

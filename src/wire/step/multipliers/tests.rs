@@ -99,7 +99,7 @@ fn found_with(
     contacts: &[ContactConstraint],
     budget: &mut Budget,
 ) -> (System, Option<Solution>) {
-    let order = by_least_degree(world, contacts, usize::MAX).unwrap();
+    let (order, _) = by_least_degree(world, contacts, usize::MAX).unwrap();
     let mut system = System::new(world, &order, None);
     let start = Start::of_step(world, contacts);
     system.take(world, contacts, &start, ContactMethod::InMatrix);
