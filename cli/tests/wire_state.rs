@@ -148,7 +148,7 @@ fn worlds_of_all_sorts_go_on_from_every_step() {
         0,
     );
     assert!(records.iter().any(|record| record.contacts.len() > 4));
-    let collisions = Collisions::default().with_contact_nodes();
+    let collisions = Collisions::default();
     let collisions = collisions.with_friction(0.1).unwrap();
     let records = check("edge", Run::new(worlds::edge(), collisions), 60, 0);
     let mut slides = records.iter().flat_map(|record| &record.slides);
@@ -329,8 +329,8 @@ proptest! {
     ) {
         let world = random_world(&wires, &bodies, step);
         let mut collisions = Collisions::default().with_guarded_thickness(thickness).unwrap();
-        if contact_nodes {
-            collisions = collisions.with_contact_nodes();
+        if !contact_nodes {
+            collisions = collisions.without_contact_nodes();
         }
         let mut run = Run::new(world, collisions);
         for _ in 0..before {

@@ -348,8 +348,8 @@ impl Drum {
         let mut outcome = Outcome::default();
         let collisions = Collisions::default().with_friction(friction)?;
         let mut collisions = match self.way {
-            Way::ContactNodes => collisions.with_contact_nodes(),
-            _ => collisions,
+            Way::ContactNodes => collisions,
+            _ => collisions.without_contact_nodes(),
         };
         let way = self.way;
         let mut step = |world: &mut World| -> Result<f64, StepError> {

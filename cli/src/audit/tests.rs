@@ -36,7 +36,6 @@ const EDGE: &str = r#"
 title = "edge"
 duration = 2
 friction = 0.1
-contact_nodes = true
 [[bodies]]
 name = "cube"
 shape = { box = { half = [0.5, 0.5, 0.5] } }
@@ -50,7 +49,7 @@ route = [{ free = [0, 0, 0.005] }, { free = [0.505, 0, 0.005] }, { free = [0.505
 name = "across"
 material = { radius = 0.005, bend_modulus = 0 }
 resolution = 0.2
-velocity = [1, 0, -5]
+velocity = [0.1, 0, -5]
 route = [{ free = [0.1, -0.8, 0.06] }, { free = [0.1, 0.8, 0.06] }]
 [[wires]]
 name = "askew"

@@ -64,9 +64,9 @@ impl Scene {
             .and_then(|collisions| collisions.with_guarded_thickness(self.guarded_thickness))
             .map_err(|error| refused(&[], error))?;
         Ok(if self.contact_nodes {
-            collisions.with_contact_nodes()
-        } else {
             collisions
+        } else {
+            collisions.without_contact_nodes()
         })
     }
 

@@ -23,8 +23,8 @@ pub struct Scene {
     /// and no more.
     #[serde(default)]
     pub guarded_thickness: f64,
-    /// Whether adaptive wires get contact nodes where bodies bend them; usually not.
-    #[serde(default)]
+    /// Whether adaptive wires get contact nodes where bodies bend them; usually so.
+    #[serde(default = "yes")]
     pub contact_nodes: bool,
     /// What the stepper works with; what is left out has its usual value.
     #[serde(default)]

@@ -76,9 +76,9 @@ fn chain_of_the_example_scene_slides_over_both_edges() {
 fn scene_file_builds_all_that_the_model_has() {
     let scene = Scene::from_toml(FILE).unwrap();
     assert_eq!((scene.steps(), scene.friction), (150, 0.5));
-    let more = FILE.replacen("duration", "contact_nodes = true\nduration", 1);
-    let with = Scene::from_toml(&more).unwrap();
-    assert!(with.contact_nodes && !scene.contact_nodes);
+    let more = FILE.replacen("duration", "contact_nodes = false\nduration", 1);
+    let without = Scene::from_toml(&more).unwrap();
+    assert!(!without.contact_nodes && scene.contact_nodes);
     let world = scene.world().unwrap();
     assert_eq!(world.settings().step, 0.01);
     assert_eq!(world.settings().sweeps, 200);

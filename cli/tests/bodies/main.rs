@@ -142,9 +142,9 @@ fn collisions(seed: u64) -> Collisions<'static> {
     let method = [Method::SweepAndPrune, Method::HierarchicalGrid][seed as usize % 2];
     let collisions = Collisions::new(Mode::Guard, method, &Certified);
     if seed / 2 % 2 == 1 {
-        collisions.with_contact_nodes()
-    } else {
         collisions
+    } else {
+        collisions.without_contact_nodes()
     }
 }
 

@@ -5,7 +5,7 @@
 //! it. A contact that is apart lets its places come as far as they touch, so what comes fast is
 //! stopped at the surface.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::UnitQuaternion;
 
@@ -142,6 +142,11 @@ impl KnownContacts {
             });
         }
         self.last = contacts.to_vec();
+    }
+
+    /// The keys of contacts that were found where the last step started.
+    pub(super) fn found(&self) -> BTreeSet<u64> {
+        self.last.iter().map(|contact| contact.key).collect()
     }
 
     /// A key that no other contact has.

@@ -40,8 +40,8 @@ pub struct CollisionSettings {
     pub guarded_thickness: f64,
     /// Whether contacts with bodies are found: not [`without_bodies`](Collisions::without_bodies).
     pub bodies: bool,
-    /// Whether wires get contact nodes where bodies bend them:
-    /// [`with_contact_nodes`](Collisions::with_contact_nodes).
+    /// Whether wires get contact nodes where bodies bend them: not
+    /// [`without_contact_nodes`](Collisions::without_contact_nodes).
     pub contact_nodes: bool,
 }
 
@@ -52,7 +52,7 @@ impl Default for CollisionSettings {
             friction: 0.5,
             guarded_thickness: 0.0,
             bodies: true,
-            contact_nodes: false,
+            contact_nodes: true,
         }
     }
 }
@@ -165,13 +165,14 @@ impl<'n> Collisions<'n> {
         self
     }
 
-    /// The same with contact nodes for adaptive wires: where a body that was found to touch one
-    /// bends it between two nodes, it gets another one there, which is attached to the body, and
-    /// over which wire sticks or slides ([`NodeKind::Contact`](crate::wire::NodeKind)). It leaves
-    /// where the wire turns away from the body, and with the end of the wire.
+    /// The same without contact nodes for adaptive wires. With them, where a body that was found to
+    /// touch a wire bends it between two nodes, the wire gets another one there, which is attached to
+    /// the body, and over which wire sticks or slides ([`NodeKind::Contact`](crate::wire::NodeKind)).
+    /// It leaves where the wire turns away from the body or slips off sideways, and with the end of the
+    /// wire. Without them wires hook at edges, whatever the friction.
     #[must_use]
-    pub fn with_contact_nodes(mut self) -> Self {
-        self.settings.contact_nodes = true;
+    pub fn without_contact_nodes(mut self) -> Self {
+        self.settings.contact_nodes = false;
         self
     }
 

@@ -4,36 +4,49 @@
 //! contact node there it turns, and sticks or slides as far as the capstan bound goes. The node
 //! leaves where the wire turns away from the body, or ends (`step/contact_nodes.rs`).
 
-use super::body_contacts::KEYS;
-use crate::wire::contact::{ContactConstraint, ContactSite};
+use super::body_contacts::KnownContacts;
+use crate::wire::contact::ContactSite;
 use crate::wire::model::{BodyId, Wire};
 use crate::wire::record::ContactRecord;
 use crate::wire::step::contact_nodes::{self, ContactNodeInsertion};
+use crate::wire::vector::{Vector, unit};
 use crate::wire::world::World;
 
 /// The least slope down beside a place at which a wire is bent, and the least turn there, as a
 /// difference of two directions.
 const TURN: f64 = 0.02;
 
-/// Where bodies bend adaptive wires that pull, in the order of the contacts.
-pub(super) fn insertions(world: &World, records: &[ContactRecord]) -> Vec<ContactNodeInsertion> {
-    let pushing = records.iter().filter(|record| record.normal_force() > 0.0);
+/// Of what friction can hold sideways, the most that a wire may pull where a node is inserted: so none is inserted
+/// that slips off at once.
+const ASIDE: f64 = 0.5;
+
+/// Where bodies bend adaptive wires that pull, in the order of the contacts. Those of guard mode, which keep what is
+/// inside a body or ends on it out of its core, do not count.
+pub(super) fn insertions(
+    world: &World,
+    records: &[ContactRecord],
+    known: &KnownContacts,
+) -> Vec<ContactNodeInsertion> {
+    let found = known.found();
+    let pushing = records
+        .iter()
+        .filter(|record| found.contains(&record.contact.key) && record.normal_force() > 0.0);
     pushing
-        .filter_map(|record| insertion(world, &record.contact))
+        .filter_map(|record| insertion(world, record))
         .collect()
 }
 
-fn insertion(world: &World, contact: &ContactConstraint) -> Option<ContactNodeInsertion> {
-    let (ContactSite::Wire { wire: id, arc }, ContactSite::Body { body, .. }) =
+fn insertion(world: &World, record: &ContactRecord) -> Option<ContactNodeInsertion> {
+    let contact = &record.contact;
+    let (ContactSite::Wire { wire: id, arc }, ContactSite::Body { body, local }) =
         (contact.a, contact.b)
     else {
         return None;
     };
     let wire = &world.wires[id.0];
     let (segment, parameter) = wire.at(arc);
-    let found = contact.key > KEYS && wire.resolution.adaptive;
     let on_surface = contact.gap > -wire.material.radius;
-    if !(found && on_surface) || wire.segments[segment].tension <= 0.0 {
+    if !(wire.resolution.adaptive && on_surface) || wire.segments[segment].tension <= 0.0 {
         return None;
     }
     // Where the node will be, and the nodes between which it turns the wire.
@@ -50,13 +63,29 @@ fn insertion(world: &World, contact: &ContactConstraint) -> Option<ContactNodeIn
     let slopes = [before, after].map(|direction| direction.dot(&contact.normal));
     let out = -(before + after);
     let bent = slopes[0].min(slopes[1]) <= -TURN && out.dot(&contact.normal) >= TURN;
-    bent.then(|| ContactNodeInsertion {
+    // The normal is across the segment to rounding.
+    let (aside, _) = unit(&contact.normal.cross(&wire.span(segment)));
+    let friction = contact.friction;
+    let pressing = out.dot(&contact.normal) * contact_nodes::pressing_by_pull(&[-before, after]);
+    let held = out.dot(&aside).abs() <= ASIDE * friction * pressing;
+    // Sideways, friction can stop it within this step.
+    let mass = wire.material.mass_per_length() * wire.rest_length(segment) / 2.0;
+    let velocity = velocity_at(wire, segment, parameter) - world.bodies[body.0].velocity_at(&local);
+    let stopped = friction * record.normal_force() * world.settings.step;
+    let stays = held && mass * velocity.dot(&aside).abs() <= stopped;
+    (bent && stays).then(|| ContactNodeInsertion {
         wire: id,
         arc,
         body,
         normal: out.normalize(),
-        friction: contact.friction,
+        friction,
+        aside,
     })
+}
+
+fn velocity_at(wire: &Wire, segment: usize, parameter: f64) -> Vector {
+    let [start, end] = [segment, segment + 1].map(|node| wire.nodes[node].velocity);
+    start.lerp(&end, parameter)
 }
 
 /// The nodes before and after a segment and its neighbours, as far as no other place of the body is

@@ -176,6 +176,9 @@ impl<'a, 'n> Guard<'a, 'n> {
             .map(|(sites, normal)| touches.make(sites, normal))
             .collect();
         touches.add(world, thickness, near);
+        if self.collisions.settings.mode == Mode::Guard {
+            touches.add_along(world, thickness);
+        }
         if let Some(islands) = self.islands {
             self.record.scaled_islands = islands.scaled(world);
         }
@@ -308,7 +311,7 @@ impl StepCallbacks for Guard<'_, '_> {
         contacts: &[ContactRecord],
     ) -> Vec<ContactNodeInsertion> {
         if self.collisions.settings.contact_nodes {
-            contact_node_insertion::insertions(world, contacts)
+            contact_node_insertion::insertions(world, contacts, &self.collisions.obstacles.known)
         } else {
             Vec::new()
         }

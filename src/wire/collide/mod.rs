@@ -67,7 +67,7 @@ pub use segment::PairFilter;
 #[cfg(feature = "recording")]
 pub(in crate::wire) use {
     body_contacts::{KEYS as BODY_KEYS, KnownContacts},
-    wire_contacts::{KEYS as WIRE_KEYS, WireContact, WireContacts},
+    wire_contacts::{KEYS as WIRE_KEYS, Side, WireContact, WireContacts},
 };
 
 use crate::wire::clock::Clock;

@@ -113,6 +113,34 @@ impl Closest {
         Closest::new(&[a, b, c, d])
     }
 
+    /// Of one end, at 0 or 1, of one of two segments and of the other segment.
+    pub(super) fn beside(world: &World, pair: [SegmentId; 2], which: usize, end: f64) -> Self {
+        let [start, last] = pair[which].ends(world);
+        let point = if end == 0.0 { start } else { last };
+        let [a, b] = pair[1 - which].ends(world);
+        let span = b - a;
+        let along = (point - a).dot(&span) / span.norm_squared();
+        // A segment without length is at its start.
+        let along = if along > 0.0 { along.min(1.0) } else { 0.0 };
+        let apart = point - (a + span * along);
+        if which == 0 {
+            Closest {
+                parameters: [end, along],
+                separation: apart,
+            }
+        } else {
+            Closest {
+                parameters: [along, end],
+                separation: -apart,
+            }
+        }
+    }
+
+    /// The places on both segments.
+    pub(super) fn sites(&self, world: &World, pair: [SegmentId; 2]) -> [WireSite; 2] {
+        [0, 1].map(|k| pair[k].site(world, self.parameters[k]))
+    }
+
     pub(super) fn distance(&self) -> f64 {
         self.separation.norm()
     }

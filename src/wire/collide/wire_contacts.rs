@@ -3,6 +3,7 @@
 //! A contact is known by its places on the material, never by segment numbers, which change. Each
 //! step it goes to the closest points of its two segments; at an end it hands over to the neighbour
 //! if that is closer and has no contact of its own. Two within a diameter of each other are one.
+//! Segments that lie along each other have contacts at the nodes beside them, too.
 //! Its normal is the direction between the closest points where the step starts, reversed while the
 //! wires are on each other's wrong side. That side is counted by crossings, never read from
 //! positions: it is how thesis mode brings wires back.
@@ -33,6 +34,16 @@ pub(in crate::wire) struct WireContact {
     pub(in crate::wire) gap: f64,
     /// It pushed in the last step.
     pub(in crate::wire) pushing: bool,
+    /// Of segments that lie along each other: which of the places is a node, and stays there.
+    pub(in crate::wire) at_node: Option<Side>,
+}
+
+/// One of the two wires of a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(in crate::wire) enum Side {
+    A,
+    B,
 }
 
 /// All contacts, oldest first.
@@ -60,18 +71,28 @@ impl WireContacts {
             normal,
             gap: 0.0,
             pushing: false,
+            at_node: None,
         }
     }
 
     /// Moves every contact to where the wires are now closest; contacts that come to one place
     /// become one.
     pub(super) fn refresh(&mut self, world: &World, thickness: Thickness) {
-        let mut taken: PairSet = self.list.iter().filter_map(|t| t.pair(world)).collect();
+        let mut taken = self.taken(world);
         for mut touch in std::mem::take(&mut self.list) {
             let Some(pair) = touch.pair(world) else {
                 continue;
             };
-            touch.slide(world, pair, thickness, &mut taken);
+            let stays = match touch.at_node {
+                None => {
+                    touch.slide(world, pair, thickness, &mut taken);
+                    true
+                }
+                Some(side) => touch.follow(world, side, pair, thickness),
+            };
+            if !stays {
+                continue;
+            }
             let mut older = self.list.iter_mut();
             match older.find(|older| older.is_within(MERGED, world, &touch.sites, thickness)) {
                 Some(older) => older.wrong |= touch.wrong,
@@ -97,6 +118,43 @@ impl WireContacts {
         self.list.iter().map(move |t| t.contact(friction))
     }
 
+    /// The pairs that have a contact at their closest points.
+    fn taken(&self, world: &World) -> PairSet {
+        let closest = self.list.iter().filter(|touch| touch.at_node.is_none());
+        closest.filter_map(|touch| touch.pair(world)).collect()
+    }
+
+    /// Adds contacts of nodes with segments that lie along theirs: where both segments of a contact are so near each
+    /// other at an end of one, beside the other, that they touch. With its closest points alone such a pair
+    /// would be held at one place.
+    pub(super) fn add_along(&mut self, world: &World, thickness: Thickness) {
+        let closest = self.list.iter().filter(|touch| touch.at_node.is_none());
+        let pairs: Vec<[SegmentId; 2]> = closest.filter_map(|touch| touch.pair(world)).collect();
+        for pair in pairs {
+            let ends = [Side::A, Side::B].map(|side| [(side, 0.0), (side, 1.0)]);
+            for (side, end) in ends.into_iter().flatten() {
+                let beside = Closest::beside(world, pair, side as usize, end);
+                let inside = is_inside(beside.parameters[1 - side as usize]);
+                let sites = beside.sites(world, pair);
+                let touches = beside.distance() <= thickness.touching(world, pair, &sites);
+                let known = || {
+                    let mut all = self.list.iter();
+                    all.any(|older| older.is_at(world, &sites, thickness))
+                };
+                if !(inside && touches) || thickness.is_bend(world, pair, &sites) || known() {
+                    continue;
+                }
+                if let Some(normal) = direction(&beside.separation) {
+                    let touch = self.make(sites, normal);
+                    self.list.push(WireContact {
+                        at_node: Some(side),
+                        ..touch
+                    });
+                }
+            }
+        }
+    }
+
     /// Adds contacts, at most one for each pair of segments and each place.
     pub(super) fn add(
         &mut self,
@@ -104,7 +162,7 @@ impl WireContacts {
         thickness: Thickness,
         new: impl IntoIterator<Item = WireContact>,
     ) {
-        let mut taken: PairSet = self.list.iter().filter_map(|t| t.pair(world)).collect();
+        let mut taken = self.taken(world);
         for touch in new {
             let free = touch.pair(world).is_some_and(|pair| taken.insert(pair));
             if free
@@ -260,14 +318,62 @@ impl WireContact {
             taken.remove(&from);
             taken.insert(pair);
         }
-        let [u, v] = closest.parameters;
-        self.sites = [pair[0].site(world, u), pair[1].site(world, v)];
-        if let Some(direction) = direction(&closest.separation) {
+        self.go(world, pair, &closest, thickness);
+    }
+
+    /// Goes on with its node to where that is beside the other wire. Returns whether it is beside it still.
+    fn follow(
+        &mut self,
+        world: &World,
+        side: Side,
+        mut pair: [SegmentId; 2],
+        thickness: Thickness,
+    ) -> bool {
+        let node = side as usize;
+        let [start, end] = pair[node].nodes(world).map(|node| node.arc);
+        let at = match self.sites[node].arc {
+            arc if arc == start => 0.0,
+            arc if arc == end => 1.0,
+            // The node was taken out.
+            _ => return false,
+        };
+        let other = 1 - node;
+        let mut beside = Closest::beside(world, pair, node, at);
+        while !is_inside(beside.parameters[other]) {
+            let from = pair[other].segment;
+            let to = if beside.parameters[other] == 0.0 {
+                from.checked_sub(1)
+            } else {
+                Some(from + 1).filter(|&to| to < pair[other].of(world).segments.len())
+            };
+            let Some(to) = to else { return false };
+            let mut next = pair;
+            next[other].segment = to;
+            if joined(world, next) {
+                return false;
+            }
+            let closer = Closest::beside(world, next, node, at);
+            if closer.distance() >= beside.distance() {
+                // At a node of the other wire.
+                break;
+            }
+            (pair, beside) = (next, closer);
+        }
+        self.go(world, pair, &beside, thickness);
+        true
+    }
+
+    fn go(&mut self, world: &World, pair: [SegmentId; 2], to: &Closest, thickness: Thickness) {
+        self.sites = to.sites(world, pair);
+        if let Some(direction) = direction(&to.separation) {
             self.normal = if self.wrong { -direction } else { direction };
         }
-        self.gap =
-            self.normal.dot(&closest.separation) - thickness.touching(world, pair, &self.sites);
+        self.gap = self.normal.dot(&to.separation) - thickness.touching(world, pair, &self.sites);
     }
+}
+
+fn is_inside(parameter: f64) -> bool {
+    parameter > 0.0 && parameter < 1.0
 }
 
 /// A neighbouring pair that is closer to touching, if the closest points are at an end.
@@ -295,10 +401,12 @@ fn hand_over(
     let mut closer = free.map(|next| (next, Closest::of(world, next)));
     // Above the distance at which they touch, which is less near each other along one wire.
     let height = |pair: [SegmentId; 2], at: &Closest| {
-        let [u, v] = at.parameters;
-        let sites = [pair[0].site(world, u), pair[1].site(world, v)];
+        let sites = at.sites(world, pair);
         at.distance() + thickness.allowance(world, pair, &sites)
     };
     let least = height(pair, closest);
     closer.find(|(next, other)| height(*next, other) < least)
 }
+
+#[cfg(test)]
+mod tests;

@@ -22,7 +22,8 @@ pub enum Stop {
         /// The point relative to the centre of mass, in m.
         local: Vector,
     },
-    /// A point of a body over which the wire turns, and sticks or slides.
+    /// A point of a body over which the wire turns, and sticks or slides. The wire is guided there, as
+    /// in the groove of a sheave: it does not slip off sideways.
     Contact {
         /// The body.
         body: BodyId,
@@ -185,6 +186,7 @@ impl Stop {
                     local,
                     normal: direction("normal", &normal)?,
                     friction,
+                    aside: None,
                 };
                 on_body(body, &local, kind)
             }

@@ -41,6 +41,9 @@ pub enum NodeKind {
         normal: Vector,
         /// Coefficient of friction.
         friction: f64,
+        /// Unit vector along the surface and across the wire, in the body's frame: the wire may slip
+        /// off this way and back. `None` where it is guided, as in the groove of a sheave.
+        aside: Option<Vector>,
     },
 }
 
@@ -166,12 +169,17 @@ impl Node {
                 local,
                 normal,
                 friction,
+                aside,
             } => {
                 finite("slide", self.slide)?;
                 finite_vector("local", &local)?;
                 finite_vector("normal", &normal)?;
                 positive("length of the normal", normal.norm())?;
                 not_negative("friction", friction)?;
+                if let Some(aside) = aside {
+                    finite_vector("aside", &aside)?;
+                    positive("length of aside", aside.norm())?;
+                }
                 // One that was attached just now is there to rounding, of an orientation whose
                 // length is 1 within 1e-9.
                 let size = local.amax() + self.position.coords.amax();

@@ -241,6 +241,7 @@ impl WireContactContent {
             normal: self.normal,
             gap: self.gap,
             pushing: self.pushing,
+            at_node: self.at_node,
         })
     }
 }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::State;
 use crate::broad::Placed;
 use crate::query::Point;
-use crate::wire::collide::{KnownContacts, WireContact, WireContacts};
+use crate::wire::collide::{KnownContacts, Side, WireContact, WireContacts};
 use crate::wire::model::{Body, MeshParts, Node, NodeKind, Phase, Segment, Wire};
 use crate::wire::site::WireSite;
 use crate::wire::solver_cache::SolverCache;
@@ -127,6 +127,7 @@ pub(super) struct WireContactContent {
     pub(super) normal: Vector,
     pub(super) gap: f64,
     pub(super) pushing: bool,
+    pub(super) at_node: Option<Side>,
 }
 
 impl From<&State> for Content {
@@ -332,6 +333,7 @@ impl From<&WireContact> for WireContactContent {
             normal,
             gap,
             pushing,
+            at_node,
         } = *contact;
         WireContactContent {
             key,
@@ -340,6 +342,7 @@ impl From<&WireContact> for WireContactContent {
             normal,
             gap,
             pushing,
+            at_node,
         }
     }
 }

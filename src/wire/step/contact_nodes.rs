@@ -18,6 +18,8 @@ pub(in crate::wire) struct ContactNodeInsertion {
     /// Unit normal out of the body.
     pub(in crate::wire) normal: Vector,
     pub(in crate::wire) friction: f64,
+    /// Unit vector along the surface and across the wire.
+    pub(in crate::wire) aside: Vector,
 }
 
 /// Gives wires contact nodes where bodies bend them. A free node that is near is attached to the
@@ -91,20 +93,22 @@ fn attached(
             local,
             normal: into(&insertion.normal),
             friction: insertion.friction,
+            aside: Some(into(&insertion.aside)),
         },
         slide,
         ..node
     })
 }
 
-/// Frees the nodes that leave: where the wire turns away from the body, near a free end, and where
-/// nodes crowd.
+/// Frees the nodes that leave: where the wire turns away from the body or slips off sideways, near a
+/// free end, and where nodes crowd.
 pub(super) fn release(world: &mut World) -> Vec<Slide> {
     let mut slides = Vec::new();
     for at in 0..world.wires.len() {
         for node in contact_nodes(&world.wires[at]) {
             let wire = &world.wires[at];
-            if is_pulled_off(world, at, node) || runs_out(wire, node) || is_crowded(wire, node) {
+            let is_pulled = is_pulled_off(world, at, node) || is_pulled_aside(world, at, node);
+            if is_pulled || runs_out(wire, node) || is_crowded(wire, node) {
                 detach(&mut world.wires[at], node);
                 slides.push(Slide {
                     wire: WireId(at),
@@ -126,6 +130,41 @@ fn is_pulled_off(world: &World, wire: usize, node: usize) -> bool {
     };
     let [before, after] = directions(wire, node);
     (after - before).dot(&world.bodies[body.0].arm(&normal)) > 0.0
+}
+
+/// The wire pulls the node sideways with more than the friction of its pull into the body.
+fn is_pulled_aside(world: &World, wire: usize, node: usize) -> bool {
+    let wire = &world.wires[wire];
+    let NodeKind::Contact {
+        body,
+        normal,
+        friction,
+        aside: Some(aside),
+        ..
+    } = wire.nodes[node].kind
+    else {
+        return false;
+    };
+    let body = &world.bodies[body.0];
+    let [before, after] = directions(wire, node);
+    let [from, to] = [node - 1, node].map(|segment| wire.segments[segment].tension);
+    let pull = after * to - before * from;
+    let (normal, aside) = (body.arm(&normal), body.arm(&aside));
+    let pressing = pull.dot(&normal).abs() * pressing_by_pull(&[before, after]);
+    pull.dot(&aside).abs() > friction * pressing
+}
+
+/// By how much the wire presses on a convex curve, for its pull into it. The curve turns it by `D` from one direction
+/// to another: `(D/2) / sin(D/2)`.
+pub(in crate::wire) fn pressing_by_pull(directions: &[Vector; 2]) -> f64 {
+    let [before, after] = directions;
+    // tan(D/2) = sin D / (1 + cos D)
+    let half = libm::atan2(before.cross(after).norm(), 1.0 + before.dot(after));
+    if half > 0.0 {
+        half / libm::sin(half)
+    } else {
+        1.0
+    }
 }
 
 /// A free end of the wire has come as near as it may.

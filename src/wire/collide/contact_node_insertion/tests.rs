@@ -7,8 +7,8 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::query::Point;
 use crate::wire::{
-    BodyPlan, Collisions, Material, NodeKind, Settings, Shape, StepRecord, Stop, Vector, WirePlan,
-    World,
+    BodyId, BodyPlan, Collisions, Drive, Material, NodeKind, Phase, Settings, Shape, StepRecord,
+    Stop, Vector, WirePlan, World,
 };
 
 const RADIUS: f64 = 0.005;
@@ -48,7 +48,7 @@ fn balls(masses: [f64; 2]) -> World {
 
 /// Steps a world with contact nodes, and shows every step.
 fn run(world: &mut World, friction: f64, time: f64, mut look: impl FnMut(&World, &StepRecord)) {
-    let collisions = Collisions::default().with_contact_nodes();
+    let collisions = Collisions::default();
     let mut collisions = collisions.with_friction(friction).unwrap();
     for _ in 0..(time / world.settings().step) as usize {
         let record = world.step_colliding(&mut collisions, &[]).unwrap();
@@ -143,11 +143,109 @@ fn wire_slides_off_an_edge() {
     assert!(heights(&world) < -1.5);
     // Without contact nodes one that is free hooks on the edge.
     let mut world = over_an_edge();
-    let mut collisions = Collisions::default().with_friction(FRICTION).unwrap();
+    let collisions = Collisions::default().without_contact_nodes();
+    let mut collisions = collisions.with_friction(FRICTION).unwrap();
     for _ in 0..60 {
         world.step_colliding(&mut collisions, &[]).unwrap();
     }
     assert!(contact_nodes(&world).is_empty() && heights(&world) > 0.0);
+}
+
+/// A chain over an edge of the cube, whose ends move along the edge; over a contact node of its route or not.
+fn drawn_along_an_edge(guided: bool) -> World {
+    let mut world = cube();
+    let mut end = |place: Point| {
+        let phase = |from: f64, speed: f64| Phase {
+            from,
+            velocity: Vector::y() * speed,
+            angular_velocity: Vector::zeros(),
+        };
+        let drive = Drive::Kinematic(vec![phase(0.5, 0.1), phase(4.5, 0.0)]);
+        let shape = Shape::Sphere { radius: 0.01 };
+        let plan = BodyPlan {
+            drive,
+            ..BodyPlan::fixed(shape, place)
+        };
+        let body = world.add_body(plan).unwrap();
+        let local = Vector::zeros();
+        Stop::Eye { body, local }
+    };
+    // Symmetric about the plane that halves the edge.
+    let [from, to] = [Point::new(0.1, -0.2, 0.1), Point::new(0.6, -0.2, -0.4)].map(&mut end);
+    let out = Vector::new(1.0, 0.0, 1.0).normalize();
+    let corner = Point::new(0.5, -0.2, 0.0) + corner_of_edge();
+    let over = if guided {
+        Stop::Contact {
+            body: BodyId(0),
+            local: corner - Point::new(0.0, 0.0, -0.5),
+            normal: out,
+            friction: FRICTION_OF_EDGE,
+        }
+    } else {
+        Stop::Free(corner)
+    };
+    let material = Material {
+        density: 500.0,
+        stretch_modulus: 1e7,
+        ..Material::steel(RADIUS).chain()
+    };
+    let mut plan = WirePlan::new(material, 0.2, vec![from, over, to]).adaptive();
+    plan.length = Some(0.78);
+    world.add_wire(&plan).unwrap();
+    world
+}
+
+const FRICTION_OF_EDGE: f64 = 0.5;
+
+/// Where the wire turns, from the edge.
+fn corner_of_edge() -> Vector {
+    Vector::new(1.0, 0.0, 1.0).normalize() * RADIUS
+}
+
+#[test]
+fn wire_slips_along_an_edge_where_friction_holds_it_no_more() {
+    // With `phi` the angle by which both parts of the wire are off the plane across the edge, they pull along it with
+    // 2 T sin(phi), and into it with T cos(phi) times the sum of their directions across. A curve of this turn `D` is
+    // pressed by (D/2) / sin(D/2) of that.
+    let across = [(-0.4, 0.1), (0.1, -0.4)];
+    let across = across.map(|(x, z)| Vector::new(x, 0.0, z) - corner_of_edge());
+    let length = across[0].norm();
+    let sum = (across[0] + across[1]).norm() / length;
+    let half = libm::acos(sum / 2.0);
+    let half = std::f64::consts::FRAC_PI_2 - half;
+    let slope = FRICTION_OF_EDGE * sum / 2.0 * half / libm::sin(half);
+    for guided in [false, true] {
+        let mut world = drawn_along_an_edge(guided);
+        let (mut lags, mut attached) = (Vec::new(), Vec::new());
+        // The ends rest for half a second, and move for four.
+        run(&mut world, FRICTION_OF_EDGE, 4.5, |world, _| {
+            let end = world.bodies()[1].position().y;
+            let apart = |place: &Point| (place.x - 0.5).hypot(place.z);
+            let nodes = world.wires()[0].nodes().iter().map(|node| node.position);
+            let nearest = nodes.min_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap();
+            lags.push((end - nearest.y) / length);
+            attached.push(contact_nodes(world).len());
+        });
+        assert_eq!(attached[25], 1);
+        let last = lags[lags.len() - 1];
+        if guided {
+            assert!(attached.iter().all(|&count| count == 1));
+            assert!((last * length - 0.4).abs() < 2e-3, "{last}");
+            continue;
+        }
+        // It sticks as far as that and then slips: with a free node, which contacts of both segments hold, whose
+        // normals together are 1.17 times as long as their sum.
+        let slips = attached.iter().skip(25).position(|&count| count == 0);
+        let slips = 25 + slips.unwrap();
+        assert!(
+            lags[slips] > slope && lags[slips] < 1.1 * slope,
+            "{} {slope}",
+            lags[slips]
+        );
+        let steady = &lags[lags.len() - 120..];
+        assert!(steady.iter().all(|lag| (lag / last - 1.0).abs() < 0.01));
+        assert!(last > slope && last < 1.25 * slope, "{last} {slope}");
+    }
 }
 
 #[test]

@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, UnitQuaternion};
 
 use crate::broad::SlowPairs;
 use crate::query::Point;
-use crate::wire::collide::{BODY_KEYS, KnownContacts, WIRE_KEYS, WireContact, WireContacts};
+use crate::wire::collide::{BODY_KEYS, KnownContacts, Side, WIRE_KEYS, WireContact, WireContacts};
 use crate::wire::model::{Body, Node, NodeKind, Segment, Wire};
 use crate::wire::site::WireSite;
 use crate::wire::solver_cache::{SolverCache, WarmStart};
@@ -108,6 +108,7 @@ pub(super) fn every_field() -> State {
         local,
         normal: n.vector(),
         friction: n.next(),
+        aside: Some(n.vector()),
     };
     let eye = NodeKind::Eye { body, local };
     let at = bodies[2].point(&local);
@@ -161,12 +162,14 @@ pub(super) fn every_field() -> State {
         normal: -Vector::y(),
         gap: n.next(),
         pushing: false,
+        at_node: Some(Side::B),
     };
     let other = WireContact {
         key: WIRE_KEYS + 4,
         sites: [site(2.0), site(26.0)],
         wrong: false,
         pushing: true,
+        at_node: None,
         ..touch.clone()
     };
     let with_body = ContactConstraint {

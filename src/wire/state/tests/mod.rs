@@ -69,7 +69,7 @@ fn after(steps: usize) -> (World, Collisions<'static>) {
     let mut plan = WirePlan::new(steel.chain(), 0.125, route).adaptive();
     plan.velocity = Vector::new(0.0, 0.0, -6.0);
     world.add_wire(&plan).unwrap();
-    let mut collisions = Collisions::default().with_contact_nodes();
+    let mut collisions = Collisions::default();
     for _ in 0..steps {
         world.step_colliding(&mut collisions, &[]).unwrap();
     }
