@@ -8,6 +8,7 @@ use crate::wire::Vector;
 use crate::wire::contact::{ContactConstraint, ContactSite};
 use crate::wire::model::{BodyId, NodeKind, WireId};
 use crate::wire::site::SegmentId;
+use crate::wire::step::capstan::LEAST;
 use crate::wire::world::World;
 
 /// What has a box.
@@ -21,7 +22,7 @@ pub(super) enum Collider {
 pub(super) type Found = (Option<SegmentId>, ContactConstraint);
 
 /// Adds the contacts of one pair. On a segment, a place between two others counts only if it is
-/// deeper, and none in the half that a contact node on this body ends: the node holds that.
+/// deeper, and none that is next to a contact node on this body: the node holds that.
 pub(super) fn contacts_of(
     world: &World,
     [a, b]: [Collider; 2],
@@ -57,7 +58,7 @@ pub(super) fn contacts_of(
     }
 }
 
-/// Whether a place of a segment is in the half that a node on a body ends.
+/// Whether a place of a segment is so near to a node on a body that no other contact node may be there.
 fn is_beside_contact_node(world: &World, id: SegmentId, body: BodyId, arc: f64) -> bool {
     let [start, end] = id.nodes(world);
     let nearer = if arc - start.arc < end.arc - arc {
@@ -65,7 +66,8 @@ fn is_beside_contact_node(world: &World, id: SegmentId, body: BodyId, arc: f64) 
     } else {
         end
     };
-    nearer.kind.is_on(body)
+    let near = LEAST * id.of(world).resolution.length;
+    nearer.kind.is_on(body) && (nearer.arc - arc).abs() < near
 }
 
 /// The place of a thing that touches at its surface. On a segment it is the one beside the surface, or the node

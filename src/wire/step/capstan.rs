@@ -31,7 +31,7 @@ use crate::wire::world::World;
 
 /// What is left of a segment that wire slides out of, as a fraction of the resolution, and of what
 /// it was before the step.
-pub(super) const LEAST: f64 = 1.0 / 16.0;
+pub(in crate::wire) const LEAST: f64 = 1.0 / 16.0;
 
 /// Slip of a wire that sticks, which the regularisation allows, as a fraction of the speed that its
 /// friction could take from the node in one step. The motion leaves it out.

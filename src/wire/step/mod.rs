@@ -6,7 +6,7 @@ mod anderson;
 mod augmented;
 mod budget;
 pub(super) mod callbacks;
-mod capstan;
+pub(super) mod capstan;
 mod carrier;
 mod conjugate_gradients;
 mod constitutive;
