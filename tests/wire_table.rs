@@ -53,4 +53,8 @@ cases! {
     folded_chain_falls_ahead_of_free_fall: "folded chain",
     hanging_chain_swings_as_bernoulli_found: "hanging chain",
     sagging_cable_has_the_frequency_of_its_stretch: "sagging cable",
+    torsion_pendulum_has_its_frequency: "torsion pendulum",
+    turn_of_an_end_gives_its_torque: "prescribed turn",
+    twisted_rod_buckles_as_greenhill_found: "twisted rod",
+    twisted_ring_leaves_its_plane_as_michell_found: "twisted ring",
 }

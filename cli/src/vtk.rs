@@ -111,13 +111,15 @@ impl Bodies {
 pub fn polygons(record: &StepRecord, radii: &[f64]) -> String {
     let mut points: Vec<Point> = Vec::new();
     let mut lines = Vec::new();
-    let (mut tensions, mut thickness, mut wires) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut tensions, mut torques) = (Vec::new(), Vec::new());
+    let (mut thickness, mut wires) = (Vec::new(), Vec::new());
     for (w, wire) in record.wires.iter().enumerate() {
         let first = points.len();
         points.extend(&wire.after);
         for (segment, tension) in wire.tensions.iter().enumerate() {
             lines.extend([first + segment, first + segment + 1]);
             tensions.push(*tension);
+            torques.push(wire.torque);
             thickness.push(radii.get(w).copied().unwrap_or(0.0));
             wires.push(w);
         }
@@ -156,6 +158,7 @@ pub fn polygons(record: &StepRecord, radii: &[f64]) -> String {
     cells(&mut text, &lines, 2);
     text += "</Lines>\n<CellData Scalars=\"tension\">\n";
     array(&mut text, "Float64", "tension", 1, padded(tensions));
+    array(&mut text, "Float64", "torque", 1, padded(torques));
     array(&mut text, "Float64", "radius", 1, padded(thickness));
     array(&mut text, "Int64", "wire", 1, wires);
     array(&mut text, "Float64", "force", 3, forces);

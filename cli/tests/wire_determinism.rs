@@ -13,7 +13,7 @@ use tunnelproof_cli::scenes::Scene;
 
 mod worlds;
 
-use worlds::{contacts, edge, heap, hoist, tumbling_box};
+use worlds::{contacts, edge, heap, hoist, tumbling_box, twisted};
 
 /// FNV-1a over the bits of every coordinate.
 fn hash(world: &World) -> u64 {
@@ -105,6 +105,23 @@ fn steps_with_contact_nodes_that_come_and_go_give_the_same_bits_in_every_build()
     }
     assert!(left > 0);
     assert_eq!(hash(&world), 0x2176_b5bd_cae6_a25b, "{:#x}", hash(&world));
+}
+
+#[test]
+fn steps_of_twisted_wires_give_the_same_bits_in_every_build() {
+    let mut world = twisted();
+    let mut collisions = Collisions::default();
+    let mut remeshed = 0;
+    for _ in 0..90 {
+        let record = world.step_colliding(&mut collisions, &[]).unwrap();
+        remeshed += record.remeshes.len();
+    }
+    assert!(remeshed > 0);
+    let twists = [0, 1].map(|wire: usize| world.wires()[wire].twist());
+    let bits = twists.map(f64::to_bits);
+    let expected = [0x3fe3_5ef9_cc54_cb94, 0x402d_ca5e_0c62_6b82];
+    assert_eq!(bits, expected, "{bits:#x?} {twists:?}");
+    assert_eq!(hash(&world), 0xe0e3_ce1a_03ec_84a4, "{:#x}", hash(&world));
 }
 
 /// The same records on any number of threads, but for how long they took.

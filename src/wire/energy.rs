@@ -12,7 +12,7 @@ pub struct Energy {
     pub kinetic: f64,
     /// Of height, against the origin.
     pub potential: f64,
-    /// Of stretch and bending.
+    /// Of stretch, bending and twist.
     pub elastic: f64,
 }
 
@@ -112,7 +112,7 @@ fn sliding(wire: &Wire) -> f64 {
 }
 
 /// `g^2 / (2 eps)` of every row: stretch, which a chain has only where it is longer than
-/// unstretched, and bend.
+/// unstretched, bend and twist.
 fn elastic(wire: &Wire) -> f64 {
     let material = &wire.material;
     let direction = |segment: usize| {
@@ -132,5 +132,5 @@ fn elastic(wire: &Wire) -> f64 {
             energy += turn.norm_squared() * material.bend_stiffness() / (2.0 * mean);
         }
     }
-    energy
+    energy + wire.twist_energy()
 }

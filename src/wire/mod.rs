@@ -7,8 +7,8 @@
 //! `docs/wires.md`.
 //!
 //! The same input gives the same bits, whatever the build and the machine: one thread, no order
-//! that depends on addresses, no fused operations, and of transcendental functions only the sine
-//! and cosine of the `libm` crate.
+//! that depends on addresses, no fused operations, and of transcendental functions only the sine,
+//! cosine and arc tangent of the `libm` crate.
 //!
 //! ```
 //! use tunnelproof::query::Point;
@@ -43,6 +43,7 @@ mod sparse;
 #[cfg(feature = "recording")]
 pub mod state;
 mod step;
+mod torsion;
 mod union_find;
 mod vector;
 mod world;
@@ -53,7 +54,7 @@ pub use energy::Energy;
 pub use error::{CollisionError, Reason, StepError};
 pub use model::{
     Body, BodyId, BodyPlan, Drive, MassProperties, Material, Mesh, ModelError, Node, NodeKind,
-    Phase, Resolution, Segment, Shape, Stop, Wire, WireId, WirePlan,
+    Phase, Resolution, RopePlan, Segment, Shape, Stop, Wire, WireId, WirePlan,
 };
 pub use record::{
     AddedInertia, BodyCrossing, BodyCrossingOutcome, BodyRecord, CollisionRecord, ContactRecord,

@@ -10,7 +10,7 @@
 //! l_user`. The step keeps segments stable that are too short for their tension
 //! (`step/transverse.rs`).
 
-use super::model::wire::TENSION_HISTORY;
+use super::model::wire::{Clamp, TENSION_HISTORY};
 use super::model::{Node, NodeKind, Segment, Wire, WireId};
 use super::world::World;
 use crate::query::Point;
@@ -113,7 +113,8 @@ fn merge(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
         let short = length < wanted * (1.0 - ROUNDING);
         let may_change = wire.resolution.adaptive && this.remesh_from <= world.steps;
         let is_used_up = is_used_up(world, at, node, wanted);
-        if this.kind == NodeKind::Free && (is_used_up || may_change && short) {
+        let is_asked = is_used_up || may_change && short;
+        if this.kind == NodeKind::Free && is_asked && !joins_a_clamp(wire, node) {
             let nodes = [node - 1, node, node + 1].map(|i| wire.nodes[i]);
             let change = remesh(at, RemeshKind::Merge, &nodes);
             if guard.permits(world, &change) {
@@ -129,6 +130,15 @@ fn merge(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
         }
         node += 1;
     }
+}
+
+/// Whether an end of a wire that resists twist would be clamped without a node: what clamps it is its
+/// route alone.
+fn joins_a_clamp(wire: &Wire, node: usize) -> bool {
+    let is_beside_end = node == 1 || node + 2 == wire.nodes.len();
+    is_beside_end
+        && wire.material.twist_modulus > 0.0
+        && Clamp::of([&wire.nodes[node - 1], &wire.nodes[node + 1]]).is_some()
 }
 
 /// Whether a wire slides over a contact node.
@@ -167,7 +177,7 @@ fn split(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
         } else {
             ends.iter().any(|node| node.slide != 0.0)
         };
-        if may_change && wire.rest_length(segment) > long {
+        if may_change && wire.rest_length(segment) > long && !wire.is_clamp(segment) {
             let until = world.steps + TENSION_HISTORY as u64;
             let middle = between(&ends, until);
             let change = remesh(at, RemeshKind::Split, &[ends[0], middle, ends[1]]);

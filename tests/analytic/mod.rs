@@ -11,6 +11,7 @@ pub(crate) mod falling;
 mod motion;
 mod statics;
 mod swing;
+mod torsion;
 
 use std::error::Error;
 
@@ -63,7 +64,7 @@ impl Comparison {
 }
 
 /// All cases.
-pub(crate) const CASES: [Case; 25] = [
+pub(crate) const CASES: [Case; 29] = [
     motion::FREE_FALL,
     statics::STRETCH,
     motion::PENDULUM,
@@ -89,6 +90,10 @@ pub(crate) const CASES: [Case; 25] = [
     falling::FOLDED,
     cable::HANGING,
     cable::SAGGING,
+    torsion::PENDULUM,
+    torsion::TORQUE,
+    torsion::GREENHILL,
+    torsion::MICHELL,
 ];
 
 /// What contacts a world has at present.

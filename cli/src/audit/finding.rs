@@ -162,6 +162,10 @@ pub enum Field {
     After,
     /// Tensions of segments.
     Tensions,
+    /// Its torque.
+    Torque,
+    /// Its twist.
+    Twist,
 }
 
 /// A number of a step.
@@ -371,6 +375,8 @@ impl fmt::Display for Field {
             Field::Before => "before",
             Field::After => "after",
             Field::Tensions => "tensions",
+            Field::Torque => "torque",
+            Field::Twist => "twist",
         })
     }
 }

@@ -20,7 +20,7 @@ pub(super) fn hides_motion(what: &What) -> bool {
     !matches!(
         what,
         What::Unsound {
-            field: Field::Tensions,
+            field: Field::Tensions | Field::Torque | Field::Twist,
             ..
         }
     )
@@ -61,7 +61,12 @@ fn fault(wire: &WireRecord) -> Option<(Field, Option<usize>)> {
         .tensions
         .iter()
         .position(|tension| !tension.is_finite());
-    not_finite.map(|at| (Field::Tensions, Some(at)))
+    if let Some(at) = not_finite {
+        return Some((Field::Tensions, Some(at)));
+    }
+    let numbers = [(Field::Torque, wire.torque), (Field::Twist, wire.twist)];
+    let not_finite = numbers.into_iter().find(|(_, value)| !value.is_finite());
+    not_finite.map(|(field, _)| (field, None))
 }
 
 /// Number and time of a step.

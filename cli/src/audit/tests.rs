@@ -285,6 +285,7 @@ fn remesh_records([x, y]: [f64; 2], kind: RemeshKind) -> [StepRecord; 2] {
         before: points.to_vec(),
         after: points.to_vec(),
         tensions: vec![0.0; arcs.len() - 1],
+        ..WireRecord::default()
     };
     let (arcs, straight) = ([0.0, 1.0, 2.0], [triangle[0], triangle[2]]);
     let bent = wire(&arcs, &triangle);
@@ -368,6 +369,7 @@ fn remeshed_beside_a_body(x: f64, kind: RemeshKind) -> Report {
         arcs: arcs_before,
         before: places.clone(),
         after: places,
+        ..WireRecord::default()
     }];
     record.remeshes = vec![Remesh {
         wire: WireId(0),
@@ -546,6 +548,7 @@ fn pressed(before: f64, after: f64) -> Report {
         before: before.map(Point::from).to_vec(),
         after: after.map(Point::from).to_vec(),
         tensions: vec![0.0],
+        ..WireRecord::default()
     };
     let below = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
     let above = |z: f64| [[0.0, -1.0, z], [0.0, 1.0, z]];
@@ -835,6 +838,10 @@ fn audit_names_numbers_that_are_none_of_a_wire() {
     for wrong in [f64::NAN, f64::INFINITY] {
         let tension = report(&|wire| wire.tensions[1] = wrong);
         assert_eq!(tension, [unsound(Field::Tensions, Some(1))]);
+        let torque = report(&|wire| wire.torque = wrong);
+        assert_eq!(torque, [unsound(Field::Torque, None)]);
+        let twist = report(&|wire| wire.twist = wrong);
+        assert_eq!(twist, [unsound(Field::Twist, None)]);
         let place = report(&|wire| wire.after[2].y = wrong);
         assert!(place.contains(&unsound(Field::After, Some(2))));
     }

@@ -97,10 +97,15 @@ impl Scene {
                 }
             }
         }
-        let mut plan = WirePlan::new(wire.material.plan(), wire.resolution, route);
+        let material = wire.material.plan();
+        let material = material.map_err(|(field, reason)| {
+            SceneError::new(&[&"wires", &k, &"material", &field], reason)
+        })?;
+        let mut plan = WirePlan::new(material, wire.resolution, route);
         plan.resolution.adaptive = wire.adaptive;
         plan.length = wire.length;
         plan.velocity = wire.velocity.into();
+        plan.twist = wire.twist;
         Ok((plan, entries))
     }
 
@@ -225,16 +230,73 @@ impl Drive {
 }
 
 impl Material {
-    fn plan(&self) -> wire::Material {
+    /// As the model has it, or a field and what is wrong with it.
+    fn plan(&self) -> Result<wire::Material, (&'static str, Reason)> {
         let steel = wire::Material::steel(self.radius);
-        wire::Material {
-            density: self.density.unwrap_or(steel.density),
+        let (area, second_moment) = (steel.area(), steel.second_moment());
+        let is_chain = [self.bend_modulus, self.bend_stiffness].contains(&Some(0.0));
+        if let Some(value) = self
+            .twist_stiffness
+            .filter(|&value| is_chain && value > 0.0)
+        {
+            let (field, accepted) = ("twist_stiffness", "0 for a chain");
+            let error = ModelError::Value {
+                field,
+                value,
+                accepted,
+            };
+            return Err((field, Reason::Model(error)));
+        }
+        let density = self.modulus(
+            ["density", "mass_per_length"],
+            [self.density, self.mass_per_length],
+            area,
+        )?;
+        let stretch = self.modulus(
+            ["stretch_modulus", "stretch_stiffness"],
+            [self.stretch_modulus, self.stretch_stiffness],
+            area,
+        )?;
+        let bend = self.modulus(
+            ["bend_modulus", "bend_stiffness"],
+            [self.bend_modulus, self.bend_stiffness],
+            second_moment,
+        )?;
+        let twist = self.modulus(
+            ["twist_modulus", "twist_stiffness"],
+            [self.twist_modulus, self.twist_stiffness],
+            2.0 * second_moment,
+        )?;
+        Ok(wire::Material {
+            density: density.unwrap_or(steel.density),
             radius: steel.radius,
-            stretch_modulus: self.stretch_modulus.unwrap_or(steel.stretch_modulus),
-            bend_modulus: self.bend_modulus.unwrap_or(steel.bend_modulus),
+            stretch_modulus: stretch.unwrap_or(steel.stretch_modulus),
+            bend_modulus: bend.unwrap_or(steel.bend_modulus),
+            twist_modulus: twist.unwrap_or(steel.twist_modulus),
             stretch_damping: self.stretch_damping.unwrap_or(steel.stretch_damping),
             bend_damping: self.bend_damping.unwrap_or(steel.bend_damping),
+            twist_damping: self.twist_damping.unwrap_or(steel.twist_damping),
+        })
+    }
+
+    /// A modulus, from the field that has it or from the one that has the stiffness of the whole wire,
+    /// `factor` times as much.
+    fn modulus(
+        &self,
+        [of_material, of_wire]: [&'static str; 2],
+        [modulus, stiffness]: [Option<f64>; 2],
+        factor: f64,
+    ) -> Result<Option<f64>, (&'static str, Reason)> {
+        let Some(stiffness) = stiffness else {
+            return Ok(modulus);
+        };
+        if modulus.is_some() {
+            return Err((of_wire, Reason::Both(of_material)));
         }
+        let refused = |field| move |error| (field, Reason::Model(error));
+        check::positive("radius", self.radius).map_err(refused("radius"))?;
+        check::not_negative(of_wire, stiffness).map_err(refused(of_wire))?;
+        Ok(Some(stiffness / factor))
     }
 }
 

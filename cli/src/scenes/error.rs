@@ -32,6 +32,8 @@ pub enum Reason {
     NoBody(String),
     /// Two bodies or two wires have this name.
     Twice(String),
+    /// Something else says the same, by this field.
+    Both(&'static str),
     /// The state to go on from is of another scene: what it has there.
     State(String),
     /// A wire cannot hang there in a catenary of this length.
@@ -129,6 +131,9 @@ impl fmt::Display for Reason {
             Reason::Model(error) => error.fmt(f),
             Reason::NoBody(name) => write!(f, "there is no body {name:?}"),
             Reason::Twice(name) => write!(f, "the name {name:?} is there twice"),
+            Reason::Both(other) => {
+                write!(f, "{other} says the same; only one of the two may be there")
+            }
             Reason::State(what) => write!(f, "not as in the state to go on from, which has {what}"),
             Reason::Hang(length) => write!(
                 f,

@@ -173,6 +173,10 @@ pub struct Wire {
     /// The velocity that its free nodes start with, in m/s.
     #[serde(default)]
     pub velocity: Triple,
+    /// How far its last end is twisted against its first one at the start, in rad; only for a wire
+    /// that resists twist and is clamped at both ends.
+    #[serde(default)]
+    pub twist: f64,
 }
 
 fn yes() -> bool {
@@ -188,18 +192,38 @@ pub struct Material {
     /// Density in kg/m^3; 7850 for steel.
     #[serde(default)]
     pub density: Option<f64>,
+    /// Mass per length in kg/m, in place of the density.
+    #[serde(default)]
+    pub mass_per_length: Option<f64>,
     /// Young's modulus in stretch, in Pa; 2e11 for steel.
     #[serde(default)]
     pub stretch_modulus: Option<f64>,
+    /// E A in N, force per strain, in place of the modulus.
+    #[serde(default)]
+    pub stretch_stiffness: Option<f64>,
     /// Young's modulus in bending, in Pa; 2e11 for steel. With 0 it is a chain, which pulls only.
     #[serde(default)]
     pub bend_modulus: Option<f64>,
+    /// E I in N m^2, moment per curvature, in place of the modulus. A rope of strands has far less
+    /// than a round bar of its radius.
+    #[serde(default)]
+    pub bend_stiffness: Option<f64>,
+    /// Shear modulus in twist, in Pa; usual value 0: it turns freely about itself. 7.9e10 is that of
+    /// steel. It matters where both ends are clamped.
+    #[serde(default)]
+    pub twist_modulus: Option<f64>,
+    /// G J in N m^2, torque per twist and length, in place of the modulus.
+    #[serde(default)]
+    pub twist_stiffness: Option<f64>,
     /// Damping time of stretch in s; usual value 1/30.
     #[serde(default)]
     pub stretch_damping: Option<f64>,
     /// Damping time of bending in s; usual value 0.075.
     #[serde(default)]
     pub bend_damping: Option<f64>,
+    /// Damping time of twist in s; usual value 1/30.
+    #[serde(default)]
+    pub twist_damping: Option<f64>,
 }
 
 /// A point that a wire's route passes, or how it gets to the next one.

@@ -188,6 +188,113 @@ fn scene_file_errors_name_line_and_field() {
     }
 }
 
+/// A rope between two clamps.
+const ROPE: &str = r#"
+title = "rope"
+duration = 1
+
+[[wires]]
+name = "rope"
+twist = 12.5
+resolution = 0.5
+route = [{ pinned = [0, 0, 0] }, { pinned = [0.1, 0, 0] }, { pinned = [3, 0, 0] }, { pinned = [3.1, 0, 0] }]
+material = { radius = 0.01, mass_per_length = 0.4, stretch_stiffness = 1e6, bend_stiffness = 0.5, twist_stiffness = 0.25, twist_damping = 0.5 }
+"#;
+
+#[test]
+fn rope_has_the_stiffness_that_its_scene_file_says() {
+    let world = Scene::from_toml(ROPE).unwrap().world().unwrap();
+    let wire = &world.wires()[0];
+    let material = wire.material();
+    let plan = wire::RopePlan {
+        radius: 0.01,
+        mass_per_length: 0.4,
+        stretch_stiffness: 1e6,
+        bend_stiffness: 0.5,
+        twist_stiffness: 0.25,
+    };
+    let twist_damping = 0.5;
+    let rope = wire::Material::rope(plan).unwrap();
+    assert_eq!(
+        *material,
+        wire::Material {
+            twist_damping,
+            ..rope
+        }
+    );
+    assert!(wire.holds_twist());
+    assert_eq!(wire.twist(), 12.5);
+}
+
+#[test]
+fn scene_file_says_a_stiffness_once() {
+    let refused = |from: &str, to: &str| {
+        assert!(ROPE.contains(from), "{from}");
+        let error = Scene::from_toml(&ROPE.replacen(from, to, 1)).unwrap_err();
+        error.to_string()
+    };
+    for (both, message) in [
+        (
+            "density = 1, mass_per_length",
+            "mass_per_length: density says the same",
+        ),
+        (
+            "stretch_modulus = 1, stretch_stiffness",
+            "stretch_stiffness: stretch_modulus says the same",
+        ),
+        (
+            "bend_modulus = 1, bend_stiffness",
+            "bend_stiffness: bend_modulus says the same",
+        ),
+        (
+            "twist_modulus = 1, twist_stiffness",
+            "twist_stiffness: twist_modulus says the same",
+        ),
+    ] {
+        let from = both.split(", ").last().unwrap();
+        let message =
+            format!("line 10: wires[0].material.{message}; only one of the two may be there");
+        assert_eq!(refused(from, both), message);
+    }
+    let cases = [
+        (
+            "bend_stiffness = 0.5",
+            "bend_stiffness = -1",
+            "line 10: wires[0].material.bend_stiffness: bend_stiffness is -1, it must be finite and at least 0",
+        ),
+        (
+            "bend_stiffness = 0.5",
+            "bend_stiffness = 0",
+            "line 10: wires[0].material.twist_stiffness: twist_stiffness is 0.25, it must be 0 for a chain",
+        ),
+        (
+            "radius = 0.01",
+            "radius = 0",
+            "line 10: wires[0].material.radius: radius is 0, it must be finite and above 0",
+        ),
+        (
+            "twist_stiffness = 0.25",
+            "twist_modulus = -1",
+            "line 10: wires[0].twist_modulus: twist_modulus is -1, it must be finite and at least 0",
+        ),
+        (
+            "twist_stiffness = 0.25",
+            "twist_stiffness = 0",
+            "line 7: wires[0].twist: twist is 12.5, it must be 0 unless the material has a \
+            twist_modulus and both ends are clamped",
+        ),
+        (
+            "{ pinned = [0.1, 0, 0] }, ",
+            "",
+            "line 7: wires[0].twist: twist is 12.5, it must be 0 unless the material has a \
+            twist_modulus and both ends are clamped",
+        ),
+    ];
+    for (from, to, message) in cases {
+        assert_eq!(refused(from, to), message);
+    }
+}
+
 #[test]
 fn scene_file_that_is_not_understood_is_shown() {
     let text = refused("adaptive = false", "adaptve = false");

@@ -2,8 +2,8 @@
 
 use tunnelproof::query::Point;
 use tunnelproof::wire::{
-    BodyId, BodyPlan, ContactConstraint, ContactSite, Drive, Material, Mesh, Settings, Shape, Stop,
-    Vector, WirePlan, World,
+    BodyId, BodyPlan, ContactConstraint, ContactSite, Drive, Material, Mesh, Phase, Settings,
+    Shape, Stop, Vector, WirePlan, World,
 };
 
 /// A tumbling box between an adaptive steel wire and a chain, which hits the ground.
@@ -147,5 +147,51 @@ pub(crate) fn edge() -> World {
     let mut plan = WirePlan::new(chain, 0.25, route.to_vec());
     plan.velocity = Vector::new(0.5, 0.0, -3.0);
     world.add_wire(&plan.adaptive()).unwrap();
+    world
+}
+
+/// A rod between a clamp and a box that falls, twisted by ten turns, and a turned shaft around a corner.
+pub(crate) fn twisted() -> World {
+    let mut world = World::new(Settings::default()).unwrap();
+    let half = Vector::new(0.2, 0.1, 0.15);
+    let load = BodyPlan::dynamic(Shape::Box { half }, 2000.0, Point::new(2.0, 0.0, 0.0));
+    let load = world.add_body(load).unwrap();
+    let drive = Drive::Kinematic(vec![Phase {
+        from: 0.25,
+        velocity: Vector::zeros(),
+        angular_velocity: Vector::new(0.0, 12.0, 0.0),
+    }]);
+    let chuck = BodyPlan::fixed(Shape::Sphere { radius: 0.05 }, Point::new(1.0, 3.0, 0.0));
+    let chuck = world.add_body(BodyPlan { drive, ..chuck }).unwrap();
+    let eye = |body, local: [f64; 3]| Stop::Eye {
+        body,
+        local: local.into(),
+    };
+    let pinned = |at: [f64; 3]| Stop::Pinned(at.into());
+    let free = |at: [f64; 3]| Stop::Free(at.into());
+    let material = Material {
+        twist_modulus: 7.9e10,
+        ..Material::steel(0.004)
+    };
+    let rod = vec![
+        pinned([-0.01, 0.0, 0.0]),
+        pinned([0.0, 0.0, 0.0]),
+        free([0.9, 0.02, 0.01]),
+        eye(load, [-0.2, 0.0, 0.0]),
+        eye(load, [-0.19, 0.0, 0.0]),
+    ];
+    let plan = WirePlan::new(material, 0.1, rod).adaptive();
+    world.add_wire(&plan.twisted(62.8)).unwrap();
+    let shaft = vec![
+        pinned([-0.01, 2.0, 0.0]),
+        pinned([0.0, 2.0, 0.0]),
+        free([0.6, 2.1, 0.0]),
+        free([0.9, 2.4, 0.0]),
+        eye(chuck, [0.0, 0.0, 0.0]),
+        eye(chuck, [0.0, 0.01, 0.0]),
+    ];
+    world
+        .add_wire(&WirePlan::new(material, 0.1, shaft))
+        .unwrap();
     world
 }

@@ -12,7 +12,7 @@ pub(in crate::wire) mod wire;
 
 pub use body::{Body, BodyId, BodyPlan, Drive, Phase};
 pub use error::ModelError;
-pub use material::Material;
+pub use material::{Material, RopePlan};
 pub use mesh::Mesh;
 #[cfg(feature = "recording")]
 pub(in crate::wire) use mesh::Parts as MeshParts;

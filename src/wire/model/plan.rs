@@ -1,7 +1,7 @@
 //! Wires to be added to a world.
 
 use super::check::{direction, finite_point, finite_vector, not_negative, positive};
-use super::wire::Segment;
+use super::wire::{Clamp, Segment};
 use super::{BodyId, Material, ModelError, Node, NodeKind, Resolution, Wire};
 use crate::query::Point;
 use crate::wire::Vector;
@@ -50,6 +50,9 @@ pub struct WirePlan {
     pub length: Option<f64>,
     /// The velocity its free nodes start with, in m/s.
     pub velocity: Vector,
+    /// How far its last end is twisted against its first one at the start, in rad, as
+    /// [`Wire::twist`]. Other than 0 only for a wire that [holds twist](Wire::holds_twist).
+    pub twist: f64,
 }
 
 impl WirePlan {
@@ -64,7 +67,15 @@ impl WirePlan {
             route,
             length: None,
             velocity: Vector::zeros(),
+            twist: 0.0,
         }
+    }
+
+    /// The same wire, twisted at the start, in rad.
+    #[must_use]
+    pub fn twisted(mut self, twist: f64) -> Self {
+        self.twist = twist;
+        self
     }
 
     /// The same wire with a resolution that follows its tension.
@@ -89,6 +100,7 @@ impl WirePlan {
             resolution: self.resolution,
             nodes,
             segments,
+            twist: self.twist,
         };
         wire.check(bodies).map_err(|(_, error)| error)?;
         Ok(wire)
@@ -119,14 +131,22 @@ impl WirePlan {
         Ok(length / path)
     }
 
-    /// The nodes: the stops, and free ones between them not closer than the resolution.
+    /// The nodes: the stops, and free ones between them not closer than the resolution. Where a
+    /// wire that resists twist is clamped there are none between.
     fn resolve(&self, stops: &[Node], stretch: f64) -> Vec<Node> {
         let mut nodes = vec![stops[0]];
         let mut arc = 0.0;
-        for two in stops.windows(2) {
+        let last = stops.len() - 2;
+        for (at, two) in stops.windows(2).enumerate() {
             let leg = two[1].position - two[0].position;
             let rest = leg.norm() * stretch;
-            let count = (rest / self.resolution.length).max(1.0) as usize;
+            let is_clamp = (at == 0 || at == last)
+                && self.material.twist_modulus > 0.0
+                && Clamp::of([&two[0], &two[1]]).is_some();
+            let count = match is_clamp {
+                true => 1,
+                false => (rest / self.resolution.length).max(1.0) as usize,
+            };
             for i in 1..=count {
                 let fraction = i as f64 / count as f64;
                 let mut node = free(two[0].position + leg * fraction, self.velocity);

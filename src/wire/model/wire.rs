@@ -118,6 +118,28 @@ impl Segment {
     }
 }
 
+/// What holds an end of a wire so that it neither turns nor twists there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::wire) enum Clamp {
+    /// Two points of the world.
+    World,
+    /// Two points of this body.
+    Body(BodyId),
+}
+
+impl Clamp {
+    /// Of two nodes in a row: if both are fixed to the same thing.
+    pub(in crate::wire) fn of(nodes: [&Node; 2]) -> Option<Self> {
+        match nodes.map(|node| node.kind) {
+            [NodeKind::Pinned, NodeKind::Pinned] => Some(Clamp::World),
+            [NodeKind::Eye { body: a, .. }, NodeKind::Eye { body: b, .. }] if a == b => {
+                Some(Clamp::Body(a))
+            }
+            _ => None,
+        }
+    }
+}
+
 /// How finely a wire is resolved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -135,6 +157,8 @@ pub struct Wire {
     pub(in crate::wire) resolution: Resolution,
     pub(in crate::wire) nodes: Vec<Node>,
     pub(in crate::wire) segments: Vec<Segment>,
+    /// How far its last end is twisted against its first one, in rad; 0 unless it holds twist.
+    pub(in crate::wire) twist: f64,
 }
 
 /// The most segments that a resolution may ask for, so that a slip does not take all memory.
@@ -240,6 +264,16 @@ impl Wire {
                 finite("tension", tension).map_err(whole)?;
             }
         }
+        finite("twist", self.twist).map_err(whole)?;
+        if self.twist != 0.0 && !self.holds_twist() {
+            let accepted = "0 unless the material has a twist_modulus and both ends are clamped";
+            return Err(whole(ModelError::value("twist", self.twist, accepted)));
+        }
+        if self.holds_twist() {
+            for clamp in [0, count - 2] {
+                positive("length of a clamp", self.span(clamp).norm()).map_err(whole)?;
+            }
+        }
         self.resolution.check(self.length()).map_err(whole)
     }
 
@@ -266,6 +300,48 @@ impl Wire {
     /// Its segments: segment `i` is between nodes `i` and `i + 1`.
     pub fn segments(&self) -> &[Segment] {
         &self.segments
+    }
+
+    /// Whether it holds twist: its material has a twist modulus, and both ends are clamped. An end is
+    /// clamped if its first two nodes are fixed to the world, or both to the same body. Then its
+    /// torque is `G J twist / l` in N m, with the unstretched length `l` between the clamps.
+    pub fn holds_twist(&self) -> bool {
+        self.clamps().is_some()
+    }
+
+    /// How far its last end is twisted against its first one, in rad, counterclockwise seen from
+    /// beyond the last end; any number of turns. 0 for a wire that does not hold twist.
+    pub fn twist(&self) -> f64 {
+        self.twist
+    }
+
+    /// What clamps the first end and the last one, of a wire that holds twist.
+    pub(in crate::wire) fn clamps(&self) -> Option<[Clamp; 2]> {
+        match self.nodes.as_slice() {
+            // What belongs to both clamps cannot be twisted.
+            [a, b, .., c, d] if self.material.twist_modulus > 0.0 => {
+                Some([Clamp::of([a, b])?, Clamp::of([c, d])?])
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether a segment clamps an end of a wire that holds twist. No node is put into it.
+    pub(in crate::wire) fn is_clamp(&self, segment: usize) -> bool {
+        (segment == 0 || segment + 1 == self.segments.len()) && self.holds_twist()
+    }
+
+    /// What twists: the unstretched length between the clamps, in m.
+    pub(in crate::wire) fn twisted_length(&self) -> f64 {
+        self.nodes[self.nodes.len() - 2].arc - self.nodes[1].arc
+    }
+
+    /// The elastic energy of its twist in J.
+    pub(in crate::wire) fn twist_energy(&self) -> f64 {
+        if self.twist == 0.0 {
+            return 0.0;
+        }
+        self.material.twist_stiffness() * self.twist * self.twist / (2.0 * self.twisted_length())
     }
 
     /// Unstretched length of a segment in m.

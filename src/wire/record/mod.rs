@@ -80,6 +80,11 @@ pub struct WireRecord {
     pub after: Vec<Point>,
     /// Tension of each segment in N.
     pub tensions: Vec<f64>,
+    /// Torque of the wire in N m, positive if its last end is twisted counterclockwise seen from beyond
+    /// it; 0 for a wire that does not hold twist.
+    pub torque: f64,
+    /// How far its last end is twisted against its first one after the motion, in rad.
+    pub twist: f64,
 }
 
 /// A body in a step. From pose to pose it turns as [`RigidMotion`](crate::rigid::RigidMotion) says.
@@ -234,6 +239,7 @@ impl StepRecord {
         for (record, wire) in self.wires.iter_mut().zip(&world.wires) {
             record.after = wire.nodes.iter().map(|node| node.position).collect();
             record.tensions = wire.segments.iter().map(|s| s.tension).collect();
+            record.twist = wire.twist;
         }
         for (record, pose) in self.bodies.iter_mut().zip(poses(world)) {
             record.after = pose;

@@ -172,6 +172,7 @@ impl From<WireContent> for Wire {
             resolution: wire.resolution,
             nodes: wire.nodes.into_iter().map(node).collect(),
             segments: wire.segments.into_iter().map(segment).collect(),
+            twist: wire.twist,
         }
     }
 }

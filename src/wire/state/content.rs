@@ -69,6 +69,7 @@ pub(super) struct WireContent {
     pub(super) resolution: Resolution,
     pub(super) nodes: Vec<NodeContent>,
     pub(super) segments: Vec<SegmentContent>,
+    pub(super) twist: f64,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -234,12 +235,14 @@ impl From<&Wire> for WireContent {
             resolution,
             nodes,
             segments,
+            twist,
         } = wire;
         WireContent {
             material: *material,
             resolution: *resolution,
             nodes: nodes.iter().map(NodeContent::from).collect(),
             segments: segments.iter().map(SegmentContent::from).collect(),
+            twist: *twist,
         }
     }
 }

@@ -5,7 +5,7 @@ use super::callbacks::{Given, MotionReview, StepCallbacks};
 use super::capstan;
 use super::contact_nodes;
 use super::motion::{MotionScales, ProposedMotion, SlideRate};
-use super::solution::{SOLVE, Solution};
+use super::solution::{SOLVE, Solution, Solved};
 use super::start::Start;
 use crate::wire::clock::Clock;
 use crate::wire::contact::{ContactConstraint, check};
@@ -15,6 +15,7 @@ use crate::wire::model::wire::TENSION_HISTORY;
 use crate::wire::record::{Phases, StepRecord};
 use crate::wire::resolution::{self, Permit, RemeshGuard};
 use crate::wire::solver_cache::{Structures, WarmStart};
+use crate::wire::torsion::{self, torsions};
 use crate::wire::world::World;
 
 /// A step is solved again as long as that may take one part in so many of what the first solve took.
@@ -65,15 +66,20 @@ impl World {
         self.cache.warm_start = WarmStart::new(keys.zip(impulses));
         let slid = self.commit(&solution, motion);
         record.after(self);
+        for (wire, impulse) in solution.islands().iter().flat_map(Solved::torques) {
+            record.wires[wire].torque = impulse / self.settings.step;
+        }
         record.energy = self.energy_of_motion(&solution);
         record.added_inertia = solution.added_inertia(self);
         self.cache.structures = solution.structures(self);
         phases.commit = clock.lap();
         record.slides = capstan::slides(self, &slid);
         record.slides.extend(contact_nodes::release(self));
+        let torsions = torsions(self);
         let insertions = watch.contact_nodes(self, &record.contacts);
         record.remeshes = contact_nodes::insert(self, &insertions, watch);
         record.remeshes.extend(resolution::adapt(self, watch));
+        torsion::follow_changes(self, &torsions);
         phases.resolution = clock.lap();
         record.phases = phases;
         Ok(record)
@@ -135,7 +141,9 @@ impl World {
     }
 
     fn commit(&mut self, solution: &Solution, motion: ProposedMotion) -> Vec<SlideRate> {
+        let torsions = torsions(self);
         let slid = motion.apply(self);
+        torsion::follow_motion(self, &torsions);
         let slot = self.steps as usize % TENSION_HISTORY;
         for own in solution.islands() {
             for (wire, impulses) in own.tensions(self) {

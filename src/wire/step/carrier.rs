@@ -4,6 +4,7 @@ use smallvec::SmallVec;
 
 use super::order::Block;
 use super::transverse::SteepNode;
+use crate::wire::model::wire::Clamp;
 use crate::wire::model::{BodyId, NodeKind};
 use crate::wire::world::World;
 use crate::wire::{ContactConstraint, ContactSite, Vector};
@@ -89,6 +90,9 @@ pub(super) struct Layout {
     /// The speed of sliding over each contact node. The multiplier of its friction is the next
     /// unknown.
     pub(super) slides: Vec<Option<usize>>,
+    /// The multiplier of each wire's row of twist, its torque; none of a wire that holds no twist. It
+    /// is tied to all nodes of the wire and comes after them.
+    pub(super) twist: Vec<Option<usize>>,
 }
 
 const UNSET: usize = usize::MAX;
@@ -140,6 +144,9 @@ impl Layout {
             nodes,
             first_node,
             bodies: vec![None; world.bodies.len()],
+            twist: (world.wires.iter())
+                .map(|wire| wire.holds_twist().then_some(UNSET))
+                .collect(),
         }
     }
 
@@ -189,6 +196,11 @@ impl Layout {
                 self.bend[at] = Some(self.take(3));
             }
         }
+        for at in 0..self.twist.len() {
+            if self.twist[at].is_some() {
+                self.twist[at] = Some(self.take(1));
+            }
+        }
         for (wire, &first) in world.wires.iter().zip(&self.first_node) {
             for (i, node) in wire.nodes.iter().enumerate() {
                 if let Some((body, local)) = node.kind.carrier() {
@@ -206,6 +218,20 @@ impl Layout {
             None => {
                 let (velocity, spin) = body.prescribed(world.time(), world.settings.step);
                 Carrier::Prescribed(velocity + spin.cross(&arm))
+            }
+        }
+    }
+
+    /// What carries the angular velocity of what clamps a wire.
+    pub(super) fn spin(&self, world: &World, clamp: Clamp) -> Carrier {
+        let Clamp::Body(id) = clamp else {
+            return Carrier::Prescribed(Vector::zeros());
+        };
+        match self.bodies[id.0] {
+            Some(first) => Carrier::Free(first + 3),
+            None => {
+                let (_, spin) = world.bodies[id.0].prescribed(world.time(), world.settings.step);
+                Carrier::Prescribed(spin)
             }
         }
     }

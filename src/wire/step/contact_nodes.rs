@@ -43,6 +43,9 @@ pub(super) fn insert(
             continue;
         }
         let (segment, parameter) = wire.at(insertion.arc);
+        if wire.is_clamp(segment) {
+            continue;
+        }
         let [start, end] = [wire.nodes[segment], wire.nodes[segment + 1]];
         let node = Node {
             position: start.position + wire.span(segment) * parameter,

@@ -1,4 +1,4 @@
-//! The rows of stretch and bend.
+//! The rows of stretch, bend and twist.
 
 use nalgebra::Matrix3;
 use smallvec::{SmallVec, smallvec};
@@ -9,6 +9,7 @@ use super::softness::Softness;
 use crate::wire::contact::ContactConstraint;
 use crate::wire::model::Wire;
 use crate::wire::settings::Settings;
+use crate::wire::torsion::Torsion;
 use crate::wire::vector::{Vector, unit};
 use crate::wire::world::World;
 
@@ -272,7 +273,7 @@ pub(super) fn normal_row(settings: &Settings, contact: &ContactConstraint, speed
 }
 
 /// The rows of all wires: first those of stretch, one for each segment in order, then those of
-/// bend.
+/// bend, then those of twist.
 pub(super) fn rows(world: &World, layout: &Layout) -> Vec<Row> {
     let mut rows = Vec::with_capacity(layout.stretch.len() + 3 * layout.bend.len());
     for (wire, &first) in world.wires.iter().zip(&layout.first_node) {
@@ -298,6 +299,8 @@ pub(super) fn rows(world: &World, layout: &Layout) -> Vec<Row> {
             }
         }
     }
+    let wires = 0..world.wires.len();
+    rows.extend(wires.filter_map(|wire| twist(world, layout, wire)));
     rows
 }
 
@@ -383,5 +386,30 @@ fn bend(
             },
             softened: None,
         }
+    })
+}
+
+/// `g = Theta`, `eps = l / (G J)`; `G` by all nodes and by what clamps the ends.
+fn twist(world: &World, layout: &Layout, at: usize) -> Option<Row> {
+    let multiplier = layout.twist[at]?;
+    let wire = &world.wires[at];
+    let torsion = Torsion::of(wire, &world.bodies)?;
+    let compliance = wire.twisted_length() / wire.material.twist_stiffness();
+    let damping = wire.material.twist_damping;
+    let spook = Spook::new(compliance, damping, world.settings.step);
+    let nodes = layout.nodes[layout.first_node[at]..].iter().copied();
+    let nodes = nodes.zip(torsion.gradient.iter().copied());
+    let ends = torsion.ends.iter();
+    let ends = ends.map(|&(clamp, by)| (layout.spin(world, clamp), by));
+    Some(Row {
+        multiplier,
+        terms: nodes.chain(ends).collect(),
+        slides: SmallVec::new(),
+        compliance,
+        sigma: spook.sigma,
+        target: spook.target(wire.twist, torsion.rate(wire, &world.bodies)),
+        law: ConstitutiveLaw::Linear,
+        branch: Branch::ACTIVE,
+        softened: None,
     })
 }

@@ -230,6 +230,12 @@ impl Solved {
         tensions.collect()
     }
 
+    /// The torque of each wire that holds twist, by wires of the whole world, as an impulse in N m s.
+    pub(super) fn torques(&self) -> impl Iterator<Item = (usize, f64)> {
+        let wires = self.island.wires.iter().zip(&self.system.layout.twist);
+        wires.filter_map(|(&wire, multiplier)| Some((wire, self.candidate.x[(*multiplier)?])))
+    }
+
     fn new(
         world: &World,
         island: Island,

@@ -98,8 +98,10 @@ pub(super) fn every_field() -> State {
         radius: n.next(),
         stretch_modulus: n.next(),
         bend_modulus: n.next(),
+        twist_modulus: n.next(),
         stretch_damping: n.next(),
         bend_damping: n.next(),
+        twist_damping: n.next(),
     };
     let local = n.vector();
     let body = BodyId(2);
@@ -135,12 +137,32 @@ pub(super) fn every_field() -> State {
         },
         nodes,
         segments,
+        twist: 0.0,
+    };
+    // One that is clamped by the world and by a body, and so may be twisted.
+    let kinds = [local, local * 2.0].map(|local| NodeKind::Eye { body, local });
+    let kinds = [NodeKind::Pinned, NodeKind::Pinned, kinds[0], kinds[1]];
+    let nodes = kinds.into_iter().enumerate().map(|(k, kind)| Node {
+        position: match kind.carrier() {
+            Some((_, local)) => bodies[2].point(&local),
+            None => n.vector().into(),
+        },
+        velocity: n.vector(),
+        arc: 10.0 * k as f64,
+        kind,
+        slide: 0.0,
+        remesh_from: k as u64,
+    });
+    let twisted = Wire {
+        nodes: nodes.collect(),
+        twist: -n.next(),
+        ..wire.clone()
     };
     let impulses = [(3, n.vector()), (8, n.vector())];
     let world = World {
         settings,
         bodies,
-        wires: vec![wire],
+        wires: vec![wire, twisted],
         steps: 1000,
         epoch: Epoch {
             steps: 900,
