@@ -4,7 +4,8 @@ use tunnelproof::contact::{Case, ContactKind};
 use tunnelproof::query::{Point, Query, QueryKind};
 
 use super::*;
-use crate::answer::Enclosure;
+use crate::answer::{Enclosure, Parameters};
+use crate::generate;
 use QueryKind::{EdgeEdge, VertexFace};
 
 type Corners = [[f64; 3]; 8];
@@ -293,4 +294,43 @@ proptest! {
     fn oracle_agrees_with_the_definition_on_thick_uniform(query in thick(uniform(EdgeEdge))) {
         check_against_the_definition(&query)?;
     }
+}
+
+#[test]
+fn lines_meet_at_the_contact_or_beyond_what_does_not_touch() {
+    let (mut touching, mut beyond) = (0, 0);
+    for family in ["uniform", "lattice", "face_uniform", "face_lattice"] {
+        let family = generate::by_name(family).unwrap();
+        for index in 0..200 {
+            let query = family.query(7, index);
+            for step in decide::<BigInt>(&query).steps() {
+                let Some([u, v]) = step.meeting else {
+                    continue;
+                };
+                match step.contact {
+                    Some((
+                        Parameters {
+                            u: first,
+                            v: second,
+                        },
+                        None,
+                    )) => {
+                        let is_near = |at: Enclosure, value: f64| (value - at.below).abs() < 1e-12;
+                        assert!(is_near(first, u) && is_near(second, v), "{query:?} {u} {v}");
+                        touching += 1;
+                    }
+                    Some((_, Some(_))) => panic!("lines that meet in a point overlap: {query:?}"),
+                    None => {
+                        let most = match query {
+                            Query::EdgeEdge(_) => u.max(v),
+                            Query::VertexFace(_) => u + v,
+                        };
+                        assert!(u.min(v) < 0.0 || most > 1.0, "{query:?} {u} {v}");
+                        beyond += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(touching > 100 && beyond > 100, "{touching} {beyond}");
 }
