@@ -334,3 +334,54 @@ fn lines_meet_at_the_contact_or_beyond_what_does_not_touch() {
     }
     assert!(touching > 100 && beyond > 100, "{touching} {beyond}");
 }
+
+/// The times of the steps with their events, and whether the edges touch then.
+fn steps(points: Corners, radius: f64) -> Vec<(Enclosure, Event, bool)> {
+    let steps = decide::<BigInt>(&query(EdgeEdge, points, radius)).steps();
+    let said = |step: Step<BigInt>| (step.time.enclosure(), step.event, step.contact.is_some());
+    steps.into_iter().map(said).collect()
+}
+
+#[test]
+fn steps_are_the_times_at_which_contact_could_begin() {
+    let falling = |from: f64, to: f64| {
+        let at = |z| [[-3., 0., 0.], [3., 0., 0.], [0., -3., z], [0., 3., z]];
+        let ([a, b, c, d], [e, f, g, h]) = (at(from), at(to));
+        [a, b, c, d, e, f, g, h]
+    };
+    let [start, quarter, half, most] = [0.0, 0.25, 0.5, 0.75].map(exactly);
+    assert_eq!(
+        steps(falling(1., -1.), 0.0),
+        [(half, Event::Coplanar, true)]
+    );
+    let away = [
+        (quarter, Event::AtRadius, true),
+        (most, Event::AtRadius, true),
+    ];
+    assert_eq!(steps(falling(2., -2.), 1.0), away);
+    let within = [(start, Event::Start, true), (half, Event::AtRadius, true)];
+    assert_eq!(steps(falling(0., 2.), 1.0), within);
+    // C goes down through AB in their plane, and D stays above.
+    let planar = [
+        [0., 0., 0.],
+        [4., 0., 0.],
+        [1., 1., 0.],
+        [1., 3., 0.],
+        [0., 0., 0.],
+        [4., 0., 0.],
+        [1., -1., 0.],
+        [1., 1., 0.],
+    ];
+    let planar_steps = [
+        (start, Event::Start, false),
+        (half, Event::EndOnLine(2), true),
+    ];
+    assert_eq!(steps(planar, 0.0), planar_steps);
+    let vanishing = |points| {
+        let vanishing = decide::<BigInt>(&query(EdgeEdge, points, 0.0)).vanishing();
+        let named = vanishing.into_iter().filter(|(_, is_zero)| *is_zero);
+        named.map(|(name, _)| name).collect::<Vec<_>>()
+    };
+    assert_eq!(vanishing(planar), ["f"]);
+    assert!(vanishing(falling(1., -1.)).is_empty());
+}
