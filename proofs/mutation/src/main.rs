@@ -47,7 +47,7 @@ struct Options {
     #[arg(long, value_name = "PART", default_value = "")]
     file: String,
     /// Only the mutant of this number
-    #[arg(long, value_name = "ID")]
+    #[arg(long, value_name = "ID", overrides_with = "mutant")]
     mutant: Option<u32>,
     /// Threads
     #[arg(long, default_value_t = 2)]
