@@ -243,3 +243,43 @@ fn deviation(normal: &Normal, exact: &Vector) -> (f64, f64) {
     let length = dot(&own, &own).sqrt() - (BigInt::from(1) << BITS);
     (distance(&own, exact) / normal.error, to_f64(&length).abs())
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+    use tunnelproof::query::{Point, QueryKind};
+
+    use super::*;
+
+    /// AB along x at rest, CD along y, which falls through it.
+    fn exact() -> ExactNormal {
+        let at = |z| {
+            [
+                [-1.0, 0.0, 0.0],
+                [1.0, 0.0, 0.0],
+                [0.0, -1.0, z],
+                [0.0, 1.0, z],
+            ]
+        };
+        let [start, end] = [1.0, -1.0].map(|z| at(z).map(|[x, y, z]| Point::new(x, y, z)));
+        let query = Query::new(QueryKind::EdgeEdge, start, end, [0.0; 2]).unwrap();
+        ExactNormal::of(&query).expect("a hit")
+    }
+
+    #[test]
+    fn normals_are_judged_by_their_bound_its_limit_and_their_length() {
+        let judge = |z: f64, error: f64| {
+            let direction = Vector3::new(0.0, 0.0, z);
+            exact().judge(Some(&Normal { direction, error }))
+        };
+        let (unit, most) = ((-50f64).exp2(), (-32f64).exp2());
+        assert_eq!(judge(1.0, most), Ok(0.0));
+        assert_eq!(judge(1.0 + unit, unit), Ok(1.0));
+        assert_eq!(judge(1.0 - unit, unit), Ok(1.0));
+        // Off by more than is stated; a bound that is too large; too long; too short.
+        assert!(judge(1.0 + unit, unit / 2.0).is_err());
+        assert!(judge(1.0, most.next_up()).is_err());
+        assert!(judge((1.0 + unit).next_up(), most).is_err());
+        assert!(judge((1.0 - unit).next_down(), most).is_err());
+    }
+}

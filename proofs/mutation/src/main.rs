@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, bail, ensure};
 use clap::Parser;
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
@@ -43,9 +43,12 @@ struct Options {
     /// Only mutants of this kind: constant, operator, unary, body or arm
     #[arg(long, value_parser = Kind::ALL.map(Kind::name))]
     kind: Option<String>,
-    /// Only mutants in files with this in their path
-    #[arg(long, default_value = "")]
+    /// Only mutants in files with this in their path; the others are built as they are, which takes a small part of the time
+    #[arg(long, value_name = "PART", default_value = "")]
     file: String,
+    /// Only the mutant of this number
+    #[arg(long, value_name = "ID", overrides_with = "mutant")]
+    mutant: Option<u32>,
     /// Threads
     #[arg(long, default_value_t = 2)]
     jobs: usize,
@@ -75,6 +78,7 @@ Goes on where it was stopped: results are kept in target/mutation/SUBJECT, for a
 const CERTIFIED: Subject = Subject {
     package: ".",
     sources: &["src/certified"],
+    tested: &["tunnelproof"],
     features: "tunnelproof/rayon",
     answers: include_str!("certified.rs.txt"),
 };
@@ -83,7 +87,7 @@ const JUDGES: Subject = Subject {
     sources: &[
         "reference/src/oracle",
         "reference/src/algebraic",
-        "reference/src/poly",
+        "reference/src/poly.rs",
         "reference/src/places.rs",
         "reference/src/scaled.rs",
         "reference/src/normal.rs",
@@ -91,6 +95,7 @@ const JUDGES: Subject = Subject {
         "reference/src/shadow",
         "reference/src/difference",
     ],
+    tested: &["tunnelproof", "tunnelproof-reference"],
     features: "",
     answers: include_str!("judges.rs.txt"),
 };
@@ -196,9 +201,20 @@ fn main() -> Result<()> {
         "judges" => (JUDGES, JUDGES_TESTS, ""),
         other => bail!("no subject {other}"),
     };
-    let folder = project.join("target/mutation").join(&options.subject);
+    // Files alone are built apart, so that what has all mutants is kept.
+    let part = if options.file.is_empty() {
+        ""
+    } else {
+        "-files"
+    };
+    let folder = project.join(format!("target/mutation/{}{part}", options.subject));
     let tree = folder.join("tree");
-    let mutants = tree::mutate(&project, &tree, &subject)?;
+    let mutants = tree::mutate(&project, &tree, &subject, &options.file)?;
+    ensure!(
+        !mutants.is_empty(),
+        "no mutants in files with {:?} in their path",
+        options.file
+    );
     let wanted = wanted(&mutants, &options);
     if options.list {
         for mutant in &wanted {
@@ -232,11 +248,23 @@ fn main() -> Result<()> {
     );
     let outcomes = judge(&wanted, &tests, &key, &tree, asker, &options)?;
     report(&wanted, &outcomes);
-    let is_wrong = |mutant: &Mutant| {
-        let outcome = outcomes.get(&mutant.id);
-        outcome.is_some_and(|outcome| outcome.verdict == Verdict::Wrong)
-    };
-    if options.strict && wanted.iter().any(is_wrong) {
+    let wrong: Vec<_> = wanted
+        .iter()
+        .filter(|mutant| {
+            let outcome = outcomes.get(&mutant.id);
+            outcome.is_some_and(|outcome| outcome.verdict == Verdict::Wrong)
+        })
+        .collect();
+    if options.strict && !wrong.is_empty() {
+        let asked: Vec<_> = std::env::args().skip(1).collect();
+        for mutant in wrong {
+            eprintln!(
+                "wrong: {}\n  again: cargo run --release --manifest-path proofs/mutation/Cargo.toml -- {} --mutant {}",
+                said(mutant),
+                asked.join(" "),
+                mutant.id
+            );
+        }
         bail!("exact answers are others, and no test notices");
     }
     Ok(())
@@ -250,7 +278,7 @@ fn wanted(mutants: &[Mutant], options: &Options) -> Vec<Mutant> {
                 .kind
                 .as_deref()
                 .is_none_or(|kind| mutant.kind.name() == kind)
-                && mutant.file.contains(&options.file)
+                && options.mutant.is_none_or(|id| mutant.id == id)
         })
         .cloned()
         .collect();

@@ -19,6 +19,8 @@ pub struct Subject {
     pub package: &'static str,
     /// The folders and files that are mutated, from that of the project.
     pub sources: &'static [&'static str],
+    /// The packages that have the tests.
+    pub tested: &'static [&'static str],
     /// The features of the package that are on.
     pub features: &'static str,
     /// The source of the test that asks for answers.
@@ -137,8 +139,9 @@ fn walk(path: &Path, found: &mut Vec<PathBuf>) -> Result<()> {
     Ok(())
 }
 
-/// Copies the project, with all mutants in its sources but those that do not compile, which the compiler is asked for, and returns the mutants.
-pub fn mutate(project: &Path, tree: &Path, subject: &Subject) -> Result<Vec<Mutant>> {
+/// Copies the project, with all mutants in its sources with `part` in their path but those that do not compile, which the compiler is
+/// asked for, and returns the mutants. Their numbers are the same for every `part`.
+pub fn mutate(project: &Path, tree: &Path, subject: &Subject, part: &str) -> Result<Vec<Mutant>> {
     let sources = sources(project, subject)?;
     let lib = Path::new(subject.package).join("src/lib.rs");
     let lib = lib.strip_prefix(".").unwrap_or(&lib);
@@ -151,6 +154,7 @@ pub fn mutate(project: &Path, tree: &Path, subject: &Subject) -> Result<Vec<Muta
         .collect();
     // Of an earlier run on the same sources: then nothing is compiled anew.
     let mut hasher = DefaultHasher::new();
+    part.hash(&mut hasher);
     for source in &sources {
         (&source.name, &source.text).hash(&mut hasher);
     }
@@ -172,8 +176,16 @@ pub fn mutate(project: &Path, tree: &Path, subject: &Subject) -> Result<Vec<Muta
                 &dropped,
                 &mut numbers,
             );
-            put(&tree.join(&source.name), rewritten.text.as_bytes())?;
-            mutants.extend(rewritten.mutants);
+            let is_mutated = source.name.contains(part);
+            let text = if is_mutated {
+                &rewritten.text
+            } else {
+                &source.text
+            };
+            put(&tree.join(&source.name), text.as_bytes())?;
+            if is_mutated {
+                mutants.extend(rewritten.mutants);
+            }
         }
         let package = tree.join(subject.package);
         let schema = format!(
@@ -195,7 +207,10 @@ pub fn mutate(project: &Path, tree: &Path, subject: &Subject) -> Result<Vec<Muta
             println!(
                 "{} mutants in {} files; {} more do not compile",
                 mutants.len(),
-                sources.len(),
+                sources
+                    .iter()
+                    .filter(|source| source.name.contains(part))
+                    .count(),
                 dropped.len()
             );
             return Ok(mutants);

@@ -316,4 +316,23 @@ mod tests {
         println!("{touching} touch where they end; passages {sums:?}");
         assert!(touching > 1000 && sums.iter().all(|&count| count > 100));
     }
+
+    /// CD along y falls through the height of AB along x, by which `f` falls.
+    #[test]
+    fn passages_inside_are_counted_only_inside_both_edges_and_the_step() {
+        let passages = |x: i64, y: i64, from: i64, to: i64| {
+            let at = |z| [[-2, 0, 0], [2, 0, 0], [x, y - 2, z], [x, y + 2, z]];
+            passages_inside(&query(&[at(from), at(to)], &[[[0; 3]; 4]; 2], 0.0))
+        };
+        assert_eq!(passages(1, 1, 1, -1), Some(-1));
+        assert_eq!(passages(1, 1, -1, 1), Some(1));
+        assert_eq!(passages(3, 1, 1, -1), Some(0), "beyond an edge");
+        assert_eq!(passages(1, 1, 2, 1), Some(0), "no root");
+        for [x, y] in [[-2, 0], [2, 1], [1, 2], [0, -2]] {
+            assert_eq!(passages(x, y, 1, -1), None, "in an end: {x}, {y}");
+        }
+        assert_eq!(passages(1, 1, 0, 1), None, "at the start");
+        assert_eq!(passages(1, 1, 1, 0), None, "at the end");
+        assert_eq!(passages(1, 1, 0, 0), None, "in a plane");
+    }
 }

@@ -4,7 +4,8 @@ use tunnelproof::contact::{Case, ContactKind};
 use tunnelproof::query::{Point, Query, QueryKind};
 
 use super::*;
-use crate::answer::Enclosure;
+use crate::answer::{Enclosure, Parameters};
+use crate::generate;
 use QueryKind::{EdgeEdge, VertexFace};
 
 type Corners = [[f64; 3]; 8];
@@ -293,4 +294,94 @@ proptest! {
     fn oracle_agrees_with_the_definition_on_thick_uniform(query in thick(uniform(EdgeEdge))) {
         check_against_the_definition(&query)?;
     }
+}
+
+#[test]
+fn lines_meet_at_the_contact_or_beyond_what_does_not_touch() {
+    let (mut touching, mut beyond) = (0, 0);
+    for family in ["uniform", "lattice", "face_uniform", "face_lattice"] {
+        let family = generate::by_name(family).unwrap();
+        for index in 0..200 {
+            let query = family.query(7, index);
+            for step in decide::<BigInt>(&query).steps() {
+                let Some([u, v]) = step.meeting else {
+                    continue;
+                };
+                match step.contact {
+                    Some((
+                        Parameters {
+                            u: first,
+                            v: second,
+                        },
+                        None,
+                    )) => {
+                        let is_near = |at: Enclosure, value: f64| (value - at.below).abs() < 1e-12;
+                        assert!(is_near(first, u) && is_near(second, v), "{query:?} {u} {v}");
+                        touching += 1;
+                    }
+                    Some((_, Some(_))) => panic!("lines that meet in a point overlap: {query:?}"),
+                    None => {
+                        let most = match query {
+                            Query::EdgeEdge(_) => u.max(v),
+                            Query::VertexFace(_) => u + v,
+                        };
+                        assert!(u.min(v) < 0.0 || most > 1.0, "{query:?} {u} {v}");
+                        beyond += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(touching > 100 && beyond > 100, "{touching} {beyond}");
+}
+
+/// The times of the steps with their events, and whether the edges touch then.
+fn steps(points: Corners, radius: f64) -> Vec<(Enclosure, Event, bool)> {
+    let steps = decide::<BigInt>(&query(EdgeEdge, points, radius)).steps();
+    let said = |step: Step<BigInt>| (step.time.enclosure(), step.event, step.contact.is_some());
+    steps.into_iter().map(said).collect()
+}
+
+#[test]
+fn steps_are_the_times_at_which_contact_could_begin() {
+    let falling = |from: f64, to: f64| {
+        let at = |z| [[-3., 0., 0.], [3., 0., 0.], [0., -3., z], [0., 3., z]];
+        let ([a, b, c, d], [e, f, g, h]) = (at(from), at(to));
+        [a, b, c, d, e, f, g, h]
+    };
+    let [start, quarter, half, most] = [0.0, 0.25, 0.5, 0.75].map(exactly);
+    assert_eq!(
+        steps(falling(1., -1.), 0.0),
+        [(half, Event::Coplanar, true)]
+    );
+    let away = [
+        (quarter, Event::AtRadius, true),
+        (most, Event::AtRadius, true),
+    ];
+    assert_eq!(steps(falling(2., -2.), 1.0), away);
+    let within = [(start, Event::Start, true), (half, Event::AtRadius, true)];
+    assert_eq!(steps(falling(0., 2.), 1.0), within);
+    // C goes down through AB in their plane, and D stays above.
+    let planar = [
+        [0., 0., 0.],
+        [4., 0., 0.],
+        [1., 1., 0.],
+        [1., 3., 0.],
+        [0., 0., 0.],
+        [4., 0., 0.],
+        [1., -1., 0.],
+        [1., 1., 0.],
+    ];
+    let planar_steps = [
+        (start, Event::Start, false),
+        (half, Event::EndOnLine(2), true),
+    ];
+    assert_eq!(steps(planar, 0.0), planar_steps);
+    let vanishing = |points| {
+        let vanishing = decide::<BigInt>(&query(EdgeEdge, points, 0.0)).vanishing();
+        let named = vanishing.into_iter().filter(|(_, is_zero)| *is_zero);
+        named.map(|(name, _)| name).collect::<Vec<_>>()
+    };
+    assert_eq!(vanishing(planar), ["f"]);
+    assert!(vanishing(falling(1., -1.)).is_empty());
 }
