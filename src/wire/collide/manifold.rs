@@ -22,7 +22,8 @@ pub(super) enum Collider {
 pub(super) type Found = (Option<SegmentId>, ContactConstraint);
 
 /// Adds the contacts of one pair. On a segment, a place between two others counts only if it is
-/// deeper, and none that is next to a contact node on this body: the node holds that.
+/// deeper. In the half that a contact node on this body ends the node holds the wire, which turns there as a curve does
+/// that the body has between: so only its midline is kept out, and next to the node nothing is.
 pub(super) fn contacts_of(
     world: &World,
     [a, b]: [Collider; 2],
@@ -45,7 +46,15 @@ pub(super) fn contacts_of(
         found.extend(contacts.into_iter().map(|contact| (None, contact)));
         return;
     };
-    contacts.retain(|contact| !is_beside_contact_node(world, id, other, arc(contact)));
+    contacts.retain_mut(
+        |contact| match from_contact_node(world, id, other, arc(contact)) {
+            None => true,
+            Some(apart) => {
+                contact.gap += id.of(world).material.radius;
+                apart > LEAST * id.of(world).resolution.length
+            }
+        },
+    );
     contacts.sort_by(|a, b| arc(a).total_cmp(&arc(b)));
     let outer = [contacts.first(), contacts.last()];
     let outer = outer.map(|contact| contact.map_or(0.0, |contact| contact.gap));
@@ -58,16 +67,15 @@ pub(super) fn contacts_of(
     }
 }
 
-/// Whether a place of a segment is so near to a node on a body that no other contact node may be there.
-fn is_beside_contact_node(world: &World, id: SegmentId, body: BodyId, arc: f64) -> bool {
+/// How far a place of a segment is from a node on a body, in m along it, if that is the nearer end.
+fn from_contact_node(world: &World, id: SegmentId, body: BodyId, arc: f64) -> Option<f64> {
     let [start, end] = id.nodes(world);
     let nearer = if arc - start.arc < end.arc - arc {
         start
     } else {
         end
     };
-    let near = LEAST * id.of(world).resolution.length;
-    nearer.kind.is_on(body) && (nearer.arc - arc).abs() < near
+    nearer.kind.is_on(body).then(|| (nearer.arc - arc).abs())
 }
 
 /// The place of a thing that touches at its surface. On a segment it is the one beside the surface, or the node

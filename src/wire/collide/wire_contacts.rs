@@ -125,9 +125,10 @@ impl WireContacts {
     }
 
     /// Adds contacts of nodes with segments that lie along theirs: where both segments of a contact are so near each
-    /// other at an end of one, beside the other, that they touch. With its closest points alone such a pair
-    /// would be held at one place.
+    /// other at an end of one, beside the other, that they touch or may fall onto each other in a step. With its
+    /// closest points alone such a pair would be held at one place.
     pub(super) fn add_along(&mut self, world: &World, thickness: Thickness) {
+        let fall = world.settings.gravity.norm() * world.settings.step * world.settings.step;
         let closest = self.list.iter().filter(|touch| touch.at_node.is_none());
         let pairs: Vec<[SegmentId; 2]> = closest.filter_map(|touch| touch.pair(world)).collect();
         for pair in pairs {
@@ -136,7 +137,7 @@ impl WireContacts {
                 let beside = Closest::beside(world, pair, side as usize, end);
                 let inside = is_inside(beside.parameters[1 - side as usize]);
                 let sites = beside.sites(world, pair);
-                let touches = beside.distance() <= thickness.touching(world, pair, &sites);
+                let touches = beside.distance() <= thickness.touching(world, pair, &sites) + fall;
                 let known = || {
                     let mut all = self.list.iter();
                     all.any(|older| older.is_at(world, &sites, thickness))

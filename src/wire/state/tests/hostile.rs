@@ -11,7 +11,7 @@ use crate::wire::file::testing::{edited, edits, forged, labelled};
 use crate::wire::model::wire::TENSION_HISTORY;
 use crate::wire::state::content::{Content, ModeContent, ShapeContent};
 use crate::wire::state::{FORMAT, Fault, Format, MOST_BYTES, State, VERSION};
-use crate::wire::{Shape, WireId};
+use crate::wire::{NodeKind, Shape, Vector, WireId};
 
 #[test]
 fn file_that_is_cut_or_has_more_is_refused() {
@@ -104,6 +104,11 @@ fn values_that_no_world_has_are_refused_by_their_place() {
         refusal(|c| c.world.wires[0].nodes[1].remesh_from = 2000),
         refusal(|c| c.world.wires[0].nodes[3].position.x += 1.0),
         refusal(|c| c.world.wires[0].nodes.swap(2, 3)),
+        refusal(|c| {
+            if let NodeKind::Contact { aside, .. } = &mut c.world.wires[0].nodes[2].kind {
+                *aside = Some(Vector::zeros());
+            }
+        }),
         refusal(|c| c.world.wires[0].twist = 1.0),
         refusal(|c| c.world.wires[1].twist = f64::NEG_INFINITY),
         refusal(|c| c.world.wires[1].material.twist_modulus = 0.0),
