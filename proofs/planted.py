@@ -28,7 +28,7 @@ def refuses(engine, claim, build):
 def sources_with(file, text):
     """The sources, with another text in a file of them."""
     with tempfile.TemporaryDirectory() as folder:
-        shutil.copytree(ROOT / CERTIFIED, Path(folder) / CERTIFIED)
+        shutil.copytree(ROOT / "src", Path(folder) / "src")
         (Path(folder) / CERTIFIED / file).write_text(text)
         yield Engine(folder)
 
