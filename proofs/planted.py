@@ -12,6 +12,8 @@ from rust import Unknown
 ROOT = Path(__file__).resolve().parent.parent
 CERTIFIED = "src/certified"
 
+NO_GAPPA = "Gappa is not installed: apt install gappa"
+
 # What a claim fails with whose source is another one.
 FAILURES = (Refused, Unknown, KeyError, TypeError, ValueError, AttributeError, ArithmeticError, IndexError)
 
