@@ -2,7 +2,7 @@
 
 from fractions import Fraction
 
-from engine import AXES, HERE, LARGE, cross, dot, reach_name, sizes_of_ends
+from engine import AXES, HERE, cross, dot, reach_name, sizes_of_ends
 from filters import cubic_run
 from places import Located, check, exact_vectors, kept, magnitude
 from prove import Refused, polynomial, product, scaled, total
@@ -101,7 +101,7 @@ def refined_difference(engine, claim, underflows=False):
     said = engine.said("refine", r"the sum within `24 h k` more \(bounds at the operations\): `([\d.]+) h k`")
     for name, lane in zip("kl", found.exact.ends):
         if underflows:
-            claim.underflow(lane, lambda name: LARGE, UNDERFLOW)
+            claim.underflow(lane, magnitude(engine), UNDERFLOW)
             continue
         exact = polynomial((1, f"{name}0x"), (1, f"{name}1x", "time"), (-1, f"{name}0x", "time"))
         bound = F(context, {((f"{name.upper()}x",), ()): said * H})
@@ -159,7 +159,7 @@ def refined_value(engine, claim, underflows=False):
     _, cubic = cubic_run(engine, context)
     if underflows:
         # Beside what is proved of the rest: 40 h P.
-        claim.underflow(found, magnitude, 40 * H * engine.constant("cubic", "SMALLEST"))
+        claim.underflow(found, magnitude(engine), 40 * H * engine.constant("cubic", "SMALLEST"))
         return
     permanent = cubic.fields["permanent"]
     spare = {names: 40 * H for names, _ in permanent.terms}
@@ -202,5 +202,5 @@ def refined_meeting(engine, claim, field, underflows=False, part=None):
         interpreter = engine.interpreter(context)
         far = interpreter.run(f"{HERE}locate.rs", "far_errors", of="Meeting", this=found)
         bounds = dict(zip(("n", "u", "v", "before_b", "before_d"), [found.fields[f"error_{x}"] for x in "nuv"] + list(far)))
-        check(claim, found.fields[field], exact[field], bounds[field], refined, underflows)
+        check(engine, claim, found.fields[field], exact[field], bounds[field], refined, underflows)
     kept(claim, part)

@@ -10,7 +10,6 @@ from rust import Interpreter, Sources
 
 HERE = "src/certified/"
 AXES = "xyz"
-LARGE = Fraction(2) ** 180
 
 
 def own(name):
@@ -70,6 +69,10 @@ class Engine:
 
     def constant(self, file, name):
         return Fraction(self.interpreter(Context()).constant(f"{HERE}{file}.rs", name))
+
+    def with_a_cubic(self):
+        """What the sizes of edges are below where there is a cubic."""
+        return self.constant("cubic", "LARGEST")
 
     def said(self, file, pattern):
         """A number that a comment states."""

@@ -100,7 +100,7 @@ def bernstein_underflow(engine, claim, index):
     context = Context(reaches=reach_name, underflows=True)
     _, cubic = cubic_run(engine, context)
     limit = 16 * U * engine.constant("cubic", "SMALLEST") / 16
-    claim.underflow(cubic.fields["bernstein"][index], lambda name: engine.constant("cubic", "LARGEST"), limit)
+    claim.underflow(cubic.fields["bernstein"][index], lambda name: engine.with_a_cubic(), limit)
 
 
 def coefficients(context):

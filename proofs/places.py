@@ -3,7 +3,7 @@
 import re
 from fractions import Fraction
 
-from engine import AXES, HERE, LARGE, cross, differences, dot, own, sizes_of_ends
+from engine import AXES, HERE, cross, differences, dot, own, sizes_of_ends
 from prove import Refused, polynomial, scaled, total
 from rounded import Context, F, U
 from rust import Record
@@ -176,7 +176,7 @@ def meeting(engine, claim, field, underflows=False, part=None):
         "before_b": far[0],
         "before_d": far[1],
     }
-    check(claim, found.fields[field], products_with_normal()[field], bounds[field], located, underflows)
+    check(engine, claim, found.fields[field], products_with_normal()[field], bounds[field], located, underflows)
     kept(claim, part)
 
 
@@ -186,24 +186,21 @@ def kept(claim, part):
         claim.keep(lambda of: ("W" in of) == (part == "width"))
 
 
-def check(claim, found, exact, bound, located, underflows):
+def check(engine, claim, found, exact, bound, located, underflows):
     """Against the part of a bound that is relative, or what underflows against the other part."""
     relative = F(bound.context, {key: c for key, c in bound.terms.items() if key[0]})
     constant = F(bound.context, {key: c for key, c in bound.terms.items() if not key[0]})
     if underflows:
         least = sum((c for c in constant.terms.values()), Fraction(0)) * (1 - 64 * U)
-        claim.underflow(found, magnitude, least / 2)
+        claim.underflow(found, magnitude(engine), least / 2)
     else:
         claim.needs(found, exact, relative, located.sizes, merge=located.merge)
 
 
-def magnitude(name):
-    """With a cubic."""
-    if name[0] == "N":
-        return 2 * LARGE * LARGE * (1 + 64 * U)
-    if name[0] in "wr":
-        return LARGE
-    return LARGE
+def magnitude(engine):
+    """The largest sizes with a cubic: of edges, and of normals."""
+    large = engine.with_a_cubic()
+    return lambda name: 2 * large * large * (1 + 64 * U) if name[0] == "N" else large
 
 
 def weights(engine, claim, index, underflows=False, part=None):
@@ -214,5 +211,5 @@ def weights(engine, claim, index, underflows=False, part=None):
     found = interpreter.run(f"{HERE}face/place.rs", "raw_weights", motion, cubic, bracket)
     p = products_with_normal()
     expected = [total(p["n"], scaled(-1, p["u"]), p["v"]), p["u"], scaled(-1, p["v"])]
-    check(claim, found.fields["values"][index], expected[index], found.fields["errors"][index], located, underflows)
+    check(engine, claim, found.fields["values"][index], expected[index], found.fields["errors"][index], located, underflows)
     kept(claim, part)

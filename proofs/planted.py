@@ -12,6 +12,8 @@ from rust import Unknown
 ROOT = Path(__file__).resolve().parent.parent
 CERTIFIED = "src/certified"
 
+NO_GAPPA = "Gappa is not installed: apt install gappa"
+
 # What a claim fails with whose source is another one.
 FAILURES = (Refused, Unknown, KeyError, TypeError, ValueError, AttributeError, ArithmeticError, IndexError)
 
@@ -28,7 +30,7 @@ def refuses(engine, claim, build):
 def sources_with(file, text):
     """The sources, with another text in a file of them."""
     with tempfile.TemporaryDirectory() as folder:
-        shutil.copytree(ROOT / CERTIFIED, Path(folder) / CERTIFIED)
+        shutil.copytree(ROOT / "src", Path(folder) / "src")
         (Path(folder) / CERTIFIED / file).write_text(text)
         yield Engine(folder)
 

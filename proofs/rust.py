@@ -9,9 +9,9 @@ from pathlib import Path
 
 TOKEN = re.compile(
     r"""(?P<number>\d[\d_]*\.\d[\d_]*(?:e-?\d+)?|\d[\d_]*e-?\d+|\d[\d_]*(?:u32|u64|f64|usize|i64)?)
+      | (?P<text>"(?:[^"\\]|\\[\s\S])*"|'(?:[^'\\]|\\.)')
       | (?P<name>'?[A-Za-z_][A-Za-z_0-9]*)
-      | (?P<text>"(?:[^"\\]|\\.)*")
-      | (?P<mark>\.\.=|\.\.|::|->|=>|<<|>=|<=|==|!=|&&|\|\||[-+*/%=<>!&|^.,;:(){}\[\]?\#])
+      | (?P<mark>\.\.=|\.\.|::|->|=>|<<|>=|<=|==|!=|&&|\|\||[-+*/%=<>!&|^.,;:(){}\[\]?\#$])
       | (?P<space>\s+)""",
     re.X,
 )
@@ -47,7 +47,7 @@ class File:
     """The functions, constants and imports of a source file."""
 
     def __init__(self, path, text):
-        self.path, self.functions, self.constants, self.imports = path, {}, {}, {}
+        self.path, self.functions, self.constants, self.imports, self.paths = path, {}, {}, {}, {}
         self.text = text
         text = re.sub(r"#\[cfg\(test\)\]\s*mod \w+;", "", text)
         text = re.split(r"#\[cfg\(test\)\]\s*mod \w+ \{", text)[0]
@@ -64,6 +64,9 @@ class File:
             module = module if inner else module[:-1]
             for name in filter(None, names):
                 self.imports[name.split("::")[-1]] = module[-1] if module else ""
+                path = [part for part in [*module, *name.split("::")] if part]
+                path = path[:-1] if path[-1] == "self" else path
+                self.paths[path[-1]] = path
 
     def closing(self, at):
         """The index of what closes the bracket at `at`."""
@@ -97,7 +100,7 @@ class File:
             elif word == "const" and self.tokens[at + 1][0] == "name" and self.tokens[at + 2][1] == ":" and self.tokens[at - 1][1] not in "<,":
                 end = self.end_of_item(at)
                 value = next((i for i in range(at, end) if self.tokens[i][1] == "="), None)
-                if value and "usize" not in [text for _, text in self.tokens[value:end]]:
+                if value:
                     self.constants[self.tokens[at + 1][1]] = self.tokens[value + 1 : end]
                 at = end
             elif word == "fn" and self.tokens[at + 1][0] == "name":
@@ -133,7 +136,7 @@ class File:
         # Constants inside of the body are found as well.
         for i in range(body, end):
             if self.tokens[i][1] == "const" and self.tokens[i + 2][1] == ":":
-                stop = next(j for j in range(i, end) if self.tokens[j][1] == ";")
+                stop = self.end_of_item(i)
                 start = next(j for j in range(i, stop) if self.tokens[j][1] == "=")
                 self.constants[self.tokens[i + 1][1]] = self.tokens[start + 1 : stop]
         return end
@@ -411,6 +414,17 @@ class Sources:
                 if (self.root / path).is_file():
                     return self.file(str(path))
         raise Unknown(f"the module {name!r}")
+
+    def follow(self, user, path):
+        """The file of the module in which a path of names ends, seen from a file: without guesses. None if it is another package's."""
+        own = [part for part in user.path.removesuffix(".rs").split("/")[1:] if part not in ("mod", "lib")]
+        start = {"crate": [], "self": own, "super": own[:-1]}
+        module = start[path[0]] if path[0] in start else own + path[:1]
+        for part in path[1:]:
+            module = module[:-1] if part == "super" else module + [part]
+        folder = "/".join(["src", *module])
+        found = [name for name in (f"{folder}.rs", f"{folder}/mod.rs", f"{folder}/lib.rs") if (self.root / name).is_file()]
+        return self.file(found[0]) if found else None
 
 
 class Interpreter:

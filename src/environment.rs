@@ -24,6 +24,13 @@
 use std::fmt;
 use std::hint::black_box;
 
+// The x87 unit rounds to 64 bits first, and no check of a thread could change that.
+#[cfg(all(target_arch = "x86", not(target_feature = "sse2")))]
+compile_error!(
+    "tunnelproof needs SSE2 on x86: without it f64 arithmetic is done by the x87 unit, which rounds to \
+     64 bits first, and the proofs do not hold; build for i686, or with -C target-feature=+sse2"
+);
+
 /// What is wrong with a floating-point environment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]

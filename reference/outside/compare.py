@@ -19,7 +19,11 @@ import sys
 import tempfile
 import time
 
-import judge
+try:
+    import judge
+except ModuleNotFoundError as missing:
+    here = pathlib.Path(__file__).parent
+    sys.exit(f"{missing.name} is not installed for this Python: {sys.executable} -m pip install -r {here / 'requirements.txt'}")
 
 # Who answers, and which queries.
 SUBJECTS = {
@@ -48,7 +52,10 @@ FAULTS = {
 
 
 def run(*words):
-    done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
+    try:
+        done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
+    except OSError as error:
+        sys.exit(f"{words[0]}: it does not run: {error.strerror}")
     if done.returncode != 0:
         sys.exit(f"{' '.join(map(str, words))}: exit code {done.returncode}\n{done.stderr}")
     return done.stdout
@@ -57,8 +64,10 @@ def run(*words):
 def families(program):
     """The names of the families of linear motion."""
     help_text = run(program, "certify", "--help")
-    names = re.search(r"--family <.*?\[possible values: (.*?)\]", help_text, re.S)[1].split(", ")
-    return [name for name in names if "turning_" not in name]
+    names = re.search(r"--family <.*?\[possible values: (.*?)\]", help_text, re.S)
+    if not names:
+        sys.exit(f"{program}: `certify --help` names no families; is it target/release/tunnelproof?")
+    return [name for name in names[1].split(", ") if "turning_" not in name]
 
 
 def queries(program, family, seed, count, folder):
@@ -95,7 +104,11 @@ def main():
     start = time.monotonic()
     names = families(options.program)
     if options.families:
-        names = [name for name in names if name in options.families.split(",")]
+        asked = options.families.split(",")
+        unknown = [name for name in asked if name not in names]
+        if unknown:
+            sys.exit(f"no family of linear motion has this name: {', '.join(unknown)}; there are {', '.join(names)}")
+        names = [name for name in names if name in asked]
     totals = {"queries": 0, "hits": 0, "answers compared": 0, "differences": 0}
     slowest = (0.0, "")
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ProcessPoolExecutor() as pool:

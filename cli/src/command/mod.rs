@@ -347,7 +347,8 @@ impl fmt::Display for Failure {
             Failure::File { path, problem } => write!(f, "{path}: {problem}"),
             Failure::Permit => write!(
                 f,
-                "--permit is for programs and libraries (cmd: and lib:), and none is judged"
+                "--permit is for programs and libraries, and none is judged: \
+                 add --subject cmd:PROGRAM or --subject lib:FILE"
             ),
             Failure::Nothing => f.write_str("--count 0: no query is left to judge"),
             Failure::Target(path) => {

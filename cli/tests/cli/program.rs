@@ -210,7 +210,10 @@ fn certify_refuses_what_is_no_tolerance() {
         ("near=-1", "near is \"-1\", not a number from 0"),
         ("late=inf", "late is \"inf\", not a number from 0"),
         ("late=1,late=2", "late is there twice"),
-        ("late=1e-9", "--permit is for programs and libraries"),
+        (
+            "late=1e-9",
+            "add --subject cmd:PROGRAM or --subject lib:FILE",
+        ),
     ] {
         let output = tunnelproof(&["certify", "--permit", permit]);
         assert_eq!(output.status.code(), Some(2));
