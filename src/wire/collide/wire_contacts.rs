@@ -46,7 +46,7 @@ pub(in crate::wire) enum Side {
     B,
 }
 
-/// All contacts, oldest first.
+/// All contacts: those at nodes and then the others, each oldest first.
 #[derive(Clone, Debug, Default)]
 pub(in crate::wire) struct WireContacts {
     pub(in crate::wire) list: Vec<WireContact>,
@@ -79,7 +79,11 @@ impl WireContacts {
     /// become one.
     pub(super) fn refresh(&mut self, world: &World, thickness: Thickness) {
         let mut taken = self.taken(world);
-        for mut touch in std::mem::take(&mut self.list) {
+        // One that goes to the closest points goes to others where segments lie along each other: it takes the place of
+        // none that stays at a node.
+        let all = std::mem::take(&mut self.list).into_iter();
+        let (at_nodes, closest): (Vec<_>, Vec<_>) = all.partition(|touch| touch.at_node.is_some());
+        for mut touch in at_nodes.into_iter().chain(closest) {
             let Some(pair) = touch.pair(world) else {
                 continue;
             };
@@ -129,8 +133,8 @@ impl WireContacts {
     /// closest points alone such a pair would be held at one place.
     pub(super) fn add_along(&mut self, world: &World, thickness: Thickness) {
         let fall = world.settings.gravity.norm() * world.settings.step * world.settings.step;
-        let closest = self.list.iter().filter(|touch| touch.at_node.is_none());
-        let pairs: Vec<[SegmentId; 2]> = closest.filter_map(|touch| touch.pair(world)).collect();
+        let pairs = self.list.iter().filter_map(|touch| touch.pair(world));
+        let pairs: PairSet = pairs.collect();
         for pair in pairs {
             let ends = [Side::A, Side::B].map(|side| [(side, 0.0), (side, 1.0)]);
             for (side, end) in ends.into_iter().flatten() {
