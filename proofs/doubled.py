@@ -2,7 +2,7 @@
 
 from fractions import Fraction
 
-from engine import AXES, HERE, LARGE, cross, dot, reach_name, sizes_of_ends
+from engine import AXES, HERE, LARGE, cross, dot, limit, reach_name, sizes_of_ends
 from filters import cubic_run
 from places import Located, check, exact_vectors, kept, magnitude
 from prove import Refused, polynomial, product, scaled, total
@@ -49,13 +49,13 @@ def double_operation(engine, claim, name):
     if relative:
         said = engine.said("double", r"`self other`; relative error below `(\d+) \* 2\^-106`")
         exact = product(polynomial((1, "xh"), (1, "xl")), polynomial((1, "yh"), (1, "yl")))
-        bound = F(context, {(("x", "y"), ()): said * H})
+        bound = F.size(context, "x", "y", factor=said * H)
         low = polynomial((half * near * near, "x", "y"))
     else:
         said = engine.said("double", r"an error below `(\d+) \* 2\^-106 \(\|self\| \+ \|other\|\)`")
         sign = 1 if name == "add" else -1
         exact = polynomial((1, "xh"), (1, "xl"), (sign, "yh"), (sign, "yl"))
-        bound = F(context, {(("x",), ()): said * H, (("y",), ()): said * H})
+        bound = limit(context, said * H, "xy")
         low = polynomial((half * near, "x"), (half * near, "y"))
 
     def sizes(name):
@@ -104,7 +104,7 @@ def refined_difference(engine, claim, underflows=False):
             claim.underflow(lane, lambda name: LARGE, UNDERFLOW)
             continue
         exact = polynomial((1, f"{name}0x"), (1, f"{name}1x", "time"), (-1, f"{name}0x", "time"))
-        bound = F(context, {((f"{name.upper()}x",), ()): said * H})
+        bound = F.size(context, f"{name.upper()}x", factor=said * H)
         sizes = lambda name: {(): Fraction(1)} if name == "time" else sizes_of_ends(name)
         claim.needs(lane, exact, bound, sizes)
 
@@ -187,8 +187,8 @@ def refined_meeting(engine, claim, field, underflows=False, part=None):
         interpreter.builtins.update({"difference": refined.difference(context), "if": branch})
         # It only tells which axis is taken.
         interpreter.given["Motion", "normal"] = [0, 0, 0]
-        this = Record("Root", time=Record("Double", high=None), error=F.exactly(context, "W"))
-        cubic = Record("Cubic", reach=[[F.exactly(context, f"{name}{axis}").rounded() for axis in AXES] for name in "KLM"])
+        this = Record("Root", time=Record("Double", high=None), error=F.size(context, "W"))
+        cubic = Record("Cubic", reach=[[F.size(context, f"{name}{axis}").rounded() for axis in AXES] for name in "KLM"])
         arguments = (Corners(context), Record("Motion"), cubic)
         found = interpreter.run(f"{HERE}refine.rs", "meeting", *arguments, of="Root", this=this)
         return 0 if axes[0] else (1 if axes[1] else 2), found

@@ -18,7 +18,7 @@ def at_time(engine, claim):
     said = engine.said("locate", r"A component of `K\(t\)` is within `([\d.]+) u k_i` of the exact one")
     for i, axis in enumerate(AXES):
         exact = polynomial((1, f"k0{axis}", "s"), (1, f"k1{axis}", "t"))
-        claim.needs(found[i], exact, F(context, {((f"K{axis}",), ()): said * U}), sizes_of_ends)
+        claim.needs(found[i], exact, F.size(context, f"K{axis}", factor=said * U), sizes_of_ends)
 
 
 def at_time_underflow(engine, claim):
@@ -60,8 +60,8 @@ class Located:
     @staticmethod
     def merge(names):
         """`W` is at most an 8th."""
-        extra = max(names.count("W") - 1, 0)
-        rest = [name for name in names if name != "W"] + ["W"] * min(names.count("W"), 1)
+        extra = max(names.count("|W|") - 1, 0)
+        rest = [name for name in names if name != "|W|"] + ["|W|"] * min(names.count("|W|"), 1)
         return Fraction(1, 8**extra), tuple(sorted(rest))
 
 
@@ -97,10 +97,10 @@ def meeting_run(engine, context, located):
         "if": lambda *_: True,
     })
     motion = Record("Motion", k=motion_vector("k"), l=motion_vector("l"), m=motion_vector("m"))
-    reach = [[F.exactly(context, f"{name}{axis}").rounded() for axis in AXES] for name in "KLM"]
+    reach = [[F.size(context, f"{name}{axis}").rounded() for axis in AXES] for name in "KLM"]
     cubic = Record("Cubic", reach=reach)
     # Half the width is computed as no less than it is.
-    width = F.exactly(context, "W").rounded()
+    width = F.size(context, "W").rounded()
 
     class Bracket:
         low = Width(0, width)
