@@ -100,7 +100,7 @@ def bernstein_underflow(engine, claim, index):
     context = Context(reaches=reach_name, underflows=True)
     _, cubic = cubic_run(engine, context)
     limit = 16 * U * engine.constant("cubic", "SMALLEST") / 16
-    claim.underflow(cubic.fields["bernstein"][index], lambda name: engine.constant("cubic", "LARGEST"), limit)
+    claim.underflow(cubic.fields["bernstein"][index], lambda name: engine.largest(), limit)
 
 
 def coefficients(context):
@@ -158,7 +158,7 @@ def curvature(engine, claim):
 def side(engine, claim):
     """The side of a contact: the value's error, and how much it changes over `2 u`."""
     context = Context()
-    cubic, interpreter = cubic_of(engine, context), engine.interpreter(context, **{"if": lambda condition, go: go(condition) and False})
+    cubic, interpreter = cubic_of(engine, context), engine.interpreter(context, **{"if": lambda condition, go, _: go(condition) and False})
     interpreter.run(f"{HERE}thick/contact.rs", "side", cubic, F.exactly(context, "t"))
     found, bound = context.compared[0]
     exact = polynomial((1, "b0", "s", "s", "s"), (3, "b1", "s", "s", "t"), (3, "b2", "s", "t", "t"), (1, "b3", "t", "t", "t"))

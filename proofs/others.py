@@ -118,7 +118,7 @@ def stored(engine, claim, is_finite=True, underflows=False):
     interpreter = engine.interpreter(context)
     # The weights of the other branch are `1 - t` and `t`.
     a, b, t = (F.exactly(context, name) for name in ("a", "b", "ft" if is_finite else "t"))
-    interpreter.builtins.update({"if": lambda condition, go: is_finite if "is_finite" in repr(condition) else False})
+    interpreter.builtins.update({"if": lambda condition, *_: is_finite if "is_finite" in repr(condition) else False})
     scope = interpreter.scope_at(f"{HERE}step.rs", "coordinate", "between", a, b, t)
     interpreter.methods["max"] = larger_magnitude
     found = interpreter.scope_at(f"{HERE}step.rs", "rounding", "difference", a, b)

@@ -482,7 +482,7 @@ class Interpreter:
         if kind == "unary":
             return -go(tree[2]) if tree[1] == "-" else not go(tree[2])
         if kind == "if":
-            return go(tree[2]) if self.builtins["if"](tree[1], go) else go(tree[3])
+            return go(tree[2]) if self.builtins["if"](tree[1], go, tree[3]) else go(tree[3])
         if kind == "closure":
             return self.closure(tree, scope, file, of)
         if kind == "structure":

@@ -7,7 +7,7 @@ from doubled import Corners, double_sizes
 from engine import AXES, HERE, cross, differences, dot, ends, limit, own, sizes_of_ends
 from filters import chosen, same_as_one_of
 from places import Located, kept, said_at, sizes_at_time
-from prove import polynomial, product, scaled, total
+from prove import Refused, polynomial, product, scaled, total
 from rounded import Context, Double, F, H, Pair, U, runs
 from rust import Record
 
@@ -20,13 +20,20 @@ LEAST_CORNERS = {
 }
 
 
+def is_proof(condition, go, otherwise):
+    """Of an `if`: where what it compares is not so, there is no bound."""
+    if go(condition) is not True or go(otherwise) != float("inf"):
+        raise Refused("a bound that is no proof")
+    return True
+
+
 def thick_margin(engine, claim, kind, part):
     """A plane keeps the two more than the radius apart: all that is taken from the least corner."""
     of, file, kinds, options = LEAST_CORNERS[kind]
 
     def body(context):
         interpreter = engine.interpreter(context)
-        interpreter.builtins["if"] = lambda condition, go: go(condition)
+        interpreter.builtins["if"] = is_proof
         interpreter.builtins["K::least_corner"] = lambda *x: interpreter.apply(
             engine.sources.file(f"{HERE}{file}.rs").functions[of, "least_corner"], list(x)
         )
@@ -35,9 +42,13 @@ def thick_margin(engine, claim, kind, part):
         this = Record("Moving", motion=motion, boxes=boxes, radius=F.size(context, "R"))
         return interpreter.run(f"{HERE}thick/advance.rs", "margins", [F.exactly(context, f"d{axis}") for axis in AXES], of="Moving", this=this)
 
+    borders = [engine.constant("thick/advance", name) for name in ("SMALLEST", "LARGEST")]
     sizes = lambda name: own("e" + name[2]) if re.fullmatch(r"[klm][01][xyz]", name) else None
     for context, found in runs(body):
         chosen(context, *kinds)
+        above, below, finite = context.compared
+        if above[1].terms != {((), ()): borders[0]} or any(x.terms != {((), ()): borders[1]} for x in (below[0], finite[0])):
+            raise Refused("other borders")
         for end, margin in enumerate(found):  # at the start and at the end
             is_corner = lambda names: any(re.fullmatch(r"[klm][01][xyz]", name) for name in names)
             corner = F(context, {key: c for key, c in margin.terms.items() if is_corner(key[0])})
