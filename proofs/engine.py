@@ -71,8 +71,8 @@ class Engine:
         }
         return Interpreter(self.sources, builtins, methods, self.types)
 
-    def constant(self, file, name):
-        return Fraction(self.interpreter(Context()).constant(f"{HERE}{file}.rs", name))
+    def constant(self, file, name, function=None):
+        return Fraction(self.interpreter(Context()).constant(f"{HERE}{file}.rs", name, function))
 
     def largest(self):
         """What the factors of a cubic are below."""

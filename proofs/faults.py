@@ -100,6 +100,19 @@ FAULTS = [
     ("thick/advance", "{ least } else { f64::INFINITY }", "{ least } else { 0.0 }", "margin with a radius, edges"),
     ("thick/advance", "(square > SMALLEST) &", "(square < SMALLEST) &", "margin with a radius, edges"),
     ("thick/contact", "if value > error", "if value < error", "side of a contact"),
+    # Names.
+    ("separate", "const TINY: f64 = 1e-300;", "const TINY: f64 = 0.0;\nfn f() { const TINY: f64 = 1e-300; }", "margin of edges, underflow"),
+    ("separate", "const TINY: f64 = 1e-300;", "const TINY: f64 = 1e-300;\nconst TINY: f64 = 0.0;", "margin of edges, underflow"),
+    ("step", "    const SLACK: f64 = 1.0 +", "    const UNDERFLOW: f64 = 1.0;\n    const SLACK: f64 = 1.0 +", "stored position, underflow"),
+    ("step", "    if start == end {\n        return 0.0;", "    const U: f64 = 0.0;\n    if start == end {\n        return 0.0;", "stored position"),
+    ("cubic", "pub(super) fn permanents", "#[cfg(debug_assertions)]\npub(super) fn permanents", "Bernstein coefficient 0"),
+    ("cubic", "const LARGEST: f64", "#[cfg(not(test))]\nconst LARGEST: f64", "Bernstein coefficient 0"),
+    (
+        "cubic",
+        "const LARGEST: f64",
+        "impl Cubic { fn has_no_root(&self) -> bool { true } }\nconst LARGEST: f64",
+        "Bernstein coefficient 0",
+    ),
     # The order of operations.
     ("locate", "(weights * *x).sum()", "(weights * *y).sum()", "vector at a time"),
     ("step", "start + difference * step", "start * (1.0 - step) + difference * step", "stored position"),

@@ -125,7 +125,7 @@ def stored(engine, claim, is_finite=True, underflows=False):
     bound = stored_bound(engine, interpreter, found)
     value = scope["between"]
     if underflows:
-        tiny = engine.constant("step", "UNDERFLOW")
+        tiny = engine.constant("step", "UNDERFLOW", "rounding")
         lost = F(context, {key: c for key, c in bound.terms.items() if any(n[0] == "n" for n in key[0])})
         every = value.plus(lost)
         claim.underflow(every, lambda name: Fraction(1), tiny * (1 - 64 * U))
