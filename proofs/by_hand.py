@@ -46,8 +46,8 @@ def home_of(sources, file, path):
     return module and home_of(sources, module, path[-1:] if path[-2][0].islower() else path[-2:])
 
 
-def constants(sources, file, tokens, found):
-    """The constants that a text names, and those that these name: each with its text."""
+def constants(sources, file, tokens, found, own=()):
+    """The constants that a text names, and those that these name: each with its text. Its own are in it."""
     words = [text for _, text in tokens]
     for i, word in enumerate(words):
         if not CONSTANT.fullmatch(word) or words[i + 1 : i + 2] == ["::"] or words[i - 1 : i] == ["const"]:
@@ -57,7 +57,7 @@ def constants(sources, file, tokens, found):
             start -= 2
         path = words[start : i + 1 : 2]
         owner = path[0]
-        if owner in ELSEWHERE or word in PARAMETERS:
+        if owner in ELSEWHERE or word in PARAMETERS or path in ([name] for name in own):
             continue
         homes = [sources.file(f"{HERE}{name}.rs") for name in STANDS_FOR.get(owner, ()) if len(path) > 1]
         homes = homes or [home_of(sources, file, path[1:] if owner == "Self" else path)]
@@ -74,7 +74,7 @@ def constants(sources, file, tokens, found):
 
 
 def text_of(engine, file, function):
-    found = constants(engine.sources, file, function.body, {})
+    found = constants(engine.sources, file, function.body, {}, function.constants)
     return function.text() + "".join(f" ; {name} = {text}" for name, text in found.items())
 
 

@@ -73,6 +73,7 @@ def all_claims():
     for direction in thick.DIRECTIONS:
         claim(f"slope {direction}", "thick/nearness.rs", thick.slope_of, direction, part="rounding")
         claim(f"slope {direction}, while", "thick/nearness.rs", thick.slope_of, direction, part="width")
+    claim("size of a slope", "thick/nearness.rs", thick.slope_size, unit=1, unit_name="")
     claim("component of a slope, underflow", "thick/nearness.rs", thick.component_underflow, unit=None)
     claim("slope, underflow", "thick/nearness.rs", thick.slope_underflow, unit=None)
     claim("least normal", "thick/nearness.rs", thick.least_normal, part="rounding")

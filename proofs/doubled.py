@@ -2,12 +2,12 @@
 
 from fractions import Fraction
 
-from engine import AXES, HERE, cross, dot, reach_name, sizes_of_ends
+from engine import AXES, HERE, cross, dot, limit, reach_name, sizes_of_ends
 from filters import cubic_run
-from places import Located, check, exact_vectors, kept, magnitude
+from places import Located, check, exact_vectors, is_narrow, kept
 from prove import Refused, polynomial, product, scaled, total
 from rounded import Context, Double, F, H, Pair, U, runs
-from rust import Record
+from rust import Parser, Record, tokens_of
 
 # Double-double arithmetic
 
@@ -49,13 +49,13 @@ def double_operation(engine, claim, name):
     if relative:
         said = engine.said("double", r"`self other`; relative error below `(\d+) \* 2\^-106`")
         exact = product(polynomial((1, "xh"), (1, "xl")), polynomial((1, "yh"), (1, "yl")))
-        bound = F(context, {(("x", "y"), ()): said * H})
+        bound = F.size(context, "x", "y", factor=said * H)
         low = polynomial((half * near * near, "x", "y"))
     else:
         said = engine.said("double", r"an error below `(\d+) \* 2\^-106 \(\|self\| \+ \|other\|\)`")
         sign = 1 if name == "add" else -1
         exact = polynomial((1, "xh"), (1, "xl"), (sign, "yh"), (sign, "yl"))
-        bound = F(context, {(("x",), ()): said * H, (("y",), ()): said * H})
+        bound = limit(context, said * H, "xy")
         low = polynomial((half * near, "x"), (half * near, "y"))
 
     def sizes(name):
@@ -101,10 +101,10 @@ def refined_difference(engine, claim, underflows=False):
     said = engine.said("refine", r"the sum within `24 h k` more \(bounds at the operations\): `([\d.]+) h k`")
     for name, lane in zip("kl", found.exact.ends):
         if underflows:
-            claim.underflow(lane, magnitude(engine), UNDERFLOW)
+            claim.underflow(lane, lambda name: engine.largest(), UNDERFLOW)
             continue
         exact = polynomial((1, f"{name}0x"), (1, f"{name}1x", "time"), (-1, f"{name}0x", "time"))
-        bound = F(context, {((f"{name.upper()}x",), ()): said * H})
+        bound = F.size(context, f"{name.upper()}x", factor=said * H)
         sizes = lambda name: {(): Fraction(1)} if name == "time" else sizes_of_ends(name)
         claim.needs(lane, exact, bound, sizes)
 
@@ -119,7 +119,7 @@ class Refined(Located):
     def __init__(self, engine, moves):
         double_sizes(engine)
         self.error = H * engine.said("refine", r"the sum within `24 h k` more \(bounds at the operations\): `([\d.]+) h k`")
-        self.moves = moves
+        self.moves, self.largest = moves, engine.largest()
 
     def difference(self, context):
         def of(starts, ends_of, _):
@@ -159,7 +159,7 @@ def refined_value(engine, claim, underflows=False):
     _, cubic = cubic_run(engine, context)
     if underflows:
         # Beside what is proved of the rest: 40 h P.
-        claim.underflow(found, magnitude(engine), 40 * H * engine.constant("cubic", "SMALLEST"))
+        claim.underflow(found, refined.magnitude, 40 * H * engine.constant("cubic", "SMALLEST"))
         return
     permanent = cubic.fields["permanent"]
     spare = {names: 40 * H for names, _ in permanent.terms}
@@ -174,21 +174,22 @@ def refined_meeting(engine, claim, field, underflows=False, part=None):
     def body(context):
         interpreter, axes = engine.interpreter(context), []
 
-        def branch(condition, _):
-            words = repr(condition)
-            # The sign of the normal does not matter, and the error is small enough.
-            if "normal" in words and "high" in words:
+        error, is_below = F.size(context, "W"), Parser(tokens_of("normal.high < 0.0")).expression()
+
+        def branch(condition, go, otherwise):
+            # The sign of the normal does not matter.
+            if condition == is_below:
                 return False
-            if "error" in words:
-                return True
+            if "error" in repr(condition) or len(axes) == 2 or axes == [True]:
+                return is_narrow(error, condition, go, otherwise)
             axes.append(context.choose([True, False]))
             return axes[-1]
 
         interpreter.builtins.update({"difference": refined.difference(context), "if": branch})
         # It only tells which axis is taken.
         interpreter.given["Motion", "normal"] = [0, 0, 0]
-        this = Record("Root", time=Record("Double", high=None), error=F.exactly(context, "W"))
-        cubic = Record("Cubic", reach=[[F.exactly(context, f"{name}{axis}").rounded() for axis in AXES] for name in "KLM"])
+        this = Record("Root", time=Record("Double", high=None), error=error)
+        cubic = Record("Cubic", reach=[[F.size(context, f"{name}{axis}").rounded() for axis in AXES] for name in "KLM"])
         arguments = (Corners(context), Record("Motion"), cubic)
         found = interpreter.run(f"{HERE}refine.rs", "meeting", *arguments, of="Root", this=this)
         return 0 if axes[0] else (1 if axes[1] else 2), found
@@ -202,5 +203,5 @@ def refined_meeting(engine, claim, field, underflows=False, part=None):
         interpreter = engine.interpreter(context)
         far = interpreter.run(f"{HERE}locate.rs", "far_errors", of="Meeting", this=found)
         bounds = dict(zip(("n", "u", "v", "before_b", "before_d"), [found.fields[f"error_{x}"] for x in "nuv"] + list(far)))
-        check(engine, claim, found.fields[field], exact[field], bounds[field], refined, underflows)
+        check(claim, found.fields[field], exact[field], bounds[field], refined, underflows)
     kept(claim, part)

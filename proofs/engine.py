@@ -1,8 +1,10 @@
 """The bounds: which functions of the sources are run on what, and what has to come out."""
 
+import operator
 import re
 import struct
 from fractions import Fraction
+from functools import reduce
 
 from prove import Refused, product, scaled, total
 from rounded import Context, Double, F, Pair
@@ -32,6 +34,7 @@ class Engine:
         "Edges": ["discrete"],
         "EdgeEdge": ["edges"],
         "VertexFace": ["face/mod"],
+        "Slope": ["thick/nearness"],
         "Step": ["normal/bounded"],
         "Bounded": ["normal/bounded"],
     }
@@ -43,8 +46,8 @@ class Engine:
     def interpreter(self, context, **more):
         exactly = lambda x: Double(x)
         builtins = {
-            "if": lambda condition, go: context.choose([True, False]),
-            "f64::abs": lambda x: x.abs() if isinstance(x, F) else x,
+            "if": lambda *_: context.choose([True, False]),
+            "f64::abs": abs,
             "E::swapped": Pair.swapped,
             "E::both": lambda x: Pair(x, x),
             "E::new": Pair,
@@ -59,6 +62,7 @@ class Engine:
         }
         builtins.update(more)
         methods = {
+            "abs": abs,
             "map": lambda values, f: [f(x) for x in values],
             "each_ref": lambda values: values,
             "iter": lambda values: values,
@@ -67,11 +71,11 @@ class Engine:
         }
         return Interpreter(self.sources, builtins, methods, self.types)
 
-    def constant(self, file, name):
-        return Fraction(self.interpreter(Context()).constant(f"{HERE}{file}.rs", name))
+    def constant(self, file, name, function=None):
+        return Fraction(self.interpreter(Context()).constant(f"{HERE}{file}.rs", name, function))
 
-    def with_a_cubic(self):
-        """What the sizes of edges are below where there is a cubic."""
+    def largest(self):
+        """What the factors of a cubic are below."""
         return self.constant("cubic", "LARGEST")
 
     def said(self, file, pattern):
@@ -87,16 +91,18 @@ def from_bits(bits):
     return struct.unpack("<d", struct.pack("<Q", int(bits)))[0]
 
 
-def summed(values):
-    result = values[0]
-    for value in values[1:]:
-        result = result + value
-    return result
+def summed(values, plus=operator.add):
+    return reduce(plus, values)
 
 
 def differences(context, name):
     """A rounded difference at both ends of the step, on each axis."""
     return [Pair(*(F.exactly(context, f"{name}{end}{axis}").rounded() for end in "01")) for axis in AXES]
+
+
+def limit(context, factor, names):
+    """So many times the sum of some sizes."""
+    return summed([F.size(context, name, factor=factor) for name in names], F.plus)
 
 
 def reach_name(name):

@@ -4,8 +4,8 @@ import re
 from fractions import Fraction
 
 from engine import AXES, HERE, cross, differences, dot, ends, own, reach_name, sizes_of_ends
-from prove import Refused, polynomial, scaled, text_of, total, underflowed
-from rounded import Context, F, U, runs
+from prove import Refused, polynomial, scaled, text_of, total
+from rounded import Context, F, U, runs, underflowed
 from rust import Record
 
 # Separation
@@ -24,7 +24,7 @@ def separated(engine, claim, file, of, options, kinds, underflows=False):
     def body(context):
         interpreter = engine.interpreter(context)
         motion = Record("Motion", **{name: differences(context, name) for name in "klm"})
-        extent = [F.exactly(context, f"e{axis}").rounded() for axis in AXES]
+        extent = [F.size(context, f"e{axis}").rounded() for axis in AXES]
         boxes = Record("SweptBoxes", extent=extent)
         d = [F.exactly(context, f"d{axis}") for axis in AXES]
         if of:
@@ -100,7 +100,7 @@ def bernstein_underflow(engine, claim, index):
     context = Context(reaches=reach_name, underflows=True)
     _, cubic = cubic_run(engine, context)
     limit = 16 * U * engine.constant("cubic", "SMALLEST") / 16
-    claim.underflow(cubic.fields["bernstein"][index], lambda name: engine.with_a_cubic(), limit)
+    claim.underflow(cubic.fields["bernstein"][index], lambda name: engine.largest(), limit)
 
 
 def coefficients(context):
@@ -109,8 +109,8 @@ def coefficients(context):
 
 def cubic_of(engine, context):
     """A cubic with coefficients of which only their error is known."""
-    error = F.exactly(context, "error")
-    return Record("Cubic", bernstein=coefficients(context), error=error, permanent=F.exactly(context, "P"))
+    error = F.size(context, "error")
+    return Record("Cubic", bernstein=coefficients(context), error=error, permanent=F.size(context, "P"))
 
 
 def by_error(engine):
@@ -149,8 +149,8 @@ def curvature(engine, claim):
     ends_of = [polynomial((6, f"b{i}"), (-12, f"b{i + 1}"), (6, f"b{i + 2}")) for i in range(2)]
     for context, found in runs(body):
         chosen(context, "larger")
-        bound = F(context, {key: c for key, c in found.terms.items() if "error" in key[0]})
-        computed = F(context, {key: c for key, c in found.terms.items() if "error" not in key[0]})
+        bound = F(context, {key: c for key, c in found.terms.items() if "|error|" in key[0]})
+        computed = F(context, {key: c for key, c in found.terms.items() if "|error|" not in key[0]}).opened()
         exact = same_as_one_of(computed, ends_of)
         claim.needs(computed, exact, bound, by_error(engine), needed={("error",): Fraction(24)})
 
@@ -158,7 +158,7 @@ def curvature(engine, claim):
 def side(engine, claim):
     """The side of a contact: the value's error, and how much it changes over `2 u`."""
     context = Context()
-    cubic, interpreter = cubic_of(engine, context), engine.interpreter(context, **{"if": lambda condition, go: go(condition) and False})
+    cubic, interpreter = cubic_of(engine, context), engine.interpreter(context, **{"if": lambda condition, go, _: go(condition) and False})
     interpreter.run(f"{HERE}thick/contact.rs", "side", cubic, F.exactly(context, "t"))
     found, bound = context.compared[0]
     exact = polynomial((1, "b0", "s", "s", "s"), (3, "b1", "s", "s", "t"), (3, "b2", "s", "t", "t"), (1, "b3", "t", "t", "t"))
@@ -174,7 +174,7 @@ def subdivision(engine, claim):
     part = Record("Part", low=low, high=high, bernstein=coefficients(context), depth=0)
     halves = interpreter.run(f"{HERE}root.rs", "halves", of="Part", this=part)
     level = engine.said("root", r"each level of averages of magnitude B adds at most `(\d+) u B`")
-    limit = F(context, {(("B",), ()): level * U})
+    limit = F.size(context, "B", factor=level * U)
     half = lambda i, j: scaled(Fraction(1, 2), polynomial((1, f"b{i}"), (1, f"b{j}")))
     mean = lambda x, y: scaled(Fraction(1, 2), total(x, y))
     c = [half(0, 1), half(1, 2), half(2, 3)]

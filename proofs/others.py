@@ -2,9 +2,9 @@
 
 from fractions import Fraction
 
-from engine import AXES, HERE, cross, dot, own
+from engine import AXES, HERE, cross, dot, limit, own
 from filters import EDGE_MARGINS, chosen, lost, same_as_one_of
-from prove import polynomial, scaled, total
+from prove import Refused, magnitudes, polynomial, scaled, total
 from rounded import Context, F, U, runs
 from rust import Parser, Record
 
@@ -21,7 +21,7 @@ def instant_difference(engine, claim):
     sizes = lambda name: {(): Fraction(1)} if name[0] == "f" else own("e" + name[1])
     for axis, component in zip(AXES, found):
         exact = polynomial((1, f"m{axis}"), (1, "fv", f"l{axis}"), (-1, "fu", f"k{axis}"))
-        claim.needs(component, exact, F(context, {((f"e{axis}",), ()): said * U}), sizes)
+        claim.needs(component, exact, F.size(context, f"e{axis}", factor=said * U), sizes)
 
 
 def instant_distance(engine, claim, underflows=False):
@@ -29,10 +29,10 @@ def instant_distance(engine, claim, underflows=False):
 
     def body(context):
         vector = lambda name: [F.exactly(context, f"{name}{a}").rounded() for a in AXES]
-        edges = Record("Edges", **{name: vector(name) for name in "klm"}, extent=vector("e"))
+        edges = Record("Edges", **{name: vector(name) for name in "klm"}, extent=list(map(abs, vector("e"))))
         interpreter = engine.interpreter(context)
-        interpreter.builtins["length"] = lambda _: F.exactly(context, "length")
-        interpreter.builtins["largest"] = lambda _: F.exactly(context, "largest")
+        interpreter.builtins["length"] = lambda _: F.size(context, "length")
+        interpreter.builtins["largest"] = lambda _: F.size(context, "largest")
         direction = [F.exactly(context, f"d{a}") for a in AXES]
 
         plain = interpreter.methods["map"]
@@ -61,10 +61,10 @@ def instant_distance(engine, claim, underflows=False):
 def bounded(context, names, error):
     """A vector whose size is the sum of its components' magnitudes, up to a few roundings."""
     value = [F.exactly(context, name) for name in names]
-    size = value[0].plus(value[1]).plus(value[2])
+    size = limit(context, 1, names)
     for _ in range(4):
         size = size.rounded()
-    return Record("Bounded", value=value, size=size, error=F.exactly(context, error))
+    return Record("Bounded", value=value, size=size, error=F.size(context, error))
 
 
 XS, YS = [f"x{a}" for a in AXES], [f"y{a}" for a in AXES]
@@ -77,8 +77,8 @@ def bounded_operation(engine, claim, name, part):
     run = lambda name, *more: engine.interpreter(context).run(f"{HERE}normal/bounded.rs", name, *more, of="Bounded", this=x)
     one_of = Fraction(1)
     if name == "times":
-        found = run("times", F.exactly(context, "factor"), F.exactly(context, "inexact"))
-        exact = [polynomial((1, "factor", name)) for name in XS]
+        found = run("times", F.size(context, "factor"), F.size(context, "inexact"))
+        exact = [polynomial((1, "|factor|", name)) for name in XS]
         needed = {("a", "factor"): one_of, ("a", "inexact"): one_of, **{tuple(sorted(("inexact", n))): one_of for n in XS}}
     elif name == "cross":
         found = run("cross", y)
@@ -100,12 +100,12 @@ def bounded_difference(engine, claim, part):
     context = Context(differences=pairs)
     point = lambda name, end: [F.exactly(context, f"{name}{end}{a}") for a in AXES]
     start, end_of = ([point("p", end), point("q", end)] for end in (0, 1))
-    toi, late = F.exactly(context, "weight"), F.exactly(context, "late")
+    toi, late = F.size(context, "weight"), F.size(context, "late")
     step = Record("Step", start=start, end=end_of, toi=toi, late=late)
     found = engine.interpreter(context).run(f"{HERE}normal/bounded.rs", "difference", 0, 1, of="Step", this=step)
     needed = {tuple(sorted(("late", n))): Fraction(1) for n in XS + YS}
     for x, y, component in zip(XS, YS, found.fields["value"]):
-        claim.needs(component, polynomial((1, "rest", x), (1, "weight", y)), found.fields["error"], lambda name: None, needed=needed)
+        claim.needs(component, polynomial((1, "|rest|", x), (1, "|weight|", y)), found.fields["error"], lambda name: None, needed=needed)
     claim.keep(lambda of: ("late" in of) == (part == "errors"))
 
 
@@ -118,15 +118,14 @@ def stored(engine, claim, is_finite=True, underflows=False):
     interpreter = engine.interpreter(context)
     # The weights of the other branch are `1 - t` and `t`.
     a, b, t = (F.exactly(context, name) for name in ("a", "b", "ft" if is_finite else "t"))
-    interpreter.builtins.update({"if": lambda condition, go: is_finite if "is_finite" in repr(condition) else False})
+    interpreter.builtins.update({"if": lambda condition, *_: is_finite if "is_finite" in repr(condition) else False})
     scope = interpreter.scope_at(f"{HERE}step.rs", "coordinate", "between", a, b, t)
-    interpreter.methods["max"] = lambda x, y: F.exactly(context, "X")
-    interpreter.methods["abs"] = lambda x: x
+    interpreter.methods["max"] = larger_magnitude
     found = interpreter.scope_at(f"{HERE}step.rs", "rounding", "difference", a, b)
     bound = stored_bound(engine, interpreter, found)
     value = scope["between"]
     if underflows:
-        tiny = engine.constant("step", "UNDERFLOW")
+        tiny = engine.constant("step", "UNDERFLOW", "rounding")
         lost = F(context, {key: c for key, c in bound.terms.items() if any(n[0] == "n" for n in key[0])})
         every = value.plus(lost)
         claim.underflow(every, lambda name: Fraction(1), tiny * (1 - 64 * U))
@@ -145,8 +144,14 @@ def stored(engine, claim, is_finite=True, underflows=False):
         sizes = lambda name: own("X") if name in "ab" else None
         exact = polynomial((1, "a", "s"), (1, "b", "t"))
         # Where the difference overflows it is not below the larger magnitude.
-        joined = F(context, {(("X",), es): c for (names, es), c in relative.terms.items()})
+        joined = F(context, {(("|X|",) if magnitudes(names) else (), es): c for (names, es), c in relative.terms.items()})
         claim.needs(value, exact, joined, sizes)
+
+
+def larger_magnitude(x, y):
+    if {x.leaf(), y.leaf()} != {("|a|", 1), ("|b|", 1)}:
+        raise Refused("another one than the larger magnitude")
+    return F.size(x.context, "X")
 
 
 def stored_bound(engine, interpreter, scope):

@@ -11,6 +11,10 @@ from rust import Record
 # Vectors at a time, and where the lines meet
 
 
+# What underflow adds to a component.
+LOST = Fraction(2) ** -1074 * (1 + 4 * U)
+
+
 def at_time(engine, claim):
     """A component at a time, from differences that are rounded."""
     context = Context()
@@ -18,14 +22,14 @@ def at_time(engine, claim):
     said = engine.said("locate", r"A component of `K\(t\)` is within `([\d.]+) u k_i` of the exact one")
     for i, axis in enumerate(AXES):
         exact = polynomial((1, f"k0{axis}", "s"), (1, f"k1{axis}", "t"))
-        claim.needs(found[i], exact, F(context, {((f"K{axis}",), ()): said * U}), sizes_of_ends)
+        claim.needs(found[i], exact, F.size(context, f"K{axis}", factor=said * U), sizes_of_ends)
 
 
 def at_time_underflow(engine, claim):
     context = Context(underflows=True)
     found = engine.interpreter(context).run(f"{HERE}locate.rs", "at", differences(context, "k"), F.exactly(context, "t"))
     for component in found:
-        claim.underflow(component, lambda name: Fraction(1), Fraction(2) ** -1074 * (1 + 4 * U))
+        claim.underflow(component, lambda name: Fraction(1), LOST)
 
 
 def sizes_at_time(name, error):
@@ -38,18 +42,30 @@ def sizes_at_time(name, error):
     return {"": own(reach), "w": polynomial((2, "W", reach)), "r": polynomial((error, reach))}[kind]
 
 
+NARROW = Fraction(1, 8)
+
+
+def is_narrow(width, condition, go, otherwise):
+    """Of an `if`: that it is `width < c`, with a `c` of the source that is no more than an 8th, and that what is wider has no bound."""
+    kind, *parts = condition
+    if (kind, parts[0]) != ("binary", "<") or go(parts[1]) is not width or not go(parts[2]) <= NARROW:
+        raise Refused(f"a condition that is not of the width: {condition}")
+    if go(otherwise) != float("inf"):
+        raise Refused("a bound for what is not narrow")
+    return True
+
+
 class Located:
     """Vectors at a computed time: exact ones at the root, what the way there changes, and what is rounded or underflows."""
 
     def __init__(self, engine, said):
-        self.error = said * U
+        self.error, self.largest = said * U, engine.largest()
 
     def vector(self, context, name):
         def component(axis):
             terms = {((f"{kind}{name}{axis}",), ()): Fraction(1) for kind in ("", "w", "r")}
             if context.underflows:
-                terms[((f"n{context.count + 1}",), ())] = Fraction(2)
-                context.count += 1
+                terms[((context.underflow(),), ())] = LOST * 2**1075
             return F(context, terms)
 
         return [component(axis) for axis in AXES]
@@ -57,12 +73,16 @@ class Located:
     def sizes(self, name):
         return sizes_at_time(name, self.error)
 
+    def magnitude(self, name):
+        """With a cubic; `N` is a computed normal."""
+        return 2 * self.largest**2 * (1 + 64 * U) if name[0] == "N" else self.largest
+
     @staticmethod
     def merge(names):
-        """`W` is at most an 8th."""
-        extra = max(names.count("W") - 1, 0)
-        rest = [name for name in names if name != "W"] + ["W"] * min(names.count("W"), 1)
-        return Fraction(1, 8**extra), tuple(sorted(rest))
+        """`W` is below an 8th, as [`is_narrow`] makes sure."""
+        extra = max(names.count("|W|") - 1, 0)
+        rest = [name for name in names if name != "|W|"] + ["|W|"] * min(names.count("|W|"), 1)
+        return NARROW**extra, tuple(sorted(rest))
 
 
 def exact_vectors():
@@ -77,6 +97,8 @@ def meeting_run(engine, context, located):
         vectors[name] = located.vector(context, name)
         return name
 
+    # Half the width is computed as no less than it is.
+    width = F.size(context, "W").rounded()
     interpreter = engine.interpreter(context)
     plain = engine.interpreter(context)
     normals = []
@@ -94,13 +116,11 @@ def meeting_run(engine, context, located):
         "at": lambda name, _: vectors[name],
         "cross": cross_of,
         "dot": dot_of,
-        "if": lambda *_: True,
+        "if": lambda *of: is_narrow(width, *of),
     })
     motion = Record("Motion", k=motion_vector("k"), l=motion_vector("l"), m=motion_vector("m"))
-    reach = [[F.exactly(context, f"{name}{axis}").rounded() for axis in AXES] for name in "KLM"]
+    reach = [[F.size(context, f"{name}{axis}").rounded() for axis in AXES] for name in "KLM"]
     cubic = Record("Cubic", reach=reach)
-    # Half the width is computed as no less than it is.
-    width = F.exactly(context, "W").rounded()
 
     class Bracket:
         low = Width(0, width)
@@ -176,7 +196,7 @@ def meeting(engine, claim, field, underflows=False, part=None):
         "before_b": far[0],
         "before_d": far[1],
     }
-    check(engine, claim, found.fields[field], products_with_normal()[field], bounds[field], located, underflows)
+    check(claim, found.fields[field], products_with_normal()[field], bounds[field], located, underflows)
     kept(claim, part)
 
 
@@ -186,21 +206,15 @@ def kept(claim, part):
         claim.keep(lambda of: ("W" in of) == (part == "width"))
 
 
-def check(engine, claim, found, exact, bound, located, underflows):
+def check(claim, found, exact, bound, located, underflows):
     """Against the part of a bound that is relative, or what underflows against the other part."""
     relative = F(bound.context, {key: c for key, c in bound.terms.items() if key[0]})
     constant = F(bound.context, {key: c for key, c in bound.terms.items() if not key[0]})
     if underflows:
         least = sum((c for c in constant.terms.values()), Fraction(0)) * (1 - 64 * U)
-        claim.underflow(found, magnitude(engine), least / 2)
+        claim.underflow(found, located.magnitude, least / 2)
     else:
         claim.needs(found, exact, relative, located.sizes, merge=located.merge)
-
-
-def magnitude(engine):
-    """The largest sizes with a cubic: of edges, and of normals."""
-    large = engine.with_a_cubic()
-    return lambda name: 2 * large * large * (1 + 64 * U) if name[0] == "N" else large
 
 
 def weights(engine, claim, index, underflows=False, part=None):
@@ -211,5 +225,5 @@ def weights(engine, claim, index, underflows=False, part=None):
     found = interpreter.run(f"{HERE}face/place.rs", "raw_weights", motion, cubic, bracket)
     p = products_with_normal()
     expected = [total(p["n"], scaled(-1, p["u"]), p["v"]), p["u"], scaled(-1, p["v"])]
-    check(engine, claim, found.fields["values"][index], expected[index], found.fields["errors"][index], located, underflows)
+    check(claim, found.fields["values"][index], expected[index], found.fields["errors"][index], located, underflows)
     kept(claim, part)

@@ -9,7 +9,7 @@ import subprocess
 from fractions import Fraction
 from math import comb
 
-from rounded import U
+from rounded import U, is_magnitude, magnitude, plain, underflowed
 
 PRECISION = "-Eprecision=300"
 
@@ -64,8 +64,12 @@ def scaled(factor, x):
     return {key: Fraction(factor) * c for key, c in x.items()}
 
 
-def underflowed(names):
-    return any(re.fullmatch(r"n\d+", name) for name in names)
+def magnitudes(names):
+    """The names of a bound's product, of magnitudes. A square is one of a magnitude as well."""
+    signed = [name for name in names if not is_magnitude(name)]
+    if any(names.count(name) % 2 for name in signed):
+        raise Refused(f"{' '.join(names)} may be below 0")
+    return tuple(sorted(map(magnitude, names)))
 
 
 class Goal:
@@ -88,7 +92,8 @@ class Claim:
     def needs(self, value, exact, bound, sizes, needed=None, merge=lambda names: ({}, names)):
         """That `value` is within `bound` of the polynomial `exact`, with `needed` to spare.
 
-        `sizes` gives a polynomial that the magnitude of a quantity does not exceed; without one it is the quantity's own name.
+        `sizes` gives a polynomial that the magnitude of a quantity does not exceed; without one it is the quantity's own magnitude. These
+        and `needed` are of magnitudes, whatever the names in them.
         `merge` replaces a product of sizes by a number times another one that is not smaller.
         """
         context = value.context
@@ -99,6 +104,8 @@ class Claim:
                 monomials.setdefault(names, []).append((c, es))
         errors = {}
         for names in {**monomials, **expected}:
+            if names not in expected and any(map(is_magnitude, names)):
+                raise Refused(f"{self.name}: a magnitude {' '.join(names)} in the value")
             text = self.sum_of(monomials.get(names, []), -expected.get(names, Fraction(0)))
             if text is None:
                 continue
@@ -108,9 +115,10 @@ class Claim:
                 if name not in "st":
                     size = product(size, sizes(name) or {(name,): Fraction(1)})
             for key, factor in size.items():
-                more, key = merge(key)
+                more, key = merge(tuple(sorted(map(magnitude, key))))
                 errors.setdefault((key, times), []).append((factor * (more or 1), text))
-        self.compare(context, errors, bound, needed or {}, merge)
+        needed = {tuple(sorted(map(magnitude, key))): factor for key, factor in (needed or {}).items()}
+        self.compare(context, errors, bound, needed, merge)
 
     @staticmethod
     def sum_of(terms, rest):
@@ -123,12 +131,15 @@ class Claim:
         bounds = {}
         for (names, es), c in bound.terms.items():
             if not underflowed(names):
-                more, names = merge(names)
+                more, names = merge(magnitudes(names))
                 bounds.setdefault(names, []).append((c * (more or 1), es))
         degrees = {sum(times) for _, times in errors}
         if len(degrees) > 1:
             raise Refused(f"{self.name}: weights of several degrees")
         keys = set(errors) | {(key, None) for key in needed if not any(key == names for names, _ in errors)}
+        for names in set(bounds) - {names for names, _ in keys}:
+            if any(c < 0 for c, _ in bounds[names]):
+                raise Refused(f"{self.name}: the bound has less than {' '.join(names)}")
         for key, times in keys:
             share = comb(sum(times), times[0]) if times else 1
             error = [f"{text_of(factor / share)} * |{text}|" for factor, text in errors.get((key, times), [])]
@@ -139,14 +150,14 @@ class Claim:
                 raise Refused(f"{self.name}: nothing bounds {' '.join(key)}")
             self.add(" + ".join(error), limit, context.sizes, key)
 
-    def underflow(self, value, magnitudes, limit):
+    def underflow(self, value, sizes, limit):
         """That what underflow adds to a value is at most a number."""
         context, parts = value.context, []
         for (names, es), c in value.terms.items():
             if underflowed(names):
                 size = abs(c)
                 for name in names:
-                    size *= Fraction(1, 2**1075) if underflowed([name]) else magnitudes(name)
+                    size *= Fraction(1, 2**1075) if underflowed([name]) else sizes(plain(name))
                 parts.append(" * ".join([text_of(size)] + [f"(1 + {e})" for e in es]))
         if not parts:
             raise Refused(f"{self.name}: nothing underflows")
@@ -171,7 +182,7 @@ class Claim:
 
         pattern = r"\b[edq]\d+\b"
         error, bound = re.sub(pattern, rename, error), re.sub(pattern, rename, bound)
-        goal = Goal(error, bound, {short: sizes[name] for name, short in names.items()}, of)
+        goal = Goal(error, bound, {short: sizes[name] for name, short in names.items()}, tuple(map(plain, of)))
         self.goals[goal.key()] = goal
 
     def keep(self, is_kept):

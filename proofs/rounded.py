@@ -2,12 +2,33 @@
 
 A computed number is a sum of terms `c x y .. (1 + e1) (1 + e2) ..`: a rational `c`, exact quantities `x`, and roundings, each in
 `[-u, u]`, `u = 2^-53` (or of another size, which its name tells). A product may also underflow: then `n` is added, `|n| <= 2^-1075`.
+
+A quantity may have any sign, unless its name is that of a magnitude, `|x|`. `abs` makes one of the other, so that it is seen where the
+source has it and where it has not.
 """
 
+import re
 from fractions import Fraction
 
 U = Fraction(1, 2**53)
 H = U * U
+
+
+def is_magnitude(name):
+    return name.endswith("|")
+
+
+def magnitude(name):
+    """The name of the magnitude of a quantity."""
+    return name if is_magnitude(name) else f"|{name}|"
+
+
+def plain(name):
+    return name.strip("|")
+
+
+def underflowed(names):
+    return any(re.fullmatch(r"n\d+", name) for name in names)
 
 
 def is_power_of_two(x):
@@ -24,6 +45,8 @@ class Context:
         self.differences = differences or {}
         self.half, self.kinds = half, []
         self.sizes, self.count, self.compared, self.lemmas = {}, 0, [], []
+        # What a magnitude is of, if that is a sum.
+        self.sums = {}
 
     def rounding(self, kind="e", size=None):
         self.count += 1
@@ -79,6 +102,11 @@ class F:
     def exactly(context, *names, factor=1):
         return F(context, {(tuple(sorted(names)), ()): Fraction(factor)})
 
+    @staticmethod
+    def size(context, *names, factor=1):
+        """A product of magnitudes."""
+        return F.exactly(context, *map(magnitude, names), factor=factor)
+
     def rounded(self, kind="e", size=None, may_underflow=False):
         e = self.context.rounding(kind, size)
         terms = {(a, tuple(sorted(f + (e,)))): c for (a, f), c in self.terms.items()}
@@ -128,7 +156,7 @@ class F:
 
     def __rsub__(self, other):
         # What a weight leaves of 1 has a name of its own.
-        rests = {("t", 1): "s", ("weight", 1): "rest"}
+        rests = {("t", 1): "s", ("|weight|", 1): "|rest|"}
         if other == 1 and self.leaf() in rests:
             return F.exactly(self.context, rests[self.leaf()]).rounded()
         return self.of(other) + (-self)
@@ -168,16 +196,32 @@ class F:
         squares = sorted(names for names, _ in self.terms)
         if any(len(names) != 2 or names[0] != names[1] for names in squares):
             # Any other root is not looked into.
-            return F.exactly(self.context, "root")
+            return F.size(self.context, "root")
         most = max((es for _, es in self.terms), key=len)
         size = Fraction(len(most), 2) * U * (1 + Fraction(1, 2**40))
         self.context.lemmas.append(([(e, self.context.sizes[e]) for e in most], size))
-        name = "|" + ",".join(names[0] for names in squares) + "|"
+        name = "|" + ",".join(plain(names[0]) for names in squares) + "|"
         e = self.context.rounding("q", size)
         return F(self.context, {((name,), (e,)): Fraction(1)}).rounded()
 
-    def abs(self):
-        return self.alias or self
+    def __abs__(self):
+        """The magnitude of a product is that of its factors; a sum's has a name of its own. What underflowed may have either sign."""
+        if self.alias:
+            return abs(self.alias)
+        lost = {key: c for key, c in self.terms.items() if underflowed(key[0])}
+        kept = {key: c for key, c in self.terms.items() if key not in lost}
+        if len(kept) > 1:
+            name = magnitude(f"sum{len(self.context.sums)}")
+            self.context.sums[name] = F(self.context, kept)
+            kept = {((name,), ()): Fraction(1)}
+        return F(self.context, {(tuple(sorted(map(magnitude, names))), es): abs(c) for (names, es), c in kept.items()} | lost)
+
+    abs = __abs__
+
+    def opened(self):
+        """The number itself, where it is a multiple of the magnitude of a sum."""
+        (((name,), es), c), = self.terms.items()
+        return F(self.context, {(names, tuple(sorted(es + fs))): c * d for (names, fs), d in self.context.sums[name].terms.items()})
 
     def larger(self, other):
         return self.context.choose([self, self.of(other)], "larger")
@@ -190,14 +234,12 @@ class F:
     def clamp(self, *_):
         return self
 
-    def compared(self, other):
+    def __gt__(self, other):
         self.context.compared.append((self, self.of(other)))
         return True
 
-    def __gt__(self, other):
-        return self.compared(other)
-
-    __lt__ = __gt__
+    def __lt__(self, other):
+        return self.of(other) > self
 
 
 class Pair:
@@ -233,8 +275,10 @@ class Pair:
     def sum(self):
         return self.ends[0] + self.ends[1]
 
-    def abs(self):
-        return Pair(*(x.abs() for x in self.ends))
+    def __abs__(self):
+        return Pair(*map(abs, self.ends))
+
+    abs = __abs__
 
     def larger(self, other, kind="larger"):
         first = next(x for x in (*self.ends, *other.ends) if isinstance(x, F))
@@ -245,9 +289,11 @@ class Pair:
 
     def largest(self):
         """The larger magnitude, of which there is a name."""
-        first = self.ends[0]
-        name, _ = first.leaf()
-        return F.exactly(first.context, first.context.reaches(name)).rounded()
+        context, leaves = self.ends[0].context, [x.leaf() for x in self.ends]
+        if any(factor != 1 or not is_magnitude(name) for name, factor in leaves):
+            raise ArithmeticError("the larger one of what are no magnitudes")
+        (reach,) = {context.reaches(plain(name)) for name, _ in leaves}
+        return F.size(context, reach).rounded()
 
     def is_above(self, other):
         for x, y in zip(self.ends, other.ends):

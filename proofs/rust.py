@@ -38,6 +38,7 @@ class Function:
     def __init__(self, file, name, of, generics, parameters, body):
         self.file, self.name, self.of, self.generics = file, name, of, generics
         self.parameters, self.body, self.tree = parameters, body, None
+        self.constants = {}
 
     def text(self):
         return " ".join(text for _, text in self.body)
@@ -48,10 +49,14 @@ class File:
 
     def __init__(self, path, text):
         self.path, self.functions, self.constants, self.imports, self.paths = path, {}, {}, {}, {}
-        self.text = text
+        self.text, self.head, self.shared = text, None, set()
         text = re.sub(r"#\[cfg\(test\)\]\s*mod \w+;", "", text)
         text = re.split(r"#\[cfg\(test\)\]\s*mod \w+ \{", text)[0]
+        # What is derived computes nothing.
+        text = re.sub(r"#\[cfg_attr\(feature = \"serde\", derive\([\w:, ]*\)\)\]", "", text)
         self.tokens = tokens_of(text)
+        if any(word in ("cfg", "cfg_attr") for _, word in self.tokens):
+            raise Unknown(f"what {path} is under a condition")
         self.read_imports(text)
         self.read_items()
 
@@ -94,6 +99,7 @@ class File:
             if word == "impl" and self.tokens[at][0] == "name":
                 opened = next(i for i in range(at, len(self.tokens)) if self.tokens[i][1] == "{")
                 head = [text for _, text in self.tokens[at + 1 : opened]]
+                self.head = " ".join(head)
                 head = head[head.index("for") + 1 :] if "for" in head else head[self.after_generics(head, 0) :]
                 of, ends, at = head[0], self.closing(opened), opened
             # A parameter of a type is no item.
@@ -101,11 +107,27 @@ class File:
                 end = self.end_of_item(at)
                 value = next((i for i in range(at, end) if self.tokens[i][1] == "="), None)
                 if value:
-                    self.constants[self.tokens[at + 1][1]] = self.tokens[value + 1 : end]
+                    self.add(self.constants, self.tokens[at + 1][1], self.tokens[value + 1 : end])
                 at = end
             elif word == "fn" and self.tokens[at + 1][0] == "name":
                 at = self.read_function(at, of)
             at += 1
+
+    def add(self, items, name, item):
+        if name in items:
+            raise Unknown(f"two of the name {name} in {self.path}")
+        items[name] = item
+
+    def add_function(self, of, name, function):
+        """Two of a type that are of different traits, or of one for different types, are known by these alone."""
+        function.head = self.head if of else None
+        if (of, name) in self.functions and self.functions[of, name].head != function.head:
+            other = self.functions.pop((of, name))
+            self.functions[other.head, name] = other
+            self.shared.add((of, name))
+        if (of, name) in self.shared:
+            of = function.head
+        self.add(self.functions, (of, name), function)
 
     @staticmethod
     def after_generics(words, at):
@@ -132,13 +154,12 @@ class File:
             return body
         end = self.closing(body)
         function = Function(self, name, of, (), parameters, self.tokens[body : end + 1])
-        self.functions.setdefault((of, name), function)
-        # Constants inside of the body are found as well.
+        self.add_function(of, name, function)
         for i in range(body, end):
             if self.tokens[i][1] == "const" and self.tokens[i + 2][1] == ":":
                 stop = self.end_of_item(i)
                 start = next(j for j in range(i, stop) if self.tokens[j][1] == "=")
-                self.constants[self.tokens[i + 1][1]] = self.tokens[start + 1 : stop]
+                self.add(function.constants, self.tokens[i + 1][1], self.tokens[start + 1 : stop])
         return end
 
 
@@ -446,23 +467,32 @@ class Interpreter:
         """What is known in a function once a name is bound."""
         file = self.sources.file(path)
         function = file.functions[of, name]
-        scope = {}
+        scope = self.local(function)
         for pattern, argument in zip(function.parameters, arguments):
             self.bind(pattern, argument, scope)
         for pattern, value in Parser(function.body).lets_until(last):
             self.bind(pattern, self.value(value, scope, file, of), scope)
         return scope
 
-    def constant(self, path, name):
+    def constant(self, path, name, function=None):
+        """That of a file, or of a function in it."""
         file = self.sources.file(path)
-        return self.value(Parser(file.constants[name]).expression(), {}, file, None)
+        constants = file.functions[None, function].constants if function else file.constants
+        return self.value(Parser(constants[name]).expression(), {}, file, None)
+
+    def local(self, function):
+        """The scope that a function starts with: the constants in its body."""
+        scope = {}
+        for name, tokens in function.constants.items():
+            scope[name] = self.value(Parser(tokens).expression(), scope, function.file, function.of)
+        return scope
 
     def apply(self, function, arguments):
         if function.tree is None:
             function.tree = Parser(function.body).block()
         if len(arguments) != len(function.parameters):
             raise Unknown(f"{len(arguments)} arguments of {function.name}")
-        scope = {}
+        scope = self.local(function)
         for pattern, argument in zip(function.parameters, arguments):
             self.bind(pattern, argument, scope)
         return self.value(function.tree, scope, function.file, function.of)
@@ -496,7 +526,7 @@ class Interpreter:
         if kind == "unary":
             return -go(tree[2]) if tree[1] == "-" else not go(tree[2])
         if kind == "if":
-            return go(tree[2]) if self.builtins["if"](tree[1], go) else go(tree[3])
+            return go(tree[2]) if self.builtins["if"](tree[1], go, tree[3]) else go(tree[3])
         if kind == "closure":
             return self.closure(tree, scope, file, of)
         if kind == "structure":

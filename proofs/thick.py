@@ -4,10 +4,10 @@ import re
 from fractions import Fraction
 
 from doubled import Corners, double_sizes
-from engine import AXES, HERE, cross, differences, dot, ends, own, sizes_of_ends
+from engine import AXES, HERE, cross, differences, dot, ends, limit, own, sizes_of_ends
 from filters import chosen, same_as_one_of
 from places import Located, kept, said_at, sizes_at_time
-from prove import polynomial, product, scaled, total
+from prove import Refused, polynomial, product, scaled, total
 from rounded import Context, Double, F, H, Pair, U, runs
 from rust import Record
 
@@ -20,24 +20,35 @@ LEAST_CORNERS = {
 }
 
 
+def is_proof(condition, go, otherwise):
+    """Of an `if`: where what it compares is not so, there is no bound."""
+    if go(condition) is not True or go(otherwise) != float("inf"):
+        raise Refused("a bound that is no proof")
+    return True
+
+
 def thick_margin(engine, claim, kind, part):
     """A plane keeps the two more than the radius apart: all that is taken from the least corner."""
     of, file, kinds, options = LEAST_CORNERS[kind]
 
     def body(context):
         interpreter = engine.interpreter(context)
-        interpreter.builtins["if"] = lambda condition, go: go(condition)
+        interpreter.builtins["if"] = is_proof
         interpreter.builtins["K::least_corner"] = lambda *x: interpreter.apply(
             engine.sources.file(f"{HERE}{file}.rs").functions[of, "least_corner"], list(x)
         )
         motion = Record("Motion", **{name: differences(context, name) for name in "klm"})
-        boxes = Record("SweptBoxes", extent=[F.exactly(context, f"e{axis}").rounded() for axis in AXES])
-        this = Record("Moving", motion=motion, boxes=boxes, radius=F.exactly(context, "R"))
+        boxes = Record("SweptBoxes", extent=[F.size(context, f"e{axis}").rounded() for axis in AXES])
+        this = Record("Moving", motion=motion, boxes=boxes, radius=F.size(context, "R"))
         return interpreter.run(f"{HERE}thick/advance.rs", "margins", [F.exactly(context, f"d{axis}") for axis in AXES], of="Moving", this=this)
 
+    borders = [engine.constant("thick/advance", name) for name in ("SMALLEST", "LARGEST")]
     sizes = lambda name: own("e" + name[2]) if re.fullmatch(r"[klm][01][xyz]", name) else None
     for context, found in runs(body):
         chosen(context, *kinds)
+        above, below, finite = context.compared
+        if above[1].terms != {((), ()): borders[0]} or any(x.terms != {((), ()): borders[1]} for x in (below[0], finite[0])):
+            raise Refused("other borders")
         for end, margin in enumerate(found):  # at the start and at the end
             is_corner = lambda names: any(re.fullmatch(r"[klm][01][xyz]", name) for name in names)
             corner = F(context, {key: c for key, c in margin.terms.items() if is_corner(key[0])})
@@ -63,7 +74,7 @@ def difference_at_place(engine, claim):
     sizes = lambda name: {(): Fraction(1)} if name in ("fu", "fv") else located.sizes(name)
     for axis, component in zip(AXES, found):
         exact = polynomial((1, f"m{axis}"), (1, "fv", f"l{axis}"), (-1, "fu", f"k{axis}"))
-        bound = F(context, {((f"{name}{axis}",), ()): said * U for name in "KLM"})
+        bound = limit(context, said * U, [f"{name}{axis}" for name in "KLM"])
         claim.needs(component, exact, bound, sizes)
 
 
@@ -79,7 +90,7 @@ def velocity_at_place(engine, claim):
     for axis, component in zip(AXES, found):
         change = lambda name: polynomial((1, f"{name}1{axis}"), (-1, f"{name}0{axis}"))
         exact = total(change("m"), product(own("fv"), change("l")), scaled(-1, product(own("fu"), change("k"))))
-        bound = F(context, {((f"{name}{axis}",), ()): said * U for name in "KLM"})
+        bound = limit(context, said * U, [f"{name}{axis}" for name in "KLM"])
         claim.needs(component, exact, bound, sizes)
 
 
@@ -108,15 +119,14 @@ def slope_scope(engine, context, direction, kinds):
     u, v, _ = DIRECTIONS[direction]
     interpreter = engine.interpreter(context)
     interpreter.builtins.update({"K::FIRST": 2, "if": lambda *_: False})
-    interpreter.methods["abs"] = lambda x: abs(x) if isinstance(x, (int, float)) else x.abs()
     vectors = located_vector(context, "d", kinds)
     directions = [Record("Direction", u=float(u), v=float(v), is_free=False)] * 2
     here = Record("Instant", spot=Record("Spot", directions=directions), difference=located_vector(context, "m", kinds))
-    vector = lambda name: [F.exactly(context, f"{name}{axis}").rounded() for axis in AXES]
+    vector = lambda name: [F.size(context, f"{name}{axis}").rounded() for axis in AXES]
     edges, add = [vector("K"), vector("L")], lambda x, y: [p + q for p, q in zip(x, y)]
     size = add(add(*edges), vector("M"))
     interpreter.given = {("Instant", "along"): [vectors, vectors], ("Moving", "reaches"): [edges, size]}
-    this, width = Record("Moving"), F.exactly(context, "W")
+    this, width = Record("Moving"), F.size(context, "W")
     return interpreter.scope_at(f"{HERE}thick/nearness.rs", "slopes", "first", this, here, width, of="Moving")
 
 
@@ -129,6 +139,15 @@ def slope_of(engine, claim, direction, part):
     relative = F(context, {key: c for key, c in bound.terms.items() if key[0]})
     claim.needs(slope.fields["value"], exact, relative, nearness_sizes(engine, DIRECTIONS[direction][2]), merge=Located.merge)
     kept(claim, part)
+
+
+def slope_size(engine, claim):
+    """The size of a slope and its error, up to a rounding: what it is used for outweighs some."""
+    context = Context()
+    slope = Record("Slope", value=F.exactly(context, "d"), error=F.size(context, "error"))
+    found = engine.interpreter(context).run(f"{HERE}thick/nearness.rs", "size", of="Slope", this=slope)
+    near = 1 - 2 * U
+    claim.needs(F.exactly(context, "d", factor=near), {}, found, lambda name: None, needed={("error",): near})
 
 
 def slope_underflow(engine, claim):
@@ -164,9 +183,9 @@ def least_normal(engine, claim, part=None):
     interpreter = engine.interpreter(context)
     kinds = ("", "w", "r")
     vectors = [located_vector(context, name, kinds) for name in "kl"]
-    sizes_of = [[F.exactly(context, f"{name}{axis}").rounded().rounded() for axis in AXES] for name in "KL"]
+    sizes_of = [[F.size(context, f"{name}{axis}").rounded().rounded() for axis in AXES] for name in "KL"]
     scope = interpreter.scope_at(
-        f"{HERE}thick/nearness.rs", "least_normal", "error", vectors, sizes_of, F.exactly(context, "W")
+        f"{HERE}thick/nearness.rs", "least_normal", "error", vectors, sizes_of, F.size(context, "W")
     )
     exact = cross([own(f"k{a}") for a in AXES], [own(f"l{a}") for a in AXES])
     near = engine.said("thick/nearness", r"a component of a direction is within `(\d+) u v` of the exact one")
@@ -184,7 +203,7 @@ def slope_of_distance(engine, claim):
     parts = {name: [F(context, {((f"{kind}{name}{a}",), ()): Fraction(1) for kind in ("", "r")}) for a in AXES] for name in "wv"}
     found = interpreter.run(f"{HERE}motion.rs", "dot", parts["w"], parts["v"])
     # Sums of three sizes, rounded.
-    size = [F.exactly(context, f"s{a}").rounded().rounded() for a in AXES]
+    size = [F.size(context, f"s{a}").rounded().rounded() for a in AXES]
     interpreter.given = {("Moving", "reaches"): [None, size]}
     interpreter.builtins["if"] = lambda *_: False
     scope = interpreter.scope_at(
@@ -233,7 +252,7 @@ def excess_at_time(engine, claim):
         for axis, lane in (("x", xy.exact.ends[0]), ("y", xy.exact.ends[1]), ("z", zz.exact.ends[0])):
             at = lambda name: polynomial((1, f"{name}0{axis}"), (1, f"{name}1{axis}", "ft"), (-1, f"{name}0{axis}", "ft"))
             exact = total(at("m"), product(own("fv"), at("l")), scaled(-1, product(own("fu"), at("k"))))
-            bound = F(context, {((f"{name}{axis}",), ()): said * H for name in "KLM"})
+            bound = limit(context, said * H, [f"{name}{axis}" for name in "KLM"])
             claim.needs(lane, exact, bound, sizes)
 
 
@@ -244,7 +263,7 @@ def change_in_a_step(engine, claim):
     said = engine.said("thick/turning", r"A change, of magnitude up to `2 e`, is within `([\d.]+) u e`")
     for axis, component in zip(AXES, found):
         exact = polynomial((1, f"k1{axis}"), (-1, f"k0{axis}"))
-        claim.needs(component, exact, F(context, {((f"K{axis}",), ()): said * U}), sizes_of_ends)
+        claim.needs(component, exact, F.size(context, f"K{axis}", factor=said * U), sizes_of_ends)
 
 
 def turning(engine, claim, kind, index, part):
@@ -261,8 +280,8 @@ def turning(engine, claim, kind, index, part):
         interpreter = engine.interpreter(context)
         vectors = [located_vector(context, name, ("", "r")) for name in "klm"]
         changes = [located_vector(context, f"c{name}", ("", "r")) for name in "klm"]
-        boxes = Record("SweptBoxes", extent=[F.exactly(context, f"e{a}").rounded() for a in AXES])
-        this = Record("Moving", boxes=boxes, radius=F.exactly(context, "R"))
+        boxes = Record("SweptBoxes", extent=[F.size(context, f"e{a}").rounded() for a in AXES])
+        this = Record("Moving", boxes=boxes, radius=F.size(context, "R"))
         leaves = lambda name: [F.exactly(context, f"{name}{a}") for a in AXES]
         scope = interpreter.scope_at(
             f"{HERE}thick/turning.rs",
@@ -293,7 +312,7 @@ def turning_needs(claim, context, index, found, exact, said):
     part = lambda is_in, sign=1: F(context, {key: sign * c for key, c in found.terms.items() if key[0] and is_in(key[0])})
     of_corner = lambda names: any(re.fullmatch(r"r?c?[klm][xyz]", name) for name in names)
     length, turn_length = "|nx,ny,nz|", "|dx,dy,dz|"
-    share = ("1/" + length, "R")
+    share = ("1/" + length, "|R|")
     of_share = lambda names: index == 1 and share[0] in names
     bound = part(lambda names: not of_corner(names) and not of_share(names), -1)
     needed = {}
