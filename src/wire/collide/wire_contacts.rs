@@ -16,6 +16,7 @@ use crate::wire::Vector;
 use crate::wire::contact::ContactConstraint;
 use crate::wire::record::ContactRecord;
 use crate::wire::site::{SegmentId, WireSite};
+use crate::wire::vector::unit;
 use crate::wire::world::World;
 
 /// Where the keys of contacts between wires start.
@@ -57,6 +58,9 @@ pub(in crate::wire) struct WireContacts {
 /// Contacts become one when they are nearer than this part of the spacing from which on there are two. So
 /// none comes and goes from step to step: it would come without an impulse, and go with one.
 const MERGED: f64 = 0.5;
+
+/// The sine of the angle below which segments lie along each other, so that their closest points may be anywhere.
+const ALONG: f64 = 0.1;
 
 type PairSet = BTreeSet<[SegmentId; 2]>;
 
@@ -136,6 +140,11 @@ impl WireContacts {
         let pairs = self.list.iter().filter_map(|touch| touch.pair(world));
         let pairs: PairSet = pairs.collect();
         for pair in pairs {
+            let directions = pair.map(|segment| {
+                let [start, end] = segment.ends(world);
+                unit(&(end - start)).0
+            });
+            let is_along = directions[0].cross(&directions[1]).norm() < ALONG;
             let ends = [Side::A, Side::B].map(|side| [(side, 0.0), (side, 1.0)]);
             for (side, end) in ends.into_iter().flatten() {
                 let beside = Closest::beside(world, pair, side as usize, end);
@@ -144,7 +153,10 @@ impl WireContacts {
                 let touches = beside.distance() <= thickness.touching(world, pair, &sites) + fall;
                 let known = || {
                     let mut all = self.list.iter();
-                    all.any(|older| older.is_at(world, &sites, thickness))
+                    all.any(|older| {
+                        let stays = older.at_node.is_some() || !is_along;
+                        stays && older.is_at(world, &sites, thickness)
+                    })
                 };
                 if !(inside && touches) || thickness.is_bend(world, pair, &sites) || known() {
                     continue;
