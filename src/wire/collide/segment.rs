@@ -40,6 +40,16 @@ impl SegmentId {
         WireSite { wire, arc }
     }
 
+    /// The neighbour beyond an end, at 0 or 1, if there is one; none from inside.
+    pub(super) fn beyond(self, world: &World, parameter: f64) -> Option<Self> {
+        let segment = match parameter {
+            0.0 => self.segment.checked_sub(1),
+            1.0 => Some(self.segment + 1).filter(|&to| to < self.of(world).segments.len()),
+            _ => None,
+        }?;
+        Some(SegmentId { segment, ..self })
+    }
+
     /// The segment at a place, if its wire is there; at a node the one after it, at the last node
     /// the last.
     pub(super) fn at(world: &World, site: &WireSite) -> Option<Self> {

@@ -357,15 +357,11 @@ impl WireContact {
         let other = 1 - node;
         let mut beside = Closest::beside(world, pair, node, at);
         while !is_inside(beside.parameters[other]) {
-            let from = pair[other].segment;
-            let to = if beside.parameters[other] == 0.0 {
-                from.checked_sub(1)
-            } else {
-                Some(from + 1).filter(|&to| to < pair[other].of(world).segments.len())
+            let Some(beyond) = pair[other].beyond(world, beside.parameters[other]) else {
+                return false;
             };
-            let Some(to) = to else { return false };
             let mut next = pair;
-            next[other].segment = to;
+            next[other] = beyond;
             if joined(world, next) {
                 return false;
             }
@@ -402,15 +398,8 @@ fn hand_over(
     taken: &PairSet,
 ) -> Option<([SegmentId; 2], Closest)> {
     let step = |which: usize| {
-        let count = pair[which].of(world).segments.len();
-        let at = pair[which].segment;
-        let to = match closest.parameters[which] {
-            0.0 => at.checked_sub(1),
-            1.0 => Some(at + 1).filter(|&to| to < count),
-            _ => None,
-        }?;
         let mut next = pair;
-        next[which].segment = to;
+        next[which] = pair[which].beyond(world, closest.parameters[which])?;
         Some(next)
     };
     let next = [step(0), step(1)].into_iter().flatten();

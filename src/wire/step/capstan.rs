@@ -107,9 +107,13 @@ fn friction(wire: &Wire, node: usize) -> f64 {
 
 /// `D/2`.
 fn half_turn(wire: &Wire, node: usize) -> f64 {
-    let [before, after] = directions(wire, node);
+    half_turn_between(&directions(wire, node))
+}
+
+/// `D/2` of two directions with the angle `D` between them.
+pub(super) fn half_turn_between([before, after]: &[Vector; 2]) -> f64 {
     // tan(D/2) = sin D / (1 + cos D)
-    libm::atan2(before.cross(&after).norm(), 1.0 + before.dot(&after))
+    libm::atan2(before.cross(after).norm(), 1.0 + before.dot(after))
 }
 
 /// The unit normal of the body at a contact node.

@@ -1,6 +1,6 @@
 //! Attaches nodes to bodies as contact nodes, and releases them.
 
-use super::capstan::{LEAST, contact_nodes, directions};
+use super::capstan::{LEAST, contact_nodes, directions, half_turn_between};
 use crate::wire::model::wire::TENSION_HISTORY;
 use crate::wire::model::{BodyId, Node, NodeKind, Wire, WireId};
 use crate::wire::record::Slide;
@@ -160,9 +160,7 @@ fn is_pulled_aside(world: &World, wire: usize, node: usize) -> bool {
 /// By how much the wire presses on a convex curve, for its pull into it. The curve turns it by `D` from one direction
 /// to another: `(D/2) / sin(D/2)`.
 pub(in crate::wire) fn pressing_by_pull(directions: &[Vector; 2]) -> f64 {
-    let [before, after] = directions;
-    // tan(D/2) = sin D / (1 + cos D)
-    let half = libm::atan2(before.cross(after).norm(), 1.0 + before.dot(after));
+    let half = half_turn_between(directions);
     if half > 0.0 {
         half / libm::sin(half)
     } else {
