@@ -39,8 +39,8 @@ class Engine:
         "Bounded": ["normal/bounded"],
     }
 
-    def __init__(self, root):
-        self.sources = Sources(root)
+    def __init__(self, root, texts=None):
+        self.sources = Sources(root, texts)
         self.types = {name: [f"{HERE}{file}.rs" for file in files] for name, files in self.TYPES.items()}
 
     def interpreter(self, context, **more):

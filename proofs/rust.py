@@ -5,6 +5,7 @@ are read too), closures, arrays, tuples and structures. What it does not know is
 """
 
 import re
+from functools import lru_cache
 from pathlib import Path
 
 TOKEN = re.compile(
@@ -21,7 +22,9 @@ class Unknown(Exception):
     """Rust that this program does not read."""
 
 
+@lru_cache(maxsize=None)
 def tokens_of(text):
+    """The words of a text, which are not to be changed."""
     text = re.sub(r"//[^\n]*", "", text)
     found, at = [], 0
     while at < len(text):
@@ -39,6 +42,8 @@ class Function:
         self.file, self.name, self.of, self.generics = file, name, of, generics
         self.parameters, self.body, self.tree = parameters, body, None
         self.constants = {}
+        # Whether a claim has run it to its end.
+        self.is_run = False
 
     def text(self):
         return " ".join(text for _, text in self.body)
@@ -413,14 +418,17 @@ class Record:
 
 
 class Sources:
-    """The source files below a folder, as read when they are needed."""
+    """The source files below a folder, read when they are needed. Some may have another text than is there."""
 
-    def __init__(self, root):
-        self.root, self.files = Path(root), {}
+    def __init__(self, root, texts=None):
+        self.root, self.files, self.texts = Path(root), {}, texts or {}
+
+    def text(self, path):
+        return self.texts[path] if path in self.texts else (self.root / path).read_text()
 
     def file(self, path):
         if path not in self.files:
-            self.files[path] = File(path, (self.root / path).read_text())
+            self.files[path] = File(path, self.text(path))
         return self.files[path]
 
     def module(self, user, name):
@@ -435,6 +443,16 @@ class Sources:
                 if (self.root / path).is_file():
                     return self.file(str(path))
         raise Unknown(f"the module {name!r}")
+
+    def modules(self, path):
+        """The paths of a module and of all below it that are not for tests alone."""
+        text = re.sub(r"#\[cfg\(test\)\]\s*mod \w+;", "", self.text(path))
+        folder = Path(path).parent if Path(path).stem == "mod" else Path(path).with_suffix("")
+        found = [path]
+        for name in re.findall(r"^(?:pub(?:\([\w: ]+\))? )?mod (\w+);", text, re.M):
+            below = (folder / f"{name}.rs", folder / name / "mod.rs")
+            found += self.modules(str(next(path for path in below if (self.root / path).is_file())))
+        return found
 
     def follow(self, user, path):
         """The file of the module in which a path of names ends, seen from a file: without guesses. None if it is another package's."""
@@ -492,6 +510,7 @@ class Interpreter:
             function.tree = Parser(function.body).block()
         if len(arguments) != len(function.parameters):
             raise Unknown(f"{len(arguments)} arguments of {function.name}")
+        function.is_run = True
         scope = self.local(function)
         for pattern, argument in zip(function.parameters, arguments):
             self.bind(pattern, argument, scope)

@@ -12,6 +12,7 @@ use std::process::ExitCode;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, value_parser};
 use tunnelproof::certified::ClearanceError;
+use tunnelproof::environment::{self, EnvironmentError};
 use tunnelproof::query::{QueryKind, Radius};
 use tunnelproof_cli::meshes::MeshFileError;
 use tunnelproof_cli::scenes::SceneError;
@@ -154,6 +155,8 @@ enum Failure {
     Penalty(f64),
     /// Ctrl-C cannot be listened to.
     Interruption(ctrlc::Error),
+    /// Nothing here holds in this floating-point environment.
+    Environment(EnvironmentError),
     /// The threads cannot be started.
     Threads(rayon::ThreadPoolBuildError),
 }
@@ -173,6 +176,8 @@ impl Cli {
     }
 
     fn start(self) -> Result<ExitCode, Failure> {
+        // The environment of a library that was loaded before the program, for one.
+        environment::check().map_err(Failure::Environment)?;
         if let Some(threads) = self.threads {
             rayon::ThreadPoolBuilder::new()
                 .num_threads(threads.into())
@@ -366,6 +371,7 @@ impl fmt::Display for Failure {
                 write!(f, "--penalty is {value}, not a finite number above 0")
             }
             Failure::Interruption(error) => write!(f, "Ctrl-C: {error}"),
+            Failure::Environment(error) => write!(f, "floating-point environment: {error}"),
             Failure::Threads(error) => write!(f, "--threads: {error}"),
         }
     }

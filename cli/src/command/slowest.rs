@@ -31,8 +31,9 @@ Each changes a few numbers of its query at a time: other exponents, other bits, 
 coincide. It keeps a change if the query takes longer each of four times. After 2000 changes in a row
 that are not kept it begins anew. One thread works, so that nothing else disturbs the clock.
 
-The time is the smallest of the four. That of a program or a library includes the time to ask it, some
-0.1 ms. Queries on which it crashes are passed over; certify finds these.
+The time is the smallest of the four, by the clock: other programs that run disturb it. That of a
+program or a library includes the time to ask it, some 0.1 ms. Queries on which it crashes are passed
+over; certify finds these.
 
 The queries are printed as lines that eval, explain and certify read, the slowest first. Their times,
 and what certify says of the answers, are written to the standard error. Ctrl-C ends the search and

@@ -11,6 +11,8 @@ mod advance;
 mod boxes;
 mod certificate;
 mod certify;
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+mod environment;
 mod eval;
 mod explain;
 mod general;

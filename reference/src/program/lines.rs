@@ -10,11 +10,13 @@
 //! - `case`: the case of the motion, if the program has such cases.
 //! - `unsupported`: `true` instead of `hit`, for queries that the program does not take.
 //!
-//! Other fields are ignored.
+//! Other fields are ignored. One of these that is there twice makes the answer unreadable.
 
 use std::io::{self, BufRead, Read};
 
+use serde::{Deserialize, Deserializer};
 use serde_json::Value;
+use serde_json::error::Category;
 use tunnelproof::contact::Case;
 use tunnelproof::query::Query;
 use tunnelproof::rigid::RigidQuery;
@@ -67,27 +69,56 @@ pub(super) fn read(reader: &mut impl BufRead) -> io::Result<Option<Vec<u8>>> {
 /// What a line says, or what is wrong with it.
 pub(super) fn parse(line: &[u8]) -> Result<Message, String> {
     let text = std::str::from_utf8(line).map_err(|_| excerpt(line, "not UTF-8"))?;
-    let json = serde_json::from_str(text).or_else(|_| serde_json::from_str(&without_nan(text)));
-    let json: Value = json.map_err(|_| excerpt(line, "not JSON"))?;
-    message(&json).map_err(|what| excerpt(line, what))
+    let fields = serde_json::from_str(text).or_else(|_| serde_json::from_str(&without_nan(text)));
+    let is_object = text.trim_start().starts_with('{');
+    fields
+        .map_err(|error| match error.classify() {
+            Category::Data if is_object => "a field twice",
+            Category::Data => "not a JSON object",
+            _ => "not JSON",
+        })
+        // A list of values would do as well.
+        .and_then(|fields| match is_object {
+            true => message(&fields),
+            false => Err("not a JSON object"),
+        })
+        .map_err(|what| excerpt(line, what))
 }
 
-fn message(json: &Value) -> Result<Message, &'static str> {
-    let fields = json.as_object().ok_or("not a JSON object")?;
-    let id = match fields.get("id") {
+/// The fields of an answer. `null` is a value as any other.
+#[derive(Deserialize)]
+struct Fields {
+    #[serde(default, deserialize_with = "given")]
+    id: Option<Value>,
+    #[serde(default, deserialize_with = "given")]
+    unsupported: Option<Value>,
+    #[serde(default, deserialize_with = "given")]
+    hit: Option<Value>,
+    #[serde(default, deserialize_with = "given")]
+    toi: Option<Value>,
+    #[serde(default, deserialize_with = "given")]
+    case: Option<Value>,
+}
+
+fn given<'a, D: Deserializer<'a>>(value: D) -> Result<Option<Value>, D::Error> {
+    Value::deserialize(value).map(Some)
+}
+
+fn message(fields: &Fields) -> Result<Message, &'static str> {
+    let id = match &fields.id {
         None | Some(Value::Null) => None,
         Some(id) => Some(number_of_query(id).ok_or("id is that of no query")?),
     };
-    if fields.get("unsupported") == Some(&Value::Bool(true)) {
+    if fields.unsupported == Some(Value::Bool(true)) {
         let reply = Reply::Unsupported;
         return Ok(Message { id, reply });
     }
-    let hit = fields.get("hit").and_then(Value::as_bool);
+    let hit = fields.hit.as_ref().and_then(Value::as_bool);
     let toi = match hit.ok_or("hit is neither true nor false")? {
         false => None,
-        true => Some(time(fields.get("toi").ok_or("a hit without toi")?)?),
+        true => Some(time(fields.toi.as_ref().ok_or("a hit without toi")?)?),
     };
-    let case = match fields.get("case").map(Value::as_str) {
+    let case = match fields.case.as_ref().map(Value::as_str) {
         None => None,
         Some(name) => Some(name.and_then(Case::from_name).ok_or("no such case")?),
     };
