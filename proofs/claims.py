@@ -100,11 +100,11 @@ def all_claims():
     return add
 
 
-# What the files of the integer stage start with: beyond these proofs, but for what follows.
+# What the names of the files of the integer stage start with: beyond these proofs, but for what follows.
 INTEGERS = "exact/"
 
 # Functions of the integer stage that proofs by hand speak of: filters in `f64`, and what is rounded.
-INTEGERS_BY_HAND = [
+OF_INTEGERS = [
     ("exact/integer", "Integer", "approximate"),
     ("exact/integer", "Integer", "approximate_shifted"),
     ("exact/integer", None, "ratio"),
@@ -127,8 +127,8 @@ INTEGERS_BY_HAND = [
     ("exact/thick/parallel", "Quadratic", "share_of"),
 ]
 
-# Files of the integer stage that are proved by hand as a whole.
-INTEGER_FILES_BY_HAND = [
+# Files of the integer stage that are kept whole.
+INTEGER_FILES = [
     "exact/bracket/quotient",
     "exact/enclosure",
     "exact/fraction",
@@ -137,16 +137,8 @@ INTEGER_FILES_BY_HAND = [
     "exact/time",
 ]
 
-# Files beyond these proofs, beside those of the integer stage: they choose who is asked, lay out queries, and guess.
-NO_PROOF = [
-    "batch",
-    "block",
-    "cascade",
-    "kind",
-    "narrow",
-    "nearest",
-    "stage",
-    "rigid/guess",
-    "rigid/kind",
-    "rigid/turning",
-]
+# Files beyond these proofs, beside those of the integer stage: they lay out queries, name stages, and guess.
+NO_PROOF = ["batch", "narrow", "rigid/guess", "stage"]
+
+# Files outside of the certified path that are kept: what it takes its input to be.
+OUTSIDE = ["query", "query/radius", "rigid/motion", "rigid/query"]

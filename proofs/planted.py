@@ -23,9 +23,14 @@ def refuses(engine, claim, build):
         return True
 
 
-def sources_with(file, text):
+def path_of(file):
+    """That of a file by its name in `src/certified`, or by its path without an ending."""
+    return f"{file}.rs" if file.startswith("src/") else f"{CERTIFIED}/{file}.rs"
+
+
+def sources_with(path, text):
     """The sources, with another text in place of a file of them."""
-    return Engine(ROOT, {f"{CERTIFIED}/{file}": text})
+    return Engine(ROOT, {path: text})
 
 
 def own_first(jobs, file):

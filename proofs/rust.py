@@ -18,6 +18,10 @@ TOKEN = re.compile(
 )
 
 
+def joined(tokens):
+    return " ".join(text for _, text in tokens)
+
+
 class Unknown(Exception):
     """Rust that this program does not read."""
 
@@ -26,6 +30,8 @@ class Unknown(Exception):
 def tokens_of(text):
     """The words of a text, which are not to be changed."""
     text = re.sub(r"//[^\n]*", "", text)
+    if "/*" in text:
+        raise Unknown("a comment in /*")
     found, at = [], 0
     while at < len(text):
         match = TOKEN.match(text, at)
@@ -38,15 +44,15 @@ def tokens_of(text):
 
 
 class Function:
-    def __init__(self, file, name, of, generics, parameters, body):
-        self.file, self.name, self.of, self.generics = file, name, of, generics
+    def __init__(self, file, name, of, tokens, parameters, body):
+        self.file, self.name, self.of, self.tokens = file, name, of, tokens
         self.parameters, self.body, self.tree = parameters, body, None
         self.constants = {}
         # Whether a claim has run it to its end.
         self.is_run = False
 
     def text(self):
-        return " ".join(text for _, text in self.body)
+        return joined(self.tokens)
 
 
 class File:
@@ -55,18 +61,32 @@ class File:
     def __init__(self, path, text):
         self.path, self.functions, self.constants, self.imports, self.paths = path, {}, {}, {}, {}
         self.text, self.head, self.shared = text, None, set()
-        text = re.sub(r"#\[cfg\(test\)\]\s*mod \w+;", "", text)
-        text = re.split(r"#\[cfg\(test\)\]\s*mod \w+ \{", text)[0]
         # What is derived computes nothing.
         text = re.sub(r"#\[cfg_attr\(feature = \"serde\", derive\([\w:, ]*\)\)\]", "", text)
-        self.tokens = tokens_of(text)
+        self.tokens = self.without_tests(tokens_of(text))
         if any(word in ("cfg", "cfg_attr") for _, word in self.tokens):
             raise Unknown(f"what {path} is under a condition")
         self.read_imports(text)
+        # What is outside of functions.
+        self.rest = []
         self.read_items()
+
+    def without_tests(self, tokens):
+        """The tokens without the modules that are for tests alone."""
+        self.tokens, kept, at = tokens, [], 0
+        while at < len(tokens):
+            words = [text for _, text in tokens[at : at + 10]]
+            if words[:8] == ["#", "[", "cfg", "(", "test", ")", "]", "mod"]:
+                at = (at + 9 if words[9] == ";" else self.closing(at + 9)) + 1
+            else:
+                kept.append(tokens[at])
+                at += 1
+        return kept
 
     def read_imports(self, text):
         for tree in re.findall(r"^\s*(?:pub )?(?:\([^)]*\) )?use ([^;]+);", text, re.M):
+            if re.search(r"\sas\s", tree):
+                raise Unknown(f"another name by `as` in {self.path}")
             tree = re.sub(r"\s+", "", tree)
             head, _, inner = tree.partition("{")
             names = inner.rstrip("}").split(",") if inner else [head.split("::")[-1]]
@@ -96,7 +116,7 @@ class File:
         return at
 
     def read_items(self):
-        of, ends, at = None, -1, 0
+        of, ends, at, read = None, -1, 0, 0
         while at < len(self.tokens):
             word = self.tokens[at][1]
             if at == ends:
@@ -107,6 +127,9 @@ class File:
                 self.head = " ".join(head)
                 head = head[head.index("for") + 1 :] if "for" in head else head[self.after_generics(head, 0) :]
                 of, ends, at = head[0], self.closing(opened), opened
+            # What it makes is known to the compiler alone.
+            elif word == "macro_rules":
+                at = self.closing(at + 3)
             # A parameter of a type is no item.
             elif word == "const" and self.tokens[at + 1][0] == "name" and self.tokens[at + 2][1] == ":" and self.tokens[at - 1][1] not in "<,":
                 end = self.end_of_item(at)
@@ -115,8 +138,11 @@ class File:
                     self.add(self.constants, self.tokens[at + 1][1], self.tokens[value + 1 : end])
                 at = end
             elif word == "fn" and self.tokens[at + 1][0] == "name":
+                self.rest += self.tokens[read : at + 2]
                 at = self.read_function(at, of)
+                read = at + 1
             at += 1
+        self.rest += self.tokens[read:]
 
     def add(self, items, name, item):
         if name in items:
@@ -158,7 +184,7 @@ class File:
         if self.tokens[body][1] == ";":
             return body
         end = self.closing(body)
-        function = Function(self, name, of, (), parameters, self.tokens[body : end + 1])
+        function = Function(self, name, of, self.tokens[at : end + 1], parameters, self.tokens[body : end + 1])
         self.add_function(of, name, function)
         for i in range(body, end):
             if self.tokens[i][1] == "const" and self.tokens[i + 2][1] == ":":
@@ -347,7 +373,9 @@ class Parser:
                 self.need("]")
                 value = ("index", value, index)
             elif self.take("as"):
-                self.skip_type([")", ",", ";", "*", "+", "-", "/"])
+                # To what is shorter, or an integer, is a rounding.
+                self.need("f64")
+                value = ("cast", value)
             elif self.peek() == "?":
                 raise Unknown("a question mark")
             else:
@@ -542,6 +570,8 @@ class Interpreter:
             return self.value(tree[2], inner, file, of)
         if kind == "binary":
             return self.binary(tree[1], go(tree[2]), go(tree[3]))
+        if kind == "cast":
+            return self.cast(go(tree[1]))
         if kind == "unary":
             return -go(tree[2]) if tree[1] == "-" else not go(tree[2])
         if kind == "if":
@@ -581,6 +611,13 @@ class Interpreter:
         return call
 
     @staticmethod
+    def cast(value):
+        """An integer as `f64`."""
+        if type(value) is not int or abs(value) > 2**53:
+            raise Unknown(f"{value!r} as f64")
+        return float(value)
+
+    @staticmethod
     def binary(operator, x, y):
         if operator == "+":
             return x + y
@@ -589,6 +626,9 @@ class Interpreter:
         if operator == "*":
             return x * y
         if operator == "/":
+            # Rust's drops the rest.
+            if isinstance(x, int) and isinstance(y, int):
+                raise Unknown("a quotient of integers")
             return x / y
         if operator == "<<":
             return x << y

@@ -11,7 +11,6 @@ use super::cascade::{decide_motion, decide_rest};
 use super::kind::Kind;
 use super::motion::Positions;
 use super::stage::Stage;
-use super::thick::rounded_up;
 use crate::contact::Hit;
 use crate::environment;
 use crate::query::{Point, QueryError, Radius, check};
@@ -200,7 +199,7 @@ impl<K: Kind> Batch<K> {
                 unscreened = u32::saturating_sub(unscreened, 1);
                 true
             } else if is_thick {
-                block.fill_radii(radii.iter().map(|radius| rounded_up(*radius)));
+                block.fill_radii(radii);
                 block.screen_thick::<K::Stages>(&mut observe)
             } else {
                 block.screen::<K::Stages>(&mut observe)

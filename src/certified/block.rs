@@ -14,7 +14,8 @@ use super::ends::{Ends, Plain};
 use super::kind::Stages;
 use super::motion::Positions;
 use super::stage::Stage;
-use super::thick;
+use super::thick::{self, rounded_up};
+use crate::query::Radius;
 
 /// How many queries go through a stage together: enough that few lanes are idle in the later
 /// stages, few enough that their coordinates stay in the cache.
@@ -61,10 +62,10 @@ impl Block {
         }
     }
 
-    /// Numbers not below the radii of the queries, all above 0.
-    pub(super) fn fill_radii(&mut self, radii: impl Iterator<Item = f64>) {
-        for (i, radius) in radii.enumerate() {
-            self.tiles[i / LANES][RADIUS][i % LANES] = radius;
+    /// The radii of the queries, all above 0.
+    pub(super) fn fill_radii(&mut self, radii: &[Radius]) {
+        for (i, radius) in radii.iter().enumerate() {
+            self.tiles[i / LANES][RADIUS][i % LANES] = rounded_up(*radius);
         }
     }
 

@@ -1,34 +1,32 @@
-"""The text of the functions that are proved by hand, as it was when they were, with the constants that they name.
+"""The text of the filters, as it was when they were proved, with the constants that they name.
 
-Every function of `src/certified` is in a claim, or is kept so, or is of a part that `claims.py` names as beyond these proofs.
+All of `src/certified` is kept so, but what `claims.py` names as beyond these proofs.
 """
 
 import re
 from pathlib import Path
 
 from engine import HERE
-from claims import INTEGER_FILES_BY_HAND, INTEGERS, INTEGERS_BY_HAND, NO_PROOF
-from rust import Unknown
+from claims import INTEGER_FILES, INTEGERS, NO_PROOF, OF_INTEGERS, OUTSIDE
+from rust import Unknown, joined
 
-KEPT = Path(__file__).resolve().parent / "by_hand.txt"
+KEPT = Path(__file__).resolve().parent / "kept.txt"
+SOURCES = "src/"
 
 # A constant is written so. Types of one letter are too, so one letter is a constant where the file knows one.
 CONSTANT = re.compile(r"[A-Z][A-Z0-9_]*")
 # Of whom constants are not looked for: numbers of Rust itself, and what has a value for each width of integers.
-ELSEWHERE = {"f32", "f64", "i64", "u64", "usize", "L"}
-# Not constants: what types are made with, and variants of a type.
-OTHERS = {"FIRST", "SECOND", "F32", "F64"}
+ELSEWHERE = {"f32", "f64", "i64", "std", "u64", "usize", "L"}
+# Not constants: variants of a type, and, alone, what types are made with.
+OTHERS = {"F32", "F64"}
+PARAMETERS = {"FIRST", "SECOND"}
 # The types that a parameter stands for.
 STANDS_FOR = {"K": ("edges", "face/mod")}
 
 
-def name_of(file, of, name):
-    return f"{file}.rs {of + '::' if of else ''}{name}"
-
-
-def is_spoken_of(file):
-    """Whether all functions of a file are in a claim or proved by hand."""
-    return file not in NO_PROOF and (not file.startswith(INTEGERS) or file in INTEGER_FILES_BY_HAND)
+def is_whole(file):
+    """Whether all of a file is kept."""
+    return file not in NO_PROOF and (not file.startswith(INTEGERS) or file in INTEGER_FILES)
 
 
 def files(engine):
@@ -36,12 +34,13 @@ def files(engine):
     return [path.removeprefix(HERE).removesuffix(".rs") for path in engine.sources.modules(f"{HERE}mod.rs")]
 
 
-def named(engine):
-    """All functions that are in a claim or proved by hand, and no others: a file, a type or `None`, and a name."""
-    yield from INTEGERS_BY_HAND
-    for file in filter(is_spoken_of, files(engine)):
-        functions = engine.sources.file(f"{HERE}{file}.rs").functions
-        yield from ((file, of, name) for of, name in functions)
+def paths(engine):
+    """Those of the files that are kept whole."""
+    return [f"{HERE}{file}.rs" for file in files(engine) if is_whole(file)] + [f"{SOURCES}{file}.rs" for file in OUTSIDE]
+
+
+def name_of(path, of, name):
+    return f"{path.removeprefix(HERE)} {of + '::' if of else ''}{name}"
 
 
 def home_of(sources, file, path):
@@ -70,7 +69,7 @@ def constants(sources, file, tokens, found, own=()):
             start -= 2
         path = words[start : i + 1 : 2]
         owner = path[0]
-        if owner in ELSEWHERE or word in OTHERS or path in ([name] for name in own):
+        if owner in ELSEWHERE | PARAMETERS or word in OTHERS or path in ([name] for name in own):
             continue
         homes = [sources.file(f"{HERE}{name}.rs") for name in STANDS_FOR.get(owner, ()) if len(path) > 1]
         homes = homes or [home_of(sources, file, path[1:] if owner == "Self" else path)]
@@ -87,33 +86,33 @@ def constants(sources, file, tokens, found, own=()):
 
 
 def text_of(engine, file, function):
-    found = constants(engine.sources, file, function.body, {}, function.constants)
+    """That of a function, and of the constants that it names."""
+    found = constants(engine.sources, file, function.tokens, {}, function.constants)
     return function.text() + "".join(f" ; {name} = {text}" for name, text in found.items())
 
 
 def texts(engine):
-    """Each function by its name, and its text without comments. The other questions are asked of this."""
+    """What is kept, by its name: functions, and what is outside of functions in a file, without comments."""
     found = {}
-    for name, of, function in named(engine):
-        file = engine.sources.file(f"{HERE}{name}.rs")
-        known = file.functions.get((of, function))
-        found[name_of(name, of, function)] = known, text_of(engine, file, known) if known else "(gone)"
+    for path in paths(engine):
+        try:
+            file = engine.sources.file(path)
+            found.update((name_of(path, *key), text_of(engine, file, function)) for key, function in file.functions.items())
+            found[name_of(path, None, "outside of functions")] = joined(file.rest)
+        except Unknown as error:
+            found[name_of(path, None, "as a whole")] = f"is not read: {error}"
+    for name, *key in OF_INTEGERS:
+        path = f"{HERE}{name}.rs"
+        try:
+            file = engine.sources.file(path)
+            found[name_of(path, *key)] = text_of(engine, file, file.functions[tuple(key)])
+        except (Unknown, KeyError) as error:
+            found[name_of(path, *key)] = f"is not read: {error}"
     return found
 
 
-# A claim says what is computed, not always what follows where it is compared.
-COMPARES = {"<", ">", "<=", ">=", "==", "!=", "is_above"}
-
-
-def is_in_claims(function):
-    """Whether claims alone hold a function: they have run it to its end, and it compares nothing. Once all claims are built."""
-    return function is not None and function.is_run and not any(text in COMPARES for _, text in function.body)
-
-
 def keep(now):
-    """Keeps the text of all functions that claims alone do not hold."""
-    found = [f"{name}\n    {text}\n" for name, (function, text) in now.items() if not is_in_claims(function)]
-    KEPT.write_text("".join(found))
+    KEPT.write_text("".join(f"{name}\n    {text}\n" for name, text in now.items()))
 
 
 def kept():
@@ -121,17 +120,17 @@ def kept():
 
 
 def changed(now):
-    """The functions of which the text, or that of a constant, is another one."""
-    return [name for name, text in kept().items() if name not in now or now[name][1] != text]
-
-
-def in_no_proof(now):
-    """The functions that are neither kept nor held by claims."""
+    """What is another text, is new, or is gone."""
     known = kept()
-    return [name for name, (function, _) in now.items() if name not in known and not is_in_claims(function)]
+    return [name for name, text in now.items() if known.get(name) != text] + [name for name in known if name not in now]
 
 
 def gone(engine):
     """The files that `claims.py` names and that are not there."""
     there = files(engine)
-    return [f"{file}.rs" for file in NO_PROOF + INTEGER_FILES_BY_HAND if file not in there]
+    return [f"{file}.rs" for file in NO_PROOF + INTEGER_FILES if file not in there]
+
+
+def count_run(engine):
+    """How many functions the claims have run to their ends."""
+    return sum(function.is_run for file in engine.sources.files.values() for function in file.functions.values())
