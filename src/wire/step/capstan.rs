@@ -70,6 +70,7 @@ pub(super) fn friction_rows(world: &World, layout: &Layout) -> Vec<Row> {
                 terms: SmallVec::new(),
                 slides: smallvec![(column, 1.0)],
                 compliance: 0.0,
+                damping: 0.0,
                 sigma,
                 target: 0.0,
                 branch: law.branch(wire.nodes[node].slide, sigma),

@@ -19,6 +19,7 @@ mod friction_bounds;
 mod gmres;
 mod implicit;
 mod islands;
+mod linearisation;
 pub(super) mod motion;
 mod multipliers;
 mod order;

@@ -5,6 +5,7 @@ use smallvec::{SmallVec, smallvec};
 
 use super::carrier::{Carrier, Layout};
 use super::constitutive::{Branch, ConstitutiveLaw};
+use super::linearisation::Linearisation;
 use super::softness::Softness;
 use crate::wire::contact::ContactConstraint;
 use crate::wire::model::Wire;
@@ -24,6 +25,8 @@ pub(super) struct Row {
     pub(super) slides: SmallVec<[(usize, f64); 2]>,
     /// What it gives way to a force, in m/N, or to a moment, in 1/(N m); 0 for friction.
     pub(super) compliance: f64,
+    /// The damping time in s.
+    pub(super) damping: f64,
     /// Regularisation in 1/kg.
     pub(super) sigma: f64,
     /// What the row asks for, in m/s or 1/s, prescribed velocities included on the left.
@@ -73,6 +76,11 @@ impl Row {
         slides.fold(of_points, |sum, &(column, value)| sum + value * x[column])
     }
 
+    /// How fast the second carrier leaves the first for a solution, in m/s: of a row of stretch.
+    pub(super) fn way(&self, x: &[f64]) -> Vector {
+        self.terms[1].0.velocity(x) - self.terms[0].0.velocity(x)
+    }
+
     /// `G v - target` for a solution.
     pub(super) fn excess(&self, x: &[f64]) -> f64 {
         self.velocity(x) - self.target
@@ -86,10 +94,18 @@ impl Row {
         terms.chain(slides).fold(self.target.abs(), f64::max)
     }
 
-    /// The energy in J that the force of a solution stores: `eps f^2 / 2`.
+    /// The energy in J that the force of a solution stores. With SPOOK the force is `f = (e + tau G v+) / eps`, with
+    /// `e` as the row is halfway. What damping adds to a force stores nothing, and what it takes from one
+    /// is never given back: so it is `min(|e|, |eps f|)^2 / (2 eps)`, and 0 where damping alone gives the force.
     pub(super) fn elastic_energy(&self, x: &[f64], step: f64) -> f64 {
         let force = x[self.multiplier] / step;
-        self.compliance * force * force / 2.0
+        if force == 0.0 || self.compliance == 0.0 {
+            return 0.0;
+        }
+        let way = self.compliance * force.abs();
+        let added = self.damping * self.velocity(x) * force.signum();
+        let stored = (way - added.max(0.0)).max(0.0);
+        stored * stored / (2.0 * self.compliance)
     }
 
     /// Whether the solution decides which branch holds.
@@ -274,14 +290,15 @@ pub(super) fn normal_row(settings: &Settings, contact: &ContactConstraint, speed
 
 /// The rows of all wires: first those of stretch, one for each segment in order, then those of
 /// bend, then those of twist.
-pub(super) fn rows(world: &World, layout: &Layout) -> Vec<Row> {
+pub(super) fn rows(world: &World, linearisation: &Linearisation, layout: &Layout) -> Vec<Row> {
     let mut rows = Vec::with_capacity(layout.stretch.len() + 3 * layout.bend.len());
-    for (wire, &first) in world.wires.iter().zip(&layout.first_node) {
+    for (at, (wire, &first)) in world.wires.iter().zip(&layout.first_node).enumerate() {
         for segment in 0..wire.segments.len() {
             let multiplier = layout.stretch[rows.len()];
             let ends = [first + segment, first + segment + 1];
             let carriers = ends.map(|node| layout.nodes[node]);
-            let mut row = stretch(wire, segment, carriers, multiplier, &world.settings);
+            let along = linearisation.of(at, segment).along;
+            let mut row = stretch(wire, segment, along, carriers, multiplier, &world.settings);
             // Arc length that moves over its nodes changes what the segment is unstretched.
             let slides = ends.into_iter().zip([1.0, -1.0]);
             row.slides = slides
@@ -304,11 +321,12 @@ pub(super) fn rows(world: &World, layout: &Layout) -> Vec<Row> {
     rows
 }
 
-/// `g = |d| - l0`, `G = [-t, t]`, `eps = l0 / (E A)`. A segment without length has no direction:
-/// its row does not count.
+/// `g = |d| - l0`, `G = [-t, t]`, `eps = l0 / (E A)`, with the direction `t` that the step is linear about. A
+/// segment without length has no direction: its row does not count.
 fn stretch(
     wire: &Wire,
     segment: usize,
+    along: Vector,
     [start, end]: [Carrier; 2],
     multiplier: usize,
     settings: &Settings,
@@ -325,9 +343,10 @@ fn stretch(
     let counts = length > 0.0 && !(material.is_chain() && slack);
     Row {
         multiplier,
-        terms: smallvec![(start, -t), (end, t)],
+        terms: smallvec![(start, -along), (end, along)],
         slides: SmallVec::new(),
         compliance,
+        damping: material.stretch_damping,
         sigma: spook.sigma,
         target: spook.target(length - rest, speed),
         law: if material.is_chain() {
@@ -376,6 +395,7 @@ fn bend(
             terms: smallvec![term(0), term(1), term(2)],
             slides: SmallVec::new(),
             compliance,
+            damping: wire.material.bend_damping,
             sigma: spook.sigma,
             target: spook.target((t2 - t1)[axis], turning[axis]),
             law: ConstitutiveLaw::Linear,
@@ -406,6 +426,7 @@ fn twist(world: &World, layout: &Layout, at: usize) -> Option<Row> {
         terms: nodes.chain(ends).collect(),
         slides: SmallVec::new(),
         compliance,
+        damping,
         sigma: spook.sigma,
         target: spook.target(wire.twist, torsion.rate(wire, &world.bodies)),
         law: ConstitutiveLaw::Linear,

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::budget::Budget;
 use super::islands::{Island, islands};
+use super::linearisation::{Linearisation, ROUNDS};
 use super::motion::Velocities;
 use super::solve_step::Candidate;
 use super::start::Start;
@@ -246,13 +247,35 @@ impl Solved {
         phases: &mut Phases,
     ) -> Result<Self, Reason> {
         let own = island.world(world);
-        let (system, candidate) = own.as_ref().unwrap_or(world).solve_step(
-            &mut structure,
-            &island.contacts(contacts),
-            &start.of(&island),
-            budget,
-            phases,
-        )?;
+        let world = own.as_ref().unwrap_or(world);
+        let (contacts, start) = (island.contacts(contacts), start.of(&island));
+        let touches = !contacts.is_empty();
+        let mut linearisation = Linearisation::at_start(world);
+        let mut solve = |linearisation: &Linearisation, mut structure, budget: &mut Budget| {
+            world.solve_step(
+                linearisation,
+                &mut structure,
+                &contacts,
+                &start,
+                budget,
+                phases,
+            )
+        };
+        let (mut system, mut candidate) = solve(&linearisation, structure.take(), budget)?;
+        let mut is_followed = linearisation.follow(world, &system.rows, touches, &candidate.x);
+        for _ in 0..ROUNDS {
+            if is_followed || budget.is_spent() {
+                break;
+            }
+            let factorisations = candidate.solver.factorisations;
+            // What cannot be solved is as it was before.
+            let Ok(again) = solve(&linearisation, system.take_structure(), budget) else {
+                break;
+            };
+            (system, candidate) = again;
+            candidate.solver.factorisations += factorisations;
+            is_followed = linearisation.follow(world, &system.rows, touches, &candidate.x);
+        }
         Ok(Solved {
             island,
             system,

@@ -6,6 +6,7 @@ use super::budget::Budget;
 use super::capstan::{bound_residual, stop_slip};
 use super::contact_blocks::Swept;
 use super::friction::{FORMED, contact_residual, sweep};
+use super::linearisation::Linearisation;
 use super::multipliers;
 use super::order::{self, Block};
 use super::start::Start;
@@ -41,13 +42,15 @@ impl World {
     /// step, and from what `start` predicts.
     pub(super) fn solve_step(
         &self,
+        linearisation: &Linearisation,
         structure: &mut Option<Structure>,
         contacts: &[ContactConstraint],
         start: &Start,
         budget: &mut Budget,
         phases: &mut Phases,
     ) -> Result<(System, Candidate), Reason> {
-        let (system, mut candidate) = self.solution(structure, contacts, start, budget, phases)?;
+        let (system, mut candidate) =
+            self.solution(linearisation, structure, contacts, start, budget, phases)?;
         candidate.solver.slide_residual = bound_residual(&system.rows, &candidate.x);
         stop_slip(&system.rows, &mut candidate.x);
         Ok((system, candidate))
@@ -56,6 +59,7 @@ impl World {
     /// The same, as it comes out of the solver: what sticks may slip by a hair.
     fn solution(
         &self,
+        linearisation: &Linearisation,
         structure: &mut Option<Structure>,
         contacts: &[ContactConstraint],
         start: &Start,
@@ -72,7 +76,7 @@ impl World {
         phases.assembly += clock.lap();
         let is_tried = by_least_degree.is_some();
         if let Some((order, _)) = by_least_degree {
-            let mut system = self.assemble(&order, structure, phases);
+            let mut system = self.assemble(linearisation, &order, structure, phases);
             let mut part = budget.part(IN_SYSTEM);
             let candidate = self.solve_with_implicit_contacts(
                 &mut system,
@@ -89,7 +93,7 @@ impl World {
                 None => *structure = system.take_structure(),
             }
         }
-        let mut system = self.assemble(&order::by_wires(self), structure, phases);
+        let mut system = self.assemble(linearisation, &order::by_wires(self), structure, phases);
         if are_many || hardly_fills && !is_tried {
             let candidate = self.solve_with_implicit_contacts(
                 &mut system,
@@ -103,7 +107,7 @@ impl World {
                 return Ok((system, candidate));
             }
             *structure = system.take_structure();
-            system = self.assemble(&order::by_wires(self), structure, phases);
+            system = self.assemble(linearisation, &order::by_wires(self), structure, phases);
         }
         let candidate =
             self.solve_with_swept_contacts(&mut system, contacts, &start.impulses, budget, phases)?;
@@ -112,12 +116,13 @@ impl World {
 
     fn assemble(
         &self,
+        linearisation: &Linearisation,
         order: &[Block],
         structure: &mut Option<Structure>,
         phases: &mut Phases,
     ) -> System {
         let mut clock = Clock::start();
-        let system = System::new(self, order, structure.take());
+        let system = System::new(self, linearisation, order, structure.take());
         phases.assembly += clock.lap();
         system
     }

@@ -5,6 +5,7 @@ use super::capstan;
 use super::carrier::{Carrier, Columns, Layout};
 use super::constitutive::Branch;
 use super::implicit::Implicit;
+use super::linearisation::Linearisation;
 use super::order::Block;
 use super::rows::{Row, rows};
 use super::spin::spin_freely;
@@ -52,10 +53,15 @@ pub(super) enum ContactMethod {
 
 impl System {
     /// Puts the system of the next step together. `structure` is that of the last one.
-    pub(super) fn new(world: &World, order: &[Block], structure: Option<Structure>) -> Self {
-        let inertias = transverse_inertias(world);
+    pub(super) fn new(
+        world: &World,
+        linearisation: &Linearisation,
+        order: &[Block],
+        structure: Option<Structure>,
+    ) -> Self {
+        let inertias = transverse_inertias(world, linearisation);
         let layout = Layout::new(world, order, &inertias.nodes);
-        let mut rows = rows(world, &layout);
+        let mut rows = rows(world, linearisation, &layout);
         rows.extend(capstan::friction_rows(world, &layout));
         let mut system = System {
             triplets: Triplets::default(),

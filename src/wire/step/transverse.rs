@@ -47,11 +47,13 @@
 //! an impulse and its row a velocity.
 //!
 //! `T` is the largest tension of the last steps, by which resolution is chosen too. The margin is the
-//! room for what it grows to in this one.
+//! room for what it grows to in this one; where that is not enough, `T` is what it grows to
+//! ([`linearisation`](super::linearisation)).
 
 use nalgebra::Matrix3;
 use smallvec::SmallVec;
 
+use super::linearisation::Linearisation;
 use crate::wire::model::{Body, BodyId, NodeKind, Wire};
 use crate::wire::vector::{Vector, unit};
 use crate::wire::world::World;
@@ -124,14 +126,20 @@ pub(super) struct SteepNode {
 }
 
 /// The inertias of a world in its next step.
-pub(super) fn transverse_inertias(world: &World) -> TransverseInertias {
+pub(super) fn transverse_inertias(
+    world: &World,
+    linearisation: &Linearisation,
+) -> TransverseInertias {
     let mut all = TransverseInertias::default();
     let mut counts = None;
     for (at, wire) in world.wires.iter().enumerate() {
         // That of the segment before the node.
         let mut before: Option<Short> = None;
         for node in 0..wire.nodes.len() {
-            let short = (node < wire.segments.len()).then(|| Short::new(world, wire, node));
+            let short = (node < wire.segments.len()).then(|| {
+                let tension = linearisation.of(at, node).tension;
+                Short::new(world, wire, node, tension)
+            });
             let mut after = short.flatten();
             if let Some(short) = &mut after {
                 let counts = counts.get_or_insert_with(|| nodes_on_bodies(world));
@@ -207,13 +215,12 @@ struct Short {
 
 impl Short {
     /// None if the segment is long enough, or has no direction.
-    fn new(world: &World, wire: &Wire, segment: usize) -> Option<Short> {
+    fn new(world: &World, wire: &Wire, segment: usize, tension: f64) -> Option<Short> {
         let (t, length) = unit(&wire.span(segment));
         if length <= 0.0 {
             return None;
         }
         let reach = world.settings.step / world.settings.stability_margin;
-        let tension = wire.segments[segment].largest_tension();
         let short = Short {
             across: Matrix3::identity() - t * t.transpose(),
             needed: reach * reach * tension / length,
@@ -222,6 +229,11 @@ impl Short {
         };
         (short.needed > 2.0 * short.half).then_some(short)
     }
+}
+
+/// Whether a segment is too short for a tension in N.
+pub(super) fn is_short(world: &World, wire: usize, segment: usize, tension: f64) -> bool {
+    Short::new(world, &world.wires[wire], segment, tension).is_some()
 }
 
 /// `u = h^2 / (sqrt(32) s^2 m) (K v)_node`.

@@ -6,6 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use super::*;
 use crate::query::Point;
 use crate::wire::step::constitutive::Branch;
+use crate::wire::step::linearisation::Linearisation;
 use crate::wire::step::order::by_wires;
 use crate::wire::{Material, Settings, Stop, Vector, WirePlan, World};
 
@@ -61,7 +62,12 @@ fn pulling_segments_are_those_of_the_only_guess_that_holds() {
     let mut more_than_one = 0;
     for _ in 0..20 {
         let world = chain(rng);
-        let mut system = System::new(&world, &by_wires(&world), None);
+        let mut system = System::new(
+            &world,
+            &Linearisation::at_start(&world),
+            &by_wires(&world),
+            None,
+        );
         let expected = by_guessing(&mut system);
         // From whatever velocities the search starts.
         for speed in [0.0, 1.0, 1000.0] {
@@ -89,7 +95,12 @@ fn search_that_is_cut_short_says_so_and_keeps_momentum() {
     let mut cut = 0;
     for _ in 0..20 {
         let world = chain(rng);
-        let mut system = System::new(&world, &by_wires(&world), None);
+        let mut system = System::new(
+            &world,
+            &Linearisation::at_start(&world),
+            &by_wires(&world),
+            None,
+        );
         let start = vec![0.0; system.layout.size];
         let found = find_active_set(&mut system, &[], start, &mut Budget::new(0)).unwrap();
         cut += usize::from(!found.is_found);

@@ -3,6 +3,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::*;
 use crate::wire::contact::ContactConstraint;
+use crate::wire::step::linearisation::Linearisation;
 use crate::wire::step::multipliers::tests::{dragged, laid_across};
 use crate::wire::step::order::by_wires;
 use crate::wire::step::start::Start;
@@ -18,7 +19,12 @@ fn linearised(
 ) -> System {
     let mut start = Start::of_step(world, contacts);
     start.impulses = impulses.to_vec();
-    let mut system = System::new(world, &by_wires(world), None);
+    let mut system = System::new(
+        world,
+        &Linearisation::at_start(world),
+        &by_wires(world),
+        None,
+    );
     system.take(world, contacts, &start, method);
     let x = system.start(world);
     for contact in &mut system.implicit {

@@ -3,6 +3,7 @@ use super::*;
 use crate::query::Point;
 use crate::wire::contact::ContactSite;
 use crate::wire::step::contact_blocks::Block;
+use crate::wire::step::linearisation::Linearisation;
 use crate::wire::step::order::by_wires;
 use crate::wire::{Material, Stop, WirePlan};
 
@@ -40,7 +41,12 @@ fn over_a_drum() -> (World, Vec<ContactConstraint>) {
 }
 
 fn solved(world: &World) -> (System, Vec<f64>) {
-    let mut system = System::new(world, &by_wires(world), None);
+    let mut system = System::new(
+        world,
+        &Linearisation::at_start(world),
+        &by_wires(world),
+        None,
+    );
     system.factor().unwrap();
     let (free, _) = system.solve(&[]).unwrap();
     (system, free)

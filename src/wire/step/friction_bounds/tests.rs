@@ -2,6 +2,7 @@ use super::*;
 use crate::query::Point;
 use crate::wire::step::active_set::find_active_set;
 use crate::wire::step::budget::Budget;
+use crate::wire::step::linearisation::Linearisation;
 use crate::wire::step::order::by_wires;
 use crate::wire::world::World;
 use crate::wire::{BodyPlan, Material, Settings, Shape, Stop, Vector, WirePlan};
@@ -43,7 +44,12 @@ fn over_a_drum(nodes: u32, friction: f64, masses: [f64; 2]) -> World {
 
 /// The bounds of friction after the first steps, found by `update` for given bounds.
 fn bounds(world: &World, mut update: impl FnMut(&mut System, &[f64])) -> (Vec<f64>, usize) {
-    let mut system = System::new(world, &by_wires(world), None);
+    let mut system = System::new(
+        world,
+        &Linearisation::at_start(world),
+        &by_wires(world),
+        None,
+    );
     system.factor().unwrap();
     let mut x = system.start(world);
     for updates in 0..2000 {

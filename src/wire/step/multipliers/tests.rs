@@ -8,6 +8,7 @@ use crate::query::Point;
 use crate::wire::contact::{ContactConstraint, ContactSite};
 use crate::wire::step::carrier::Columns;
 use crate::wire::step::friction::sweep;
+use crate::wire::step::linearisation::Linearisation;
 use crate::wire::step::order::{by_least_degree, by_wires};
 use crate::wire::step::rows::normal_row;
 use crate::wire::step::start::Start;
@@ -100,7 +101,7 @@ fn found_with(
     budget: &mut Budget,
 ) -> (System, Option<Solution>) {
     let (order, _) = by_least_degree(world, contacts, usize::MAX).unwrap();
-    let mut system = System::new(world, &order, None);
+    let mut system = System::new(world, &Linearisation::at_start(world), &order, None);
     let start = Start::of_step(world, contacts);
     system.take(world, contacts, &start, ContactMethod::InMatrix);
     let start = system.start(world);
@@ -254,7 +255,12 @@ fn impulses_are_those_that_sweeps_come_to() {
         let (mut world, contacts) = scene(rng, Material::steel(0.01), 0.3);
         let (_, _, impulses) = found(&world, &contacts);
         (world.settings.sweeps, world.settings.contact_tolerance) = (100_000, 1e-12);
-        let mut system = System::new(&world, &by_wires(&world), None);
+        let mut system = System::new(
+            &world,
+            &Linearisation::at_start(&world),
+            &by_wires(&world),
+            None,
+        );
         system.factor().unwrap();
         let (free, _) = system.solve(&[]).unwrap();
         let start = vec![Vector::zeros(); contacts.len()];
@@ -291,7 +297,12 @@ fn gradients_come_to_the_solution_of_the_matrix() {
         let tolerance = world.settings.contact_tolerance;
         let mut done = false;
         for solve_number in 1..=20 {
-            let mut system = System::new(&world, &by_wires(&world), None);
+            let mut system = System::new(
+                &world,
+                &Linearisation::at_start(&world),
+                &by_wires(&world),
+                None,
+            );
             system.take(&world, &contacts, &start, ContactMethod::ByGradients);
             let x = system.start(&world);
             let budget = &mut Budget::new(usize::MAX);
@@ -321,7 +332,12 @@ fn gradients_that_are_cut_short_move_as_their_impulses_say() {
     let mut cut = 0;
     for k in 0..20 {
         let (world, contacts) = dragged(rng, Material::steel(0.01), 1.0);
-        let mut system = System::new(&world, &by_wires(&world), None);
+        let mut system = System::new(
+            &world,
+            &Linearisation::at_start(&world),
+            &by_wires(&world),
+            None,
+        );
         let start = Start::of_step(&world, &contacts);
         system.take(&world, &contacts, &start, ContactMethod::ByGradients);
         let x = system.start(&world);

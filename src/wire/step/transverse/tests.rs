@@ -93,10 +93,14 @@ fn steep_form(world: &World, inertias: &TransverseInertias) -> f64 {
     pushed.dot(&solved)
 }
 
+fn inertias_of(world: &World) -> TransverseInertias {
+    transverse_inertias(world, &Linearisation::at_start(world))
+}
+
 /// `4 v M v`, what is added to it for a step to be stable, and `h^2 v K v` of tensions `factor` times
 /// as large.
 fn forms(world: &World, factor: f64) -> [f64; 3] {
-    let inertias = transverse_inertias(world);
+    let inertias = inertias_of(world);
     let short = inertias
         .short
         .iter()
@@ -198,7 +202,7 @@ fn line(tension: f64) -> World {
 #[test]
 fn what_moves_as_one_line_has_none_of_it() {
     let world = line(3e3);
-    let inertias = transverse_inertias(&world);
+    let inertias = inertias_of(&world);
     assert_eq!([inertias.short.len(), inertias.steep.len()], [9, 0]);
     for inertia in &inertias.short[1..8] {
         let largest = inertia.terms.iter().map(|(_, part)| part.amax());
@@ -207,7 +211,7 @@ fn what_moves_as_one_line_has_none_of_it() {
     }
     // `W v` of steep segments is 0 where `K_s v` is.
     let world = line(3e6);
-    let inertias = transverse_inertias(&world);
+    let inertias = inertias_of(&world);
     assert_eq!([inertias.short.len(), inertias.steep.len()], [0, 8]);
     let (stiffness, pushed) = steep_pushes(&world, &inertias);
     let inner = pushed.rows(3, 3 * 7);
@@ -225,7 +229,7 @@ fn segments_that_are_long_enough_have_none() {
     let speed = longest * 0.8 * 60.0;
     let most = speed * speed * material.mass_per_length();
     let counts = |tension| {
-        let inertias = transverse_inertias(&world(tension));
+        let inertias = inertias_of(&world(tension));
         [
             inertias.short.len(),
             inertias.steep.len(),
