@@ -23,14 +23,15 @@
 
 use super::rows::Row;
 use super::transverse::is_short;
+use crate::wire::model::Wire;
 use crate::wire::vector::{Vector, unit};
 use crate::wire::world::World;
 
 /// How often a step is solved again.
 pub(super) const ROUNDS: usize = 4;
 
-/// How much larger than it was a tension may be. A step may be unstable, in theory, from `1 / s^2` on; with that, whatever is
-/// pulled in a jerk would be damped.
+/// How much larger than it was a tension may be. The theory allows `1 / s^2`, but that would damp whatever is pulled
+/// in a jerk.
 const GROWTH: f64 = 4.0;
 
 /// How much longer or shorter than its row says a segment may be after the step, as a part of its length.
@@ -85,20 +86,28 @@ impl Linearisation {
                     own.tension = tension;
                     is_followed = false;
                 }
-                let rest = wire.rest_length(segment);
-                let start = wire.span(segment);
                 let way = row.way(x) * world.settings.step;
-                let end = start + way;
-                let [before, after] = [start, end].map(|span| span.norm());
-                let is_slack = wire.material.is_chain() && after < SLACK * rest;
-                let off = after - before - own.along.dot(&way);
-                if !touches && before > 0.0 && !is_slack && off.abs() > OFF * rest {
-                    own.along = (start + end) / (before + after);
+                if !touches && let Some(along) = own.turned(wire, segment, &way) {
+                    own.along = along;
                     is_followed = false;
                 }
             }
         }
         is_followed
+    }
+}
+
+impl Linearised {
+    /// The mean direction of a segment whose end goes this way from its start, if its row has another length.
+    fn turned(&self, wire: &Wire, segment: usize, way: &Vector) -> Option<Vector> {
+        let rest = wire.rest_length(segment);
+        let start = wire.span(segment);
+        let end = start + way;
+        let [before, after] = [start, end].map(|span| span.norm());
+        let is_slack = wire.material.is_chain() && after < SLACK * rest;
+        let off = after - before - self.along.dot(way);
+        let is_off = before > 0.0 && !is_slack && off.abs() > OFF * rest;
+        is_off.then(|| (start + end) / (before + after))
     }
 }
 

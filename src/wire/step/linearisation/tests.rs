@@ -5,7 +5,7 @@ use crate::wire::vector::Vector;
 use crate::wire::world::World;
 
 /// A load under a slack chain between a pin and the load, which falls until the chain catches it.
-fn caught(mass: f64, [stiffness, line]: [f64; 2], rate: f64, adaptive: bool) -> World {
+fn caught(mass: f64, rate: f64, adaptive: bool) -> World {
     const REACH: f64 = 0.6;
     let mut world = World::new(Settings::default().with_step(1.0 / rate)).unwrap();
     let shape = Shape::Sphere { radius: 0.1 };
@@ -14,8 +14,8 @@ fn caught(mass: f64, [stiffness, line]: [f64; 2], rate: f64, adaptive: bool) -> 
     let body = world.add_body(load).unwrap();
     let area = std::f64::consts::PI * 1e-4;
     let material = Material {
-        density: line / area,
-        stretch_modulus: stiffness / area,
+        density: 0.4 / area,
+        stretch_modulus: 1e6 / area,
         ..Material::steel(0.01).chain()
     };
     let between = (1..20).map(|node| {
@@ -34,7 +34,6 @@ fn caught(mass: f64, [stiffness, line]: [f64; 2], rate: f64, adaptive: bool) -> 
 
 #[test]
 fn load_that_a_slack_chain_catches_is_thrown_no_higher_than_it_was() {
-    let wire = [1e6, 0.4];
     for (mass, rate, adaptive) in [
         (33.0, 60.0, false),
         (33.0, 60.0, true),
@@ -43,7 +42,7 @@ fn load_that_a_slack_chain_catches_is_thrown_no_higher_than_it_was() {
         (330.0, 60.0, false),
         (4.2, 60.0, true),
     ] {
-        let mut world = caught(mass, wire, rate, adaptive);
+        let mut world = caught(mass, rate, adaptive);
         let start = world.kinetic_energy() + world.potential_energy();
         // What the load falls by.
         let fall = mass * 9.81 * 1.8;
