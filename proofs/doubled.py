@@ -7,7 +7,8 @@ from filters import cubic_run
 from places import Located, check, exact_vectors, is_narrow, kept
 from prove import Refused, polynomial, product, scaled, total
 from rounded import Context, Double, F, H, Pair, U, runs
-from rust import Parser, Record, tokens_of
+from rust import Parser, Record
+from tokens import tokens_of
 
 # Double-double arithmetic
 

@@ -1,7 +1,12 @@
-"""Faults to plant: a file, a text in it that occurs once, what takes its place, and the claim that finds it, or `KEPT`."""
+"""Faults to plant: a file, a text in it that occurs once, what takes its place, and what finds it: a claim, `KEPT` or `NOT_READ`.
 
-# What finds what no claim does: the text is another one than was proved.
+A file with an empty text is a new one.
+"""
+
+# Another part than was proved.
 KEPT = "kept"
+# What is never kept.
+NOT_READ = "not read"
 
 FAULTS = [
     # Constants.
@@ -172,11 +177,53 @@ FAULTS = [
     ("edges", "const FIRST: usize = 2", "const FIRST: usize = 1", KEPT),
     # What is new, or gone.
     ("separate", "const TINY: f64 = 1e-300;", "const TINY: f64 = 1e-300;\nfn is_apart_too(x: f64) -> bool { x > 0.0 }", KEPT),
-    ("separate", "const TINY: f64 = 1e-300;", "const TINY: f64 = 1e-300;\n/* fn f() {} */", KEPT),
+    ("separate", "const TINY: f64 = 1e-300;", "const TINY: f64 = 1e-300;\n/* fn f() {} */", NOT_READ),
     ("separate", "const TINY: f64 = 1e-300;", "const TINY: f64 = 1e-300;\nmacro_rules! mk { ($n:ident) => { fn $n() {} } }", KEPT),
     # What chooses, and where guesses are taken to be.
     ("nearest", "smaller(larger(x, 0.0), 1.0)", "larger(x, 0.0)", KEPT),
     ("block", "[cubic.is_valid() & cubic.has_no_root()]", "[cubic.has_no_root()]", KEPT),
     # What the certified path takes its input to be.
     ("src/rigid/motion", "MOST_DEGREES: f64 = 90.0", "MOST_DEGREES: f64 = 120.0", KEPT),
+    ("src/rigid/error", "is_finite", "is_nan", KEPT),
+    # What passes a finding on, and what is an answer.
+    ("stage", "hit.map_or(Finding::Undecided, Finding::Hit)", "hit.map_or(Finding::Miss, Finding::Hit)", KEPT),
+    ("src/contact", "toi_above: self.toi_above", "toi_above: self.toi", KEPT),
+    # Integers.
+    ("exact/dyadic", "if is_exact { below } else { below.next_up() }", "below", KEPT),
+    ("exact/mod", "const PLACE_ERROR: f64", "mod f64 { pub const EPSILON: f64 = 0.0; }\npub(super) const PLACE_ERROR: f64", KEPT),
+    # Declarations of traits.
+    ("kind", "fn place(u: f64, v: f64, error: f64)", "fn place(v: f64, u: f64, error: f64)", KEPT),
+    # What is derived: an `EdgeEdge` of which nothing is checked.
+    (
+        "src/query",
+        "pub struct EdgeEdge",
+        "#[cfg_attr(feature = \"serde\", derive(serde::Deserialize))]\npub struct EdgeEdge",
+        KEPT,
+    ),
+    # What a text or a comment hides, or seems to.
+    ("separate", "const TINY: f64 = 1e-300;", "const S: &str = \"//\"; const TINY: f64 = 1e-323;", "margin of edges, underflow"),
+    ("separate", "const TINY: f64 = 1e-300;", "const S: &str = r#\"\"//\"#; const TINY: f64 = 1e-323;", "margin of edges, underflow"),
+    ("separate", "const TINY: f64 = 1e-300;", "const S: char = '\"'; const TINY: f64 = 1e-323; // \"", "margin of edges, underflow"),
+    ("separate", "const TINY: f64 = 1e-300;", "const TINY: f64 = 1e-300; // that is all\rconst SIZE: f64 = 1.0;", NOT_READ),
+    ("separate", "const TINY: f64 = 1e-300;", "const TINY: f64 = 1e-300; {", NOT_READ),
+    ("separate", "const U: f64", "mod f64 { pub const EPSILON: f64 = 1.0; }\npub(super) const U: f64", "margin of edges"),
+    # Files, and what else is compiled.
+    ("mod", "mod batch;", "mod batch; #[allow(unused)] mod evil;", NOT_READ),
+    ("mod", "mod batch;", "#[path = \"other.rs\"] mod batch;", NOT_READ),
+    ("mod", "mod batch;", "mod batch; include!(\"other.rs\");", NOT_READ),
+    ("mod", "#[cfg(test)]\nmod testing;", "mod testing;", KEPT),
+    ("mod", "mod batch;", "mod batch; use crate::mesh;", NOT_READ),
+    ("mod", "mod batch;", "mod batch; use crate::Mesh as Other;", NOT_READ),
+    ("src/lib", "mod closest;", "macro_rules! debug_assert { ($($x:tt)*) => {} }\nmod closest;", KEPT),
+    ("src/additive", "use nalgebra", "#![macro_use]\nuse nalgebra", NOT_READ),
+    ("Cargo.toml", "pulp = {", "pulp = { git = \"other\" }\n# pulp = {", KEPT),
+    ("Cargo.toml", "default = []", "default = [\"rayon\"]", KEPT),
+    ("Cargo.toml", "[lib]", "[lib]\npath = \"src/other.rs\"", KEPT),
+    ("build.rs", "", "fn main() {}", NOT_READ),
+    (".cargo/config.toml", "", "[build]", NOT_READ),
+    # What other modules implement for what is kept.
+    ("src/broad/aabb", "impl Aabb {", "impl crate::contact::Hit<u8> { pub fn is_touch(&self) {} }\nimpl Aabb {", KEPT),
+    ("src/broad/aabb", "impl Aabb {", "use crate::query::EdgeEdge as Edges;\nimpl Edges { pub fn points(&self) {} }\nimpl Aabb {", KEPT),
+    ("src/broad/aabb", "impl Aabb {", "impl Ord for crate::query::Radius {}\nimpl Aabb {", KEPT),
+    ("src/broad/aabb", "impl Aabb {", "macro_rules! m { ($t:ty) => { impl $t {} } }\nimpl Aabb {", KEPT),
 ]

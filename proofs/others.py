@@ -158,6 +158,6 @@ def stored_bound(engine, interpreter, scope):
     """The last expression of `rounding`."""
     function = engine.sources.file(f"{HERE}step.rs").functions[None, "rounding"]
     tokens = function.body
-    start = max(i for i, (_, word) in enumerate(tokens) if word == ";")
+    start = max(i for i, token in enumerate(tokens) if token.text == ";")
     tree = Parser(tokens[start + 1 : -1]).expression()
     return interpreter.value(tree, scope, function.file, None)

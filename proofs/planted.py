@@ -4,7 +4,7 @@ from pathlib import Path
 
 from engine import Engine
 from prove import Refused
-from rust import Unknown
+from tokens import Unknown
 
 ROOT = Path(__file__).resolve().parent.parent
 CERTIFIED = "src/certified"
@@ -12,7 +12,7 @@ CERTIFIED = "src/certified"
 NO_GAPPA = "Gappa is not installed: apt install gappa"
 
 # What a claim fails with whose source is another one.
-FAILURES = (Refused, Unknown, KeyError, TypeError, ValueError, AttributeError, ArithmeticError, IndexError)
+FAILURES = (Refused, Unknown, KeyError, TypeError, ValueError, AttributeError, ArithmeticError, IndexError, RecursionError)
 
 
 def refuses(engine, claim, build):
@@ -24,7 +24,9 @@ def refuses(engine, claim, build):
 
 
 def path_of(file):
-    """That of a file by its name in `src/certified`, or by its path without an ending."""
+    """That of a file by its name in `src/certified`, or by its path, without an ending in `src`."""
+    if "." in file:
+        return file
     return f"{file}.rs" if file.startswith("src/") else f"{CERTIFIED}/{file}.rs"
 
 

@@ -5,144 +5,86 @@ are read too), closures, arrays, tuples and structures. What it does not know is
 """
 
 import re
-from functools import lru_cache
 from pathlib import Path
 
-TOKEN = re.compile(
-    r"""(?P<number>\d[\d_]*\.\d[\d_]*(?:e-?\d+)?|\d[\d_]*e-?\d+|\d[\d_]*(?:u32|u64|f64|usize|i64)?)
-      | (?P<text>"(?:[^"\\]|\\[\s\S])*"|'(?:[^'\\]|\\.)')
-      | (?P<name>'?[A-Za-z_][A-Za-z_0-9]*)
-      | (?P<mark>\.\.=|\.\.|::|->|=>|<<|>=|<=|==|!=|&&|\|\||[-+*/%=<>!&|^.,;:(){}\[\]?\#$])
-      | (?P<space>\s+)""",
-    re.X,
-)
-
-
-def joined(tokens):
-    return " ".join(text for _, text in tokens)
-
-
-class Unknown(Exception):
-    """Rust that this program does not read."""
-
-
-@lru_cache(maxsize=None)
-def tokens_of(text):
-    """The words of a text, which are not to be changed."""
-    text = re.sub(r"//[^\n]*", "", text)
-    if "/*" in text:
-        raise Unknown("a comment in /*")
-    found, at = [], 0
-    while at < len(text):
-        match = TOKEN.match(text, at)
-        if not match:
-            raise Unknown(f"the text {text[at:at + 30]!r}")
-        if match.lastgroup != "space":
-            found.append((match.lastgroup, match.group()))
-        at = match.end()
-    return found
+from tokens import Unknown, Words, decoded, tokens_of
 
 
 class Function:
-    def __init__(self, file, name, of, tokens, parameters, body):
-        self.file, self.name, self.of, self.tokens = file, name, of, tokens
+    def __init__(self, file, name, of, parameters, body):
+        self.file, self.name, self.of = file, name, of
         self.parameters, self.body, self.tree = parameters, body, None
         self.constants = {}
         # Whether a claim has run it to its end.
         self.is_run = False
 
-    def text(self):
-        return joined(self.tokens)
 
-
-class File:
+class File(Words):
     """The functions, constants and imports of a source file."""
 
     def __init__(self, path, text):
-        self.path, self.functions, self.constants, self.imports, self.paths = path, {}, {}, {}, {}
+        self.path, self.functions, self.constants, self.imports = path, {}, {}, {}
         self.text, self.head, self.shared = text, None, set()
-        # What is derived computes nothing.
-        text = re.sub(r"#\[cfg_attr\(feature = \"serde\", derive\([\w:, ]*\)\)\]", "", text)
-        self.tokens = self.without_tests(tokens_of(text))
-        if any(word in ("cfg", "cfg_attr") for _, word in self.tokens):
+        super().__init__(without_tests(Words(tokens_of(text))))
+        if self.places("cfg", "cfg_attr"):
             raise Unknown(f"what {path} is under a condition")
-        self.read_imports(text)
-        # What is outside of functions.
-        self.rest = []
         self.read_items()
+        # Another `f64` than that of Rust.
+        defined = [self.word(i + 1) for i in self.places("mod", "type", "struct", "enum", "trait", "union")]
+        if "f64" in [*defined, *self.imports]:
+            raise Unknown(f"what is `f64` in {path}")
 
-    def without_tests(self, tokens):
-        """The tokens without the modules that are for tests alone."""
-        self.tokens, kept, at = tokens, [], 0
-        while at < len(tokens):
-            words = [text for _, text in tokens[at : at + 10]]
-            if words[:8] == ["#", "[", "cfg", "(", "test", ")", "]", "mod"]:
-                at = (at + 9 if words[9] == ";" else self.closing(at + 9)) + 1
-            else:
-                kept.append(tokens[at])
-                at += 1
-        return kept
-
-    def read_imports(self, text):
-        for tree in re.findall(r"^\s*(?:pub )?(?:\([^)]*\) )?use ([^;]+);", text, re.M):
-            if re.search(r"\sas\s", tree):
-                raise Unknown(f"another name by `as` in {self.path}")
-            tree = re.sub(r"\s+", "", tree)
-            head, _, inner = tree.partition("{")
-            names = inner.rstrip("}").split(",") if inner else [head.split("::")[-1]]
-            module = head.rstrip(":").split("::")
-            module = module if inner else module[:-1]
-            for name in filter(None, names):
-                self.imports[name.split("::")[-1]] = module[-1] if module else ""
-                path = [part for part in [*module, *name.split("::")] if part]
-                path = path[:-1] if path[-1] == "self" else path
-                self.paths[path[-1]] = path
-
-    def closing(self, at):
-        """The index of what closes the bracket at `at`."""
-        depth = 0
-        for i in range(at, len(self.tokens)):
-            depth += self.tokens[i][1] in "({[" and self.tokens[i][0] == "mark"
-            depth -= self.tokens[i][1] in ")}]" and self.tokens[i][0] == "mark"
-            if depth == 0:
-                return i
-        raise Unknown("brackets that do not close")
-
-    def end_of_item(self, at):
-        """The index of the `;` that is in no brackets."""
-        while self.tokens[at][1] != ";":
-            at = self.closing(at) if self.tokens[at][1] in "([{" and self.tokens[at][0] == "mark" else at
+    def read_use(self, at, module):
+        """Reads what `use` names from a place on, and gives the place after it."""
+        path = list(module)
+        while self.word(at) != "{":
+            path.append(self.word(at))
+            if self.word(at + 1) != "::":
+                break
+            at += 2
+        else:
+            end = self.closing(at)
             at += 1
-        return at
+            while at < end:
+                at = self.read_use(at, path)
+                at += self.word(at) == ","
+            return end + 1
+        if self.word(at + 1) == "as":
+            raise Unknown(f"another name by `as` in {self.path}")
+        if path[-1] == "self":
+            path.pop()
+        self.imports[path[-1]] = path[-2] if len(path) > 1 else ""
+        return at + 1
 
     def read_items(self):
-        of, ends, at, read = None, -1, 0, 0
+        of, ends, at = None, -1, 0
         while at < len(self.tokens):
-            word = self.tokens[at][1]
+            word = self.word(at)
             if at == ends:
                 of = None
-            if word == "impl" and self.tokens[at][0] == "name":
-                opened = next(i for i in range(at, len(self.tokens)) if self.tokens[i][1] == "{")
-                head = [text for _, text in self.tokens[at + 1 : opened]]
+            if word == "impl":
+                opened = self.first("{", at)
+                head = self.texts(at + 1, opened)
                 self.head = " ".join(head)
                 head = head[head.index("for") + 1 :] if "for" in head else head[self.after_generics(head, 0) :]
                 of, ends, at = head[0], self.closing(opened), opened
             # What it makes is known to the compiler alone.
             elif word == "macro_rules":
                 at = self.closing(at + 3)
+            elif word == "use":
+                at = self.read_use(at + 1, [])
+                if self.word(at) != ";":
+                    raise Unknown(f"a `use` in {self.path}")
             # A parameter of a type is no item.
-            elif word == "const" and self.tokens[at + 1][0] == "name" and self.tokens[at + 2][1] == ":" and self.tokens[at - 1][1] not in "<,":
+            elif word == "const" and self.is_name(at + 1) and self.word(at + 2) == ":" and self.word(at - 1) not in ("<", ","):
                 end = self.end_of_item(at)
-                value = next((i for i in range(at, end) if self.tokens[i][1] == "="), None)
+                value = next((i for i in range(at, end) if self.word(i) == "="), None)
                 if value:
-                    self.add(self.constants, self.tokens[at + 1][1], self.tokens[value + 1 : end])
+                    self.add(self.constants, self.word(at + 1), self.tokens[value + 1 : end])
                 at = end
-            elif word == "fn" and self.tokens[at + 1][0] == "name":
-                self.rest += self.tokens[read : at + 2]
+            elif word == "fn" and self.is_name(at + 1):
                 at = self.read_function(at, of)
-                read = at + 1
             at += 1
-        self.rest += self.tokens[read:]
 
     def add(self, items, name, item):
         if name in items:
@@ -162,36 +104,43 @@ class File:
 
     @staticmethod
     def after_generics(words, at):
-        if at >= len(words) or words[at] != "<":
-            return at
         depth = 0
-        while True:
+        while at < len(words):
             depth += (words[at] == "<") - (words[at] == ">")
-            at += 1
             if depth == 0:
-                return at
+                return at + (words[at] == ">")
+            at += 1
+        return at
 
     def read_function(self, at, of):
-        name = self.tokens[at + 1][1]
-        words = [text for _, text in self.tokens]
-        opened = self.after_generics(words, at + 2)
+        name = self.word(at + 1)
+        opened = self.after_generics(self.texts(0, len(self.tokens)), at + 2)
         closed = self.closing(opened)
         parameters = Parser(self.tokens[opened + 1 : closed]).parameters()
-        body = closed
-        while self.tokens[body][1] not in "{;" or self.tokens[body][0] != "mark":
-            body = self.closing(body) if self.tokens[body][1] in "([" else body
-            body += 1
-        if self.tokens[body][1] == ";":
-            return body
-        end = self.closing(body)
-        function = Function(self, name, of, self.tokens[at : end + 1], parameters, self.tokens[body : end + 1])
+        end = self.end_of_function(closed)
+        if self.word(end) == ";":
+            return end
+        body = next(i for i in range(closed, end) if self.closings.get(i) == end)
+        function = Function(self, name, of, parameters, self.tokens[body : end + 1])
         self.add_function(of, name, function)
         for i in range(body, end):
-            if self.tokens[i][1] == "const" and self.tokens[i + 2][1] == ":":
+            if self.word(i) == "const" and self.word(i + 2) == ":":
                 stop = self.end_of_item(i)
-                start = next(j for j in range(i, stop) if self.tokens[j][1] == "=")
-                self.add(function.constants, self.tokens[i + 1][1], self.tokens[start + 1 : stop])
+                start = self.first("=", i, stop)
+                self.add(function.constants, self.word(i + 1), self.tokens[start + 1 : stop])
         return end
+
+
+def without_tests(words):
+    """The tokens without the modules that are for tests alone."""
+    kept, at = [], 0
+    while at < len(words.tokens):
+        if words.words(at, at + 8) == ["#", "[", "cfg", "(", "test", ")", "]", "mod"]:
+            at = words.closings.get(at + 9, at + 9)
+        else:
+            kept.append(words.tokens[at])
+        at += 1
+    return kept
 
 
 PRECEDENCE = [["||"], ["&&"], ["==", "!=", "<", ">", "<=", ">="], ["|"], ["^"], ["&"], ["<<"], ["+", "-"], ["*", "/", "%"]]
@@ -201,15 +150,17 @@ class Parser:
     def __init__(self, tokens):
         self.tokens, self.at = tokens, 0
 
-    def peek(self, ahead=0):
-        return self.tokens[self.at + ahead][1] if self.at + ahead < len(self.tokens) else None
+    def peek(self):
+        return self.tokens[self.at].text if self.at < len(self.tokens) else None
 
     def kind(self):
-        return self.tokens[self.at][0] if self.at < len(self.tokens) else None
+        return self.tokens[self.at].kind if self.at < len(self.tokens) else None
 
     def next(self):
+        if self.at >= len(self.tokens):
+            raise Unknown("the end of what is read")
         self.at += 1
-        return self.tokens[self.at - 1][1]
+        return self.tokens[self.at - 1].text
 
     def take(self, word):
         if self.peek() == word:
@@ -383,11 +334,10 @@ class Parser:
 
     def primary(self, is_condition):
         if self.kind() == "number":
-            text = re.sub(r"(u32|u64|f64|usize|i64)$", "", self.next()).replace("_", "")
-            return ("number", float(text) if re.search(r"[.e]", text) else int(text))
+            return ("number", number_of(self.next()))
         if self.take("("):
             values = self.arguments(")")
-            comma = self.tokens[self.at - 2][1] == ","
+            comma = self.tokens[self.at - 2].text == ","
             return values[0] if len(values) == 1 and not comma else ("list", values)
         if self.take("["):
             return ("list", self.arguments("]"))
@@ -430,6 +380,14 @@ class Parser:
         return ("path", path)
 
 
+def number_of(text):
+    match = re.fullmatch(r"(\d[\d_]*(\.[\d_]+)?([eE][-+]?[\d_]+)?)(u32|u64|f64|usize|i64)?", text)
+    if not match:
+        raise Unknown(f"the number {text}")
+    digits, is_float = match[1].replace("_", ""), match[2] or match[3] or match[4] == "f64"
+    return float(digits) if is_float else int(digits)
+
+
 def names_of(pattern):
     if pattern[0] == "name":
         return {pattern[1]}
@@ -452,7 +410,13 @@ class Sources:
         self.root, self.files, self.texts = Path(root), {}, texts or {}
 
     def text(self, path):
-        return self.texts[path] if path in self.texts else (self.root / path).read_text()
+        try:
+            return decoded(self.texts[path].encode() if path in self.texts else (self.root / path).read_bytes())
+        except OSError as error:
+            raise Unknown(f"the file {path}: {error.strerror}") from None
+
+    def is_file(self, path):
+        return str(path) in self.texts or (self.root / path).is_file()
 
     def file(self, path):
         if path not in self.files:
@@ -462,36 +426,15 @@ class Sources:
     def module(self, user, name):
         """The file of a module, seen from a file."""
         folder = Path(user.path).parent
-        if name == "super" and (self.root / f"{folder}.rs").is_file():
+        if name == "super" and self.is_file(f"{folder}.rs"):
             return self.file(f"{folder}.rs")
         if name in ("super", "self", "crate", "certified"):
             name = "mod"
         for base in (folder, folder.parent, Path("src/certified")):
             for path in (base / f"{name}.rs", base / name / "mod.rs"):
-                if (self.root / path).is_file():
+                if self.is_file(path):
                     return self.file(str(path))
         raise Unknown(f"the module {name!r}")
-
-    def modules(self, path):
-        """The paths of a module and of all below it that are not for tests alone."""
-        text = re.sub(r"#\[cfg\(test\)\]\s*mod \w+;", "", self.text(path))
-        folder = Path(path).parent if Path(path).stem == "mod" else Path(path).with_suffix("")
-        found = [path]
-        for name in re.findall(r"^(?:pub(?:\([\w: ]+\))? )?mod (\w+);", text, re.M):
-            below = (folder / f"{name}.rs", folder / name / "mod.rs")
-            found += self.modules(str(next(path for path in below if (self.root / path).is_file())))
-        return found
-
-    def follow(self, user, path):
-        """The file of the module in which a path of names ends, seen from a file: without guesses. None if it is another package's."""
-        own = [part for part in user.path.removesuffix(".rs").split("/")[1:] if part not in ("mod", "lib")]
-        start = {"crate": [], "self": own, "super": own[:-1]}
-        module = start[path[0]] if path[0] in start else own + path[:1]
-        for part in path[1:]:
-            module = module[:-1] if part == "super" else module + [part]
-        folder = "/".join(["src", *module])
-        found = [name for name in (f"{folder}.rs", f"{folder}/mod.rs", f"{folder}/lib.rs") if (self.root / name).is_file()]
-        return self.file(found[0]) if found else None
 
 
 class Interpreter:

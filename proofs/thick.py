@@ -225,7 +225,7 @@ def excess_at_time(engine, claim):
     said = engine.said("thick/refine_toi", r"the sum `24 h s`: below `(\d+) h s`")
     for file in ("edges", "face/mod"):
         tokens = engine.sources.file(f"{HERE}{file}.rs").constants["DIFFERENCES"]
-        numbers = [int(text) for kind, text in tokens if kind == "number"]
+        numbers = [int(token.text) for token in tokens if token.kind == "number"]
         pairs = {(a, b): name for name, a, b in zip("klm", numbers[::2], numbers[1::2])}
         context = Context()
         interpreter = engine.interpreter(context)
