@@ -200,6 +200,15 @@ FAULTS = [
         "#[cfg_attr(feature = \"serde\", derive(serde::Deserialize))]\npub struct EdgeEdge",
         KEPT,
     ),
+    # Decisions.
+    ("separate", "boxes.is_certain(margin, &d)", "!boxes.is_certain(margin, &d)", "margin of edges"),
+    ("face/separate", "boxes.is_certain(margin, &d)", "!boxes.is_certain(margin, &d)", "margin of a face"),
+    ("separate", "at_start & at_end & (bound", "at_start | at_end & (bound", "margin of edges"),
+    ("separate", "at_start & at_end & (bound < LARGEST)", "at_start & at_end & (d[0] < LARGEST)", "margin of a face"),
+    ("thick/advance", "(square > SMALLEST) & (square", "(square > SMALLEST) | (square", "margin with a radius, edges"),
+    ("thick/advance", "(start > 0.0) & (end > 0.0)", "(start > 0.0) | (end > 0.0)", "margin with a radius, face"),
+    ("thick/contact", "(value < -error).then_some(-1)", "(value < error).then_some(-1)", "side of a contact"),
+    ("thick/contact", "Some(1)", "Some(-1)", "side of a contact"),
     # What a text or a comment hides, or seems to.
     ("separate", "const TINY: f64 = 1e-300;", "const S: &str = \"//\"; const TINY: f64 = 1e-323;", "margin of edges, underflow"),
     ("separate", "const TINY: f64 = 1e-300;", "const S: &str = r#\"\"//\"#; const TINY: f64 = 1e-323;", "margin of edges, underflow"),

@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from engine import AXES, HERE, cross, differences, dot, ends, own, reach_name, sizes_of_ends
 from prove import Refused, polynomial, scaled, text_of, total
-from rounded import Context, F, U, runs, underflowed
+from rounded import Context, F, U, decisions, runs, underflowed
 from rust import Record
 
 # Separation
@@ -28,15 +28,19 @@ def separated(engine, claim, file, of, options, kinds, underflows=False):
         boxes = Record("SweptBoxes", extent=extent)
         d = [F.exactly(context, f"d{axis}") for axis in AXES]
         if of:
-            interpreter.run(f"{HERE}{file}.rs", "is_separated_by", d, boxes, of=of, this=motion)
-        else:
-            interpreter.run(f"{HERE}{file}.rs", "is_separated_by", motion, d, boxes)
-        return context.compared
+            return interpreter.run(f"{HERE}{file}.rs", "is_separated_by", d, boxes, of=of, this=motion)
+        return interpreter.run(f"{HERE}{file}.rs", "is_separated_by", motion, d, boxes)
 
+    largest = engine.constant("separate", "LARGEST")
+    for context, is_separated in decisions(body, 3):
+        all_hold(context, is_separated)
+        (_, bound), (_, same), (border, below) = context.compared
+        if border.terms != {((), ()): largest} or not bound.terms == same.terms == below.terms:
+            raise Refused("another border")
     sizes = lambda name: own("e" + name[2]) if re.fullmatch(r"[klm][01][xyz]", name) else None
-    for context, compared in runs(body, underflows=underflows):
+    for context, _ in runs(body, underflows=underflows):
         chosen(context, *kinds)
-        for end, (margin, bound) in enumerate(compared[:2]):
+        for end, (margin, bound) in enumerate(context.compared[:2]):
             if underflows:
                 taken, tiny = lost(bound)
                 claim.underflow(margin.plus(taken), lambda name: Fraction(1), tiny)
@@ -44,6 +48,12 @@ def separated(engine, claim, file, of, options, kinds, underflows=False):
             along = {name: dot(ends(name, end), [own(f"d{axis}") for axis in AXES]) for name in "klm"}
             exact = same_as_one_of(margin, [total(*(scaled(f, along[n]) for n, f in option.items())) for option in options])
             claim.needs(margin, exact, bound, sizes)
+
+
+def all_hold(context, result):
+    """That a decision is that all comparisons hold."""
+    if result is not all(context.truths):
+        raise Refused("a decision that is not that all comparisons hold")
 
 
 def same_as_one_of(value, polynomials):
@@ -157,10 +167,19 @@ def curvature(engine, claim):
 
 def side(engine, claim):
     """The side of a contact: the value's error, and how much it changes over `2 u`."""
-    context = Context()
-    cubic, interpreter = cubic_of(engine, context), engine.interpreter(context, **{"if": lambda condition, go, _: go(condition) and False})
-    interpreter.run(f"{HERE}thick/contact.rs", "side", cubic, F.exactly(context, "t"))
-    found, bound = context.compared[0]
+
+    def body(context):
+        interpreter = engine.interpreter(context, **{"if": lambda condition, go, _: go(condition), "Some": lambda sign: sign})
+        interpreter.methods["then_some"] = lambda is_so, sign: sign if is_so else None
+        return interpreter.run(f"{HERE}thick/contact.rs", "side", cubic_of(engine, context), F.exactly(context, "t"))
+
+    for truths, sign in ((True,), 1), ((False, True), -1), ((False, False), None):
+        context = Context(truths=truths)
+        if body(context) != sign:
+            raise Refused("another sign")
+    (found, bound), (minus, same) = context.compared
+    if minus.terms != (-bound).terms or same.terms != found.terms:
+        raise Refused("another bound below 0")
     exact = polynomial((1, "b0", "s", "s", "s"), (3, "b1", "s", "s", "t"), (3, "b2", "s", "t", "t"), (1, "b3", "t", "t", "t"))
     size = by_error(engine)("b0")[("error",)]
     claim.needs(found, exact, bound, by_error(engine), needed={("error",): 1 + 2 * U * 3 * 2 * size})

@@ -9,6 +9,7 @@ source has it and where it has not.
 
 import re
 from fractions import Fraction
+from itertools import product
 
 U = Fraction(1, 2**53)
 H = U * U
@@ -39,8 +40,8 @@ def is_power_of_two(x):
 class Context:
     """What a run knows beside the numbers."""
 
-    def __init__(self, choices=(), underflows=False, reaches=None, differences=None, half=U):
-        self.choices, self.taken = list(choices), 0
+    def __init__(self, choices=(), underflows=False, reaches=None, differences=None, half=U, truths=()):
+        self.choices, self.taken, self.truths = list(choices), 0, truths
         self.underflows, self.reaches = underflows, reaches or (lambda name: name)
         self.differences = differences or {}
         self.half, self.kinds = half, []
@@ -57,6 +58,11 @@ class Context:
     def underflow(self):
         self.count += 1
         return f"n{self.count}"
+
+    def compare(self, larger, smaller):
+        """What is taken for the truth of a comparison: that it holds, unless something else is given for the first ones."""
+        self.compared.append((larger, smaller))
+        return len(self.compared) > len(self.truths) or self.truths[len(self.compared) - 1]
 
     def choose(self, options, kind="either"):
         """One of some values: the run is repeated for the others."""
@@ -83,13 +89,22 @@ def runs(body, **settings):
         choices[-1] = (choices[-1][0] + 1, choices[-1][1])
 
 
+def decisions(body, count):
+    """The results of a function of a context with so many comparisons, for all that these may say."""
+    for truths in product([True, False], repeat=count):
+        for context, result in runs(body, truths=truths):
+            if len(context.compared) != count:
+                raise ArithmeticError("another number of comparisons")
+            yield context, result
+
+
 def times(x, y):
-    product = {}
+    found = {}
     for (a, e), c in x.items():
         for (b, f), d in y.items():
             key = (tuple(sorted(a + b)), tuple(sorted(e + f)))
-            product[key] = product.get(key, 0) + c * d
-    return product
+            found[key] = found.get(key, 0) + c * d
+    return found
 
 
 class F:
@@ -235,8 +250,7 @@ class F:
         return self
 
     def __gt__(self, other):
-        self.context.compared.append((self, self.of(other)))
-        return True
+        return self.context.compare(self, self.of(other))
 
     def __lt__(self, other):
         return self.of(other) > self
@@ -296,9 +310,7 @@ class Pair:
         return F.size(context, reach).rounded()
 
     def is_above(self, other):
-        for x, y in zip(self.ends, other.ends):
-            x.context.compared.append((x, y))
-        return [True, True]
+        return [x.context.compare(x, y) for x, y in zip(self.ends, other.ends)]
 
 
 class Double:

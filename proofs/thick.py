@@ -5,10 +5,10 @@ from fractions import Fraction
 
 from doubled import Corners, double_sizes
 from engine import AXES, HERE, cross, differences, dot, ends, limit, own, sizes_of_ends
-from filters import chosen, same_as_one_of
+from filters import all_hold, chosen, same_as_one_of
 from places import Located, kept, said_at, sizes_at_time
 from prove import Refused, polynomial, product, scaled, total
-from rounded import Context, Double, F, H, Pair, U, runs
+from rounded import Context, Double, F, H, Pair, U, decisions, runs
 from rust import Record
 
 # With a radius
@@ -20,11 +20,31 @@ LEAST_CORNERS = {
 }
 
 
-def is_proof(condition, go, otherwise):
-    """Of an `if`: where what it compares is not so, there is no bound."""
-    if go(condition) is not True or go(otherwise) != float("inf"):
-        raise Refused("a bound that is no proof")
-    return True
+def is_proof(context):
+    """Of an `if`: where one of what it compares is not so, there is no bound."""
+
+    def proof(condition, go, otherwise):
+        all_hold(context, go(condition))
+        if go(otherwise) != float("inf"):
+            raise Refused("a bound that is no proof")
+        return True
+
+    return proof
+
+
+def needs_both_margins(engine):
+    """A plane separates for the whole step if both margins are above 0."""
+
+    def body(context):
+        interpreter, margins = engine.interpreter(context), [F.exactly(context, name) for name in ("start", "end")]
+        interpreter.given["Moving", "margins"] = margins
+        is_separated = interpreter.run(f"{HERE}thick/advance.rs", "is_separated_by", None, of="Moving", this=Record("Moving"))
+        return margins, is_separated
+
+    for context, (margins, is_separated) in decisions(body, 2):
+        all_hold(context, is_separated)
+        if [(x.terms, y.terms) for x, y in context.compared] != [(margin.terms, {}) for margin in margins]:
+            raise Refused("a margin that is not compared with 0")
 
 
 def thick_margin(engine, claim, kind, part):
@@ -33,7 +53,7 @@ def thick_margin(engine, claim, kind, part):
 
     def body(context):
         interpreter = engine.interpreter(context)
-        interpreter.builtins["if"] = is_proof
+        interpreter.builtins["if"] = is_proof(context)
         interpreter.builtins["K::least_corner"] = lambda *x: interpreter.apply(
             engine.sources.file(f"{HERE}{file}.rs").functions[of, "least_corner"], list(x)
         )
@@ -44,6 +64,9 @@ def thick_margin(engine, claim, kind, part):
 
     borders = [engine.constant("thick/advance", name) for name in ("SMALLEST", "LARGEST")]
     sizes = lambda name: own("e" + name[2]) if re.fullmatch(r"[klm][01][xyz]", name) else None
+    needs_both_margins(engine)
+    # It looks at what the `if` is of.
+    list(decisions(body, 3))
     for context, found in runs(body):
         chosen(context, *kinds)
         above, below, finite = context.compared
