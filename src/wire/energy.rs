@@ -2,6 +2,7 @@
 
 use super::Vector;
 use super::model::{Node, NodeKind, Wire};
+use super::vector::unit;
 use super::world::World;
 
 /// Energies in J.
@@ -24,8 +25,8 @@ impl Energy {
 }
 
 impl World {
-    /// The energies of all that forces move, as everything lies and moves at present. Nodes that are
-    /// fixed do not count, those on dynamic bodies do, and so does what slides over contact nodes.
+    /// The energies of wires and of bodies that forces move, as everything lies and moves at present. Wire that
+    /// is fixed or on scripted bodies counts, too, as sliding and changes of resolution bring it there and away.
     ///
     /// A step moves with the velocity at its end, and a step that ends with a stiff wire stretched
     /// by a hair shows elastic energy that no force has ever given it. What a step came to is in
@@ -38,6 +39,15 @@ impl World {
         }
     }
 
+    /// The same halfway through the motion that led here, as [`StepRecord::energy`](super::StepRecord::energy) has it: what
+    /// the next record is to be compared with.
+    pub fn energy_halfway(&self) -> Energy {
+        Energy {
+            potential: self.potential_halfway(),
+            ..self.energy()
+        }
+    }
+
     pub(in crate::wire) fn kinetic_energy(&self) -> f64 {
         let mut energy = 0.0;
         for body in self.bodies.iter().filter(|body| body.dynamic) {
@@ -46,7 +56,7 @@ impl World {
                 .dot(&(body.world_inertia() * body.angular_velocity));
             energy += body.mass * body.velocity.norm_squared() / 2.0 + spin / 2.0;
         }
-        for (mass, node) in self.moving_nodes() {
+        for (mass, node) in self.nodes() {
             energy += mass * node.velocity.norm_squared() / 2.0;
         }
         energy + self.wires.iter().map(sliding).sum::<f64>()
@@ -56,9 +66,14 @@ impl World {
         let gravity = &self.settings.gravity;
         let bodies = self.bodies.iter().filter(|body| body.dynamic);
         let bodies = bodies.map(|body| body.mass * body.position.coords.dot(gravity));
-        let nodes = self.moving_nodes();
+        let nodes = self.nodes();
         let nodes = nodes.map(|(mass, node)| mass * node.position.coords.dot(gravity));
         -bodies.chain(nodes).sum::<f64>()
+    }
+
+    /// The energy in J of the forces that wires have.
+    pub(in crate::wire) fn energy_of_forces(&self) -> f64 {
+        self.wires.iter().map(of_forces).sum()
     }
 
     /// Linear momentum of all that forces move, in N s.
@@ -94,11 +109,49 @@ impl World {
             Some((body, _)) => self.bodies[body.0].dynamic,
             None => node.kind == NodeKind::Free,
         };
-        let nodes = self.wires.iter().flat_map(|wire| {
+        self.nodes().filter(move |(_, node)| moves(node))
+    }
+
+    /// Mass and state of every node.
+    fn nodes(&self) -> impl Iterator<Item = (f64, &Node)> {
+        self.wires.iter().flat_map(|wire| {
             let nodes = wire.nodes.iter().enumerate();
             nodes.map(|(i, node)| (wire.node_mass(i), node))
+        })
+    }
+
+    /// The potential energy in J halfway through the motion that led here.
+    pub(in crate::wire) fn potential_halfway(&self) -> f64 {
+        let prescribed = self.carried().map(|(mass, node)| node.velocity * mass);
+        let momentum = self.momentum() + prescribed.sum::<Vector>();
+        let settings = &self.settings;
+        self.potential_energy() + settings.step / 2.0 * settings.gravity.dot(&momentum)
+    }
+
+    /// What scripted bodies do in a step on the wire that lies on them, in J: to go from these velocities to
+    /// `after`, and against gravity between the middles of the steps.
+    pub(in crate::wire) fn work_of_carrying(&self, before: &[Vector]) -> f64 {
+        let settings = &self.settings;
+        let works = self.carried().zip(before).map(|((mass, node), before)| {
+            let faster = node.velocity.norm_squared() - before.norm_squared();
+            let way = (node.velocity + before) * (settings.step / 2.0);
+            mass * (faster / 2.0 - settings.gravity.dot(&way))
         });
-        nodes.filter(move |(_, node)| moves(node))
+        works.sum()
+    }
+
+    /// The velocities of the nodes on scripted bodies.
+    pub(in crate::wire) fn carried_velocities(&self) -> Vec<Vector> {
+        self.carried().map(|(_, node)| node.velocity).collect()
+    }
+
+    /// Mass and state of every node on a scripted body.
+    fn carried(&self) -> impl Iterator<Item = (f64, &Node)> {
+        let is_carried = |node: &Node| match node.kind.carrier() {
+            Some((body, _)) => !self.bodies[body.0].dynamic,
+            None => false,
+        };
+        self.nodes().filter(move |(_, node)| is_carried(node))
     }
 }
 
@@ -111,14 +164,25 @@ fn sliding(wire: &Wire) -> f64 {
         .sum()
 }
 
+/// Of every segment the lesser of `T^2 / (2 k)` with the tension of the last step and `k g^2 / 2` as it lies: what damping
+/// added to a force is no energy, nor is a hair of which there was no force. Bending and twist are as the wire lies.
+fn of_forces(wire: &Wire) -> f64 {
+    let segments = wire.segments.iter().enumerate();
+    let stretch = segments.map(|(at, segment)| {
+        let rest = wire.rest_length(at);
+        let stiffness = wire.material.stretch_stiffness() / rest;
+        let longer = wire.span(at).norm() - rest;
+        let force = segment.tension.abs().min(stiffness * longer.abs());
+        force * force / (2.0 * stiffness)
+    });
+    let bends = (1..wire.segments.len()).map(|node| bending(wire, node));
+    stretch.sum::<f64>() + bends.sum::<f64>() + wire.twist_energy()
+}
+
 /// `g^2 / (2 eps)` of every row: stretch, which a chain has only where it is longer than
 /// unstretched, bend and twist.
 fn elastic(wire: &Wire) -> f64 {
     let material = &wire.material;
-    let direction = |segment: usize| {
-        let span = wire.span(segment);
-        span / span.norm().max(f64::MIN_POSITIVE)
-    };
     let mut energy = 0.0;
     for segment in 0..wire.segments.len() {
         let rest = wire.rest_length(segment);
@@ -126,11 +190,16 @@ fn elastic(wire: &Wire) -> f64 {
         if longer > 0.0 || !material.is_chain() {
             energy += longer * longer * material.stretch_stiffness() / (2.0 * rest);
         }
-        if segment > 0 && !material.is_chain() {
-            let mean = (wire.rest_length(segment - 1) + rest) / 2.0;
-            let turn = direction(segment) - direction(segment - 1);
-            energy += turn.norm_squared() * material.bend_stiffness() / (2.0 * mean);
+        if segment > 0 {
+            energy += bending(wire, segment);
         }
     }
     energy + wire.twist_energy()
+}
+
+/// Of bending at a node, 0 for a chain.
+fn bending(wire: &Wire, node: usize) -> f64 {
+    let [(before, _), (after, _)] = [node - 1, node].map(|segment| unit(&wire.span(segment)));
+    let mean = (wire.rest_length(node - 1) + wire.rest_length(node)) / 2.0;
+    (after - before).norm_squared() * wire.material.bend_stiffness() / (2.0 * mean)
 }

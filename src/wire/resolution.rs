@@ -6,6 +6,8 @@
 //! [`TENSION_HISTORY`] steps, and put in where they are longer than a multiple of it. At one node
 //! at least [`TENSION_HISTORY`] steps lie between two changes.
 //!
+//! A node at which a wire is bent stays, if the wire would push once it is straight.
+//!
 //! Where wires push on each other they have to bend: there tension does not count, `l_min =
 //! l_user`. The step keeps segments stable that are too short for their tension
 //! (`step/transverse.rs`).
@@ -111,7 +113,8 @@ fn merge(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
         let length = wire.rest_length(node - 1).min(wire.rest_length(node));
         let wanted = wanted(world, at, [node - 1, node], guard);
         let short = length < wanted * (1.0 - ROUNDING);
-        let may_change = wire.resolution.adaptive && this.remesh_from <= world.steps;
+        let may_change =
+            wire.resolution.adaptive && this.remesh_from <= world.steps && is_straight(wire, node);
         let is_used_up = is_used_up(world, at, node, wanted);
         let is_asked = is_used_up || may_change && short;
         if this.kind == NodeKind::Free && is_asked && !joins_a_clamp(wire, node) {
@@ -130,6 +133,18 @@ fn merge(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
         }
         node += 1;
     }
+}
+
+/// Whether the wire is straight enough at a node to do without it: straightened, it pushes with no more force than it
+/// pulled with. One that is folded would be pressed together, which is energy that nobody put in. A chain never pushes.
+fn is_straight(wire: &Wire, node: usize) -> bool {
+    let beside = [node - 1, node];
+    let [before, after] = beside.map(|segment| wire.span(segment));
+    let shorter = before.norm() + after.norm() - (before + after).norm();
+    let rest: f64 = beside.map(|segment| wire.rest_length(segment)).iter().sum();
+    let push = wire.material.stretch_stiffness() * shorter / rest;
+    let pulled = beside.map(|segment| wire.segments[segment].largest_tension());
+    wire.material.is_chain() || push <= pulled[0].max(pulled[1])
 }
 
 /// Whether an end of a wire that resists twist would be clamped without a node: what clamps it is its

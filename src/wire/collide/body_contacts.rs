@@ -25,6 +25,9 @@ use crate::wire::world::World;
 /// Where the keys of contacts with bodies start.
 pub(in crate::wire) const KEYS: u64 = 3 << 62;
 
+/// As a part of a wire's radius: by how much deeper a wire may come into a body as a node is taken out.
+const HAIR: f64 = 1.0 / 16.0;
+
 /// How many pairs a thread tests at a time.
 const SHARE: usize = 64;
 
@@ -116,15 +119,27 @@ impl BodyContacts {
 
     /// Whether the triangle that taking out a node sweeps meets a body that the wire does not meet.
     pub(super) fn is_swept(&self, world: &World, triangle: &[Point; 3]) -> bool {
-        let [a, b, c] = triangle;
+        self.near(world, triangle)
+            .any(|body| body.is_swept(triangle))
+    }
+
+    /// Whether taking out a node of a wire of this radius draws the wire deeper into a body, by more than a hair.
+    pub(super) fn is_deepened(&self, world: &World, triangle: &[Point; 3], radius: f64) -> bool {
+        self.near(world, triangle)
+            .any(|body| body.deepens(triangle, radius) > HAIR * radius)
+    }
+
+    /// The bodies that the triangle which taking out a node sweeps may meet.
+    fn near<'a>(
+        &'a self,
+        world: &'a World,
+        [a, b, c]: &'a [Point; 3],
+    ) -> impl Iterator<Item = PlacedShape<'a>> {
         let reach = (a - b).norm().max((c - b).norm());
-        let mut bodies = world.bodies.iter().zip(&self.forms);
-        bodies.any(|(body, form)| {
-            let near = (body.position - b).norm() <= form.extent + reach;
-            near && form
-                .at(&body.position, &body.orientation)
-                .is_swept(triangle)
-        })
+        let bodies = world.bodies.iter().zip(&self.forms);
+        let near =
+            bodies.filter(move |(body, form)| (body.position - b).norm() <= form.extent + reach);
+        near.map(|(body, form)| form.at(&body.position, &body.orientation))
     }
 }
 

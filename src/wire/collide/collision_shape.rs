@@ -135,6 +135,23 @@ impl PlacedShape<'_> {
         self.meets(&Triangle::new(a, b, c)) && !before.iter().any(|piece| self.meets(piece))
     }
 
+    /// By how much deeper in it a straight wire is from the first corner to the third than over the
+    /// second, in m.
+    pub(super) fn deepens(&self, corners: &[Point; 3], radius: f64) -> f64 {
+        let [a, b, c] = *corners;
+        let depth = |ends: [Point; 2]| {
+            let piece = CollisionShape::of_segment(&ends, radius);
+            let middle = nalgebra::center(&ends[0], &ends[1]);
+            let spots = piece
+                .at(&middle, &UnitQuaternion::identity())
+                .touches(self, 0.0);
+            spots
+                .iter()
+                .fold(0.0_f64, |depth, spot| depth.max(-spot.gap))
+        };
+        depth([a, c]) - depth([a, b]).max(depth([b, c]))
+    }
+
     /// Whether a shape in the world meets it.
     fn meets(&self, shape: &dyn ShapeOfLibrary) -> bool {
         let own = &*self.form.shape;

@@ -333,9 +333,11 @@ impl RemeshGuard for Guard<'_, '_> {
         let bodies = settings.bodies;
         let thickness = self.collisions.thickness();
         let [from, _, to] = change.arcs;
+        let radius = world.wires[change.wire.0].material.radius;
         let by_body = || {
-            let straightens = remesh::straightens_beside_contact_node(world, change);
-            obstacles.known.pushes_between(change.wire, from, to) && !straightens
+            let is_held = obstacles.known.pushes_between(change.wire, from, to)
+                || obstacles.is_deepened(world, &change.triangle, radius);
+            is_held && !remesh::straightens_beside_contact_node(world, change)
         };
         let loaded = || touches.pushes_between(change.wire.0, from, to) || bodies && by_body();
         let through = || bodies && obstacles.is_swept(world, &change.triangle);

@@ -46,6 +46,10 @@ pub struct StepRecord {
     pub energy: Energy,
     /// Energies as everything lies and moves at the end, as of [`World::energy`].
     pub energy_at_end: Energy,
+    /// What scripted bodies did on what forces move, in J, by wires and contacts, as the step was solved: where its
+    /// motion was held they did less. So `energy` grows by at most this from step to step, but for what the scheme
+    /// and contacts that are pushed out of bodies add.
+    pub work: f64,
     /// What acted beside forces and masses.
     pub added_inertia: AddedInertia,
     /// How the system was solved.
@@ -157,6 +161,8 @@ pub struct SolverRecord {
     /// Whether the step ended because it had spent its [`work`](super::Settings::work), or could not
     /// find what pulls and slides.
     pub cut_short: bool,
+    /// Whether a motion was slowed, since its contacts were not solved and it had more energy than there was.
+    pub slowed: bool,
     /// The largest error of contact velocities, in m/s: the change in the last sweep, or the part
     /// that was not predicted. Above the tolerance of the settings if that took too long.
     pub contact_residual: f64,

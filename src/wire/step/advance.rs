@@ -3,6 +3,7 @@
 use super::budget::Budget;
 use super::callbacks::{Given, MotionReview, StepCallbacks};
 use super::capstan;
+use super::carrier::work_of_contacts;
 use super::contact_nodes;
 use super::motion::{MotionScales, ProposedMotion, SlideRate};
 use super::solution::{SOLVE, Solution, Solved};
@@ -61,6 +62,8 @@ impl World {
         let impulses = solution.impulses(watch.contacts().len());
         record.contacts = self.contact_records(watch.contacts(), &impulses);
         record.solver = solution.record();
+        record.work = solution.work() + work_of_contacts(self, watch.contacts(), &impulses);
+        let carried = self.carried_velocities();
         record.turns(&motion);
         let keys = watch.contacts().iter().map(|contact| contact.key);
         self.cache.warm_start = WarmStart::new(keys.zip(impulses));
@@ -70,6 +73,7 @@ impl World {
             record.wires[wire].torque = impulse / self.settings.step;
         }
         record.energy = self.energy_of_motion(&solution);
+        record.work += self.work_of_carrying(&carried);
         record.added_inertia = solution.added_inertia(self);
         self.cache.structures = solution.structures(self);
         phases.commit = clock.lap();
@@ -133,8 +137,7 @@ impl World {
     fn energy_of_motion(&self, solution: &Solution) -> Energy {
         let step = self.settings.step;
         Energy {
-            potential: self.potential_energy()
-                + step / 2.0 * self.settings.gravity.dot(&self.momentum()),
+            potential: self.potential_halfway(),
             kinetic: self.kinetic_energy(),
             elastic: solution.elastic_energy(step),
         }

@@ -5,7 +5,7 @@ use smallvec::SmallVec;
 use super::order::Block;
 use super::transverse::SteepNode;
 use crate::wire::model::wire::Clamp;
-use crate::wire::model::{BodyId, NodeKind};
+use crate::wire::model::{BodyId, Node, NodeKind};
 use crate::wire::world::World;
 use crate::wire::{ContactConstraint, ContactSite, Vector};
 
@@ -215,10 +215,7 @@ impl Layout {
         let arm = body.arm(local);
         match self.bodies[id.0] {
             Some(first) => Carrier::Body(first, arm),
-            None => {
-                let (velocity, spin) = body.prescribed(world.time(), world.settings.step);
-                Carrier::Prescribed(velocity + spin.cross(&arm))
-            }
+            None => Carrier::Prescribed(prescribed(world, id, local)),
         }
     }
 
@@ -282,4 +279,40 @@ pub(super) fn velocity_of(world: &World, place: &ContactSite) -> Vector {
             nodes[0].velocity * (1.0 - parameter) + nodes[1].velocity * parameter
         }
     }
+}
+
+/// The velocity that is prescribed in the step of a point of a body, 0 of a dynamic one.
+fn prescribed(world: &World, id: BodyId, local: &Vector) -> Vector {
+    let body = &world.bodies[id.0];
+    if body.dynamic {
+        return Vector::zeros();
+    }
+    let (velocity, spin) = body.prescribed(world.time(), world.settings.step);
+    velocity + spin.cross(&body.arm(local))
+}
+
+/// What prescribed velocities do by contacts with these impulses on their places A, in J.
+pub(super) fn work_of_contacts(
+    world: &World,
+    contacts: &[ContactConstraint],
+    impulses: &[Vector],
+) -> f64 {
+    let of_node = |node: &Node| match node.kind.carrier() {
+        Some((body, local)) => prescribed(world, body, &local),
+        None => Vector::zeros(),
+    };
+    let of = |place: &ContactSite| match *place {
+        ContactSite::World => Vector::zeros(),
+        ContactSite::Body { body, local } => prescribed(world, body, &local),
+        ContactSite::Wire { wire, arc } => {
+            let wire = &world.wires[wire.0];
+            let (segment, parameter) = wire.at(arc);
+            let [start, end] = [segment, segment + 1].map(|at| of_node(&wire.nodes[at]));
+            start * (1.0 - parameter) + end * parameter
+        }
+    };
+    let works = contacts.iter().zip(impulses);
+    works
+        .map(|(contact, impulse)| impulse.dot(&(of(&contact.b) - of(&contact.a))))
+        .sum()
 }

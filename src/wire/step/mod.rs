@@ -14,6 +14,7 @@ mod contact_blocks;
 pub(super) mod contact_nodes;
 mod coulomb;
 mod delassus;
+mod energy_limit;
 mod friction;
 mod friction_bounds;
 mod gmres;

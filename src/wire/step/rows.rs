@@ -108,6 +108,11 @@ impl Row {
         stored * stored / (2.0 * self.compliance)
     }
 
+    /// What the velocities that are prescribed do by the multiplier of a solution, in J.
+    pub(super) fn work(&self, x: &[f64]) -> f64 {
+        self.given() * (x[self.multiplier] + self.branch.offset)
+    }
+
     /// Whether the solution decides which branch holds.
     pub(super) fn may_change(&self) -> bool {
         match self.law {

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::budget::Budget;
+use super::carrier::work_of_contacts;
+use super::energy_limit;
 use super::islands::{Island, islands};
 use super::linearisation::{Linearisation, ROUNDS};
 use super::motion::Velocities;
@@ -133,6 +135,7 @@ impl Solution {
             factorisations: most.factorisations.max(own.factorisations),
             sweeps: most.sweeps.max(own.sweeps),
             cut_short: most.cut_short || own.cut_short,
+            slowed: most.slowed || own.slowed,
             contact_residual: most.contact_residual.max(own.contact_residual),
             slide_residual: most.slide_residual.max(own.slide_residual),
         })
@@ -152,6 +155,14 @@ impl Solution {
             rows.map(|row| row.elastic_energy(&own.candidate.x, step))
         });
         energies.sum()
+    }
+
+    /// What prescribed velocities do by wires, in J.
+    pub(super) fn work(&self) -> f64 {
+        let islands = self.islands.iter();
+        islands
+            .map(|own| own.system.work_of_rows(&own.candidate.x))
+            .sum()
     }
 
     /// What there was beside the masses, at short segments, in the motion that was made.
@@ -276,6 +287,9 @@ impl Solved {
             candidate.solver.factorisations += factorisations;
             is_followed = linearisation.follow(world, &system.rows, touches, &candidate.x);
         }
+        let impulses = &candidate.swept.impulses;
+        let work = system.work_of_rows(&candidate.x) + work_of_contacts(world, &contacts, impulses);
+        energy_limit::slow(world, &system.layout, &contacts, &mut candidate, work);
         Ok(Solved {
             island,
             system,

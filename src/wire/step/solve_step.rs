@@ -36,6 +36,18 @@ pub(super) struct Candidate {
     pub(super) solver: SolverRecord,
 }
 
+impl Candidate {
+    /// Multiplies all of it: velocities and what gave them.
+    pub(super) fn scale(&mut self, factor: f64) {
+        for value in &mut self.x {
+            *value *= factor;
+        }
+        for impulse in &mut self.swept.impulses {
+            *impulse *= factor;
+        }
+    }
+}
+
 impl World {
     /// Solves for velocities, multipliers and contact impulses; finds out which segments of chains
     /// pull and which wires slide over contact nodes, starting from those that did in the last
@@ -200,6 +212,7 @@ impl World {
             factorisations: found.factorisations,
             sweeps: 0,
             cut_short: !found.is_settled,
+            slowed: false,
             contact_residual: found.contact_residual,
             slide_residual: 0.0,
         };
@@ -241,6 +254,7 @@ impl World {
             factorisations: 1,
             sweeps: swept.sweeps,
             cut_short: swept.is_cut,
+            slowed: false,
             contact_residual: swept.residual,
             slide_residual: 0.0,
         };

@@ -20,6 +20,9 @@ use crate::wire::world::World;
 /// The largest backward error of a solution that is accepted.
 pub(super) const RESIDUAL: f64 = 1e-10;
 
+/// How often a solution above it is refined, after the first time.
+const MORE_REFINEMENTS: usize = 4;
+
 /// The equations of motion, of nodes, bodies and what slides over contact nodes, and the rows of
 /// all wires, ready to be factored.
 pub(super) struct System {
@@ -399,7 +402,10 @@ impl System {
             |x: &[f64]| self.backward_error(&structure.matrix.residual_and_magnitude(&right, x));
         let mut x = structure.refined(&right);
         let mut error = error_of(&x);
-        if error > RESIDUAL {
+        for _ in 0..MORE_REFINEMENTS {
+            if error <= RESIDUAL {
+                break;
+            }
             structure.refine(&right, &mut x);
             error = error_of(&x);
         }
@@ -429,6 +435,11 @@ impl System {
             ldl.solve(&mut impulses);
         }
         impulses
+    }
+
+    /// What prescribed velocities do by the rows of a solution, in J.
+    pub(super) fn work_of_rows(&self, x: &[f64]) -> f64 {
+        self.rows.iter().map(|row| row.work(x)).sum()
     }
 
     fn right_side(&self, impulses: &[(usize, f64)]) -> Vec<f64> {
