@@ -21,9 +21,13 @@ use tunnelproof::wire::{
 use crate::sweep::Setting;
 use tunnelproof_reference::certify::table::grouped;
 
+mod balance;
 mod behind;
+mod table;
 
+pub use balance::EnergyBalance;
 pub use behind::Behind;
+pub use table::StepTable;
 
 /// No continuous detection at all: wires get contacts where they overlap at the end of a step. In
 /// guard mode changes of resolution are tested still: no time passes in them.
@@ -165,10 +169,28 @@ pub struct Summary {
     pub remeshes: usize,
     /// Changes of resolution refused.
     pub refused: usize,
+    /// The energy of all that forces move.
+    pub energy: EnergyBalance,
     /// The largest tension in N.
     pub tension: f64,
+    /// The time at the end of the step that had it, in s.
+    pub tension_at: Option<f64>,
     /// The largest number of contacts in a step.
     pub contacts: usize,
+    /// How deep the surfaces of a contact were in each other at most where a step started, in m.
+    pub depth: f64,
+    /// The time at the end of that step, in s; none if nothing was.
+    pub depth_at: Option<f64>,
+    /// Steps that ended because they had spent what a step may
+    /// ([`SolverRecord::cut_short`](tunnelproof::wire::SolverRecord)).
+    pub cut_short: u64,
+    /// Steps whose motion was slowed, as it had more energy than there was
+    /// ([`SolverRecord::slowed`](tunnelproof::wire::SolverRecord)).
+    pub slowed: u64,
+    /// The largest error of a contact's velocity that a step ended with, in m/s.
+    pub contact_residual: f64,
+    /// The largest error of a bound of friction at a contact node that a step ended with, as a fraction.
+    pub slide_residual: f64,
     /// Why the run ended before its time.
     pub stopped: Option<String>,
 }
@@ -233,6 +255,7 @@ impl Run<'_> {
             title: self.scene.title.clone(),
             from_step: world.steps(),
             time: world.time(),
+            energy: EnergyBalance::of(&world),
             ..Summary::default()
         };
         for _ in 0..self.scene.steps_from(&world) {
@@ -308,10 +331,41 @@ impl Summary {
         self.held += found.scaled_islands.len();
         self.remeshes += record.remeshes.len();
         self.refused += found.refused_remeshes;
-        let tensions = record.wires.iter().flat_map(|wire| &wire.tensions);
-        self.tension = tensions.fold(self.tension, |a: f64, &b| a.max(b));
+        self.energy.add(record);
+        let tension = largest_tension(record);
+        if tension > self.tension {
+            self.tension = tension;
+            self.tension_at = Some(record.time);
+        }
+        let solver = &record.solver;
+        self.cut_short += u64::from(solver.cut_short);
+        self.slowed += u64::from(solver.slowed);
+        self.contact_residual = self.contact_residual.max(solver.contact_residual);
+        self.slide_residual = self.slide_residual.max(solver.slide_residual);
         self.contacts = self.contacts.max(record.contacts.len());
+        let depth = deepest(record);
+        if depth > self.depth {
+            self.depth = depth;
+            self.depth_at = Some(record.time);
+        }
     }
+}
+
+/// The largest tension of a step in N, 0 if nothing pulls.
+fn largest_tension(record: &StepRecord) -> f64 {
+    let tensions = record.wires.iter().flat_map(|wire| &wire.tensions);
+    tensions.fold(0.0, |a: f64, &b| a.max(b))
+}
+
+/// How deep the surfaces of a contact were in each other at most where a step started, in m.
+fn deepest(record: &StepRecord) -> f64 {
+    let depths = record.contacts.iter().map(|contact| -contact.contact.gap);
+    depths.fold(0.0, f64::max)
+}
+
+/// " at 1.234 s", or nothing.
+fn at(time: Option<f64>) -> String {
+    time.map_or_else(String::new, |time| format!(" at {time:.3} s"))
 }
 
 impl fmt::Display for Summary {
@@ -369,8 +423,34 @@ impl fmt::Display for Summary {
                 "resolution changed",
                 format!("{}, refused {}", count(self.remeshes), count(self.refused)),
             ),
-            ("largest tension", format!("{:.0} N", self.tension)),
+            (
+                "largest tension",
+                format!("{:.0} N{}", self.tension, at(self.tension_at)),
+            ),
             ("most contacts", count(self.contacts)),
+            (
+                "deepest contact",
+                format!("{:.3} mm{}", self.depth * 1e3, at(self.depth_at)),
+            ),
+            ("energy", self.energy.to_string()),
+            (
+                "energy from nothing",
+                format!(
+                    "at most {} in a step{}",
+                    balance::joules(self.energy.largest_gain),
+                    at(self.energy.gained_at)
+                ),
+            ),
+            (
+                "solver",
+                format!(
+                    "{} steps cut short, {} slowed, contacts within {:.1e} m/s, friction within {:.1e}",
+                    grouped(self.cut_short),
+                    grouped(self.slowed),
+                    self.contact_residual,
+                    self.slide_residual
+                ),
+            ),
         ];
         writeln!(f, "{}", self.title)?;
         if self.from_step > 0 {

@@ -2,7 +2,9 @@
 //! clock.
 //!
 //! `step-NNNNNN.vtp` has every segment as a line, with its tension in N, its radius in m and its
-//! wire, and every contact as a point with the force on its place A in N. `bodies-NNNNNN.vtp` has
+//! wire, every node with its arc length in m, its velocity in m/s and what carries it (0 free, 1 pinned, 2 an eye,
+//! 3 a contact node), and every contact as a point (kind 4) with the force on its place A in N, its gap in m
+//! and the body, -1 if it is with a wire. `bodies-NNNNNN.vtp` has
 //! the surfaces of all bodies where they are, each polygon with the number of its body, and as field
 //! data the pose of every body: `position` in m and `orientation`, a unit quaternion (x, y, z, w).
 //! The formats are those of VTK's XML, in text.
@@ -10,7 +12,7 @@
 use std::fmt::Write as _;
 
 use tunnelproof::query::Point;
-use tunnelproof::wire::{Shape, StepRecord};
+use tunnelproof::wire::{ContactConstraint, ContactSite, NodeKind, Shape, StepRecord};
 
 use crate::replay::{Surface, place};
 
@@ -107,15 +109,21 @@ impl Bodies {
     }
 }
 
-/// The wires and contacts after a step: the text of a `.vtp`.
-pub fn polygons(record: &StepRecord, radii: &[f64]) -> String {
+/// The wires and contacts after a step of `step` seconds: the text of a `.vtp`.
+pub fn polygons(record: &StepRecord, radii: &[f64], step: f64) -> String {
     let mut points: Vec<Point> = Vec::new();
+    let (mut kinds, mut arcs, mut velocities) = (Vec::new(), Vec::new(), Vec::new());
     let mut lines = Vec::new();
     let (mut tensions, mut torques) = (Vec::new(), Vec::new());
     let (mut thickness, mut wires) = (Vec::new(), Vec::new());
     for (w, wire) in record.wires.iter().enumerate() {
         let first = points.len();
         points.extend(&wire.after);
+        kinds.extend(wire.kinds.iter().map(kind));
+        arcs.extend(&wire.arcs);
+        let ways = wire.after.iter().zip(&wire.before);
+        velocities
+            .extend(ways.flat_map(|(after, before)| <[f64; 3]>::from((after - before) / step)));
         for (segment, tension) in wire.tensions.iter().enumerate() {
             lines.extend([first + segment, first + segment + 1]);
             tensions.push(*tension);
@@ -125,19 +133,26 @@ pub fn polygons(record: &StepRecord, radii: &[f64]) -> String {
         }
     }
     let mut vertices = Vec::new();
-    let mut forces = Vec::new();
+    let (mut forces, mut gaps, mut bodies) = (Vec::new(), Vec::new(), Vec::new());
     for contact in &record.contacts {
         let at = place(record, &contact.contact.a).or_else(|| place(record, &contact.contact.b));
         if let Some(at) = at {
             vertices.push(points.len());
             points.push(at);
             forces.extend(contact.force.iter().copied());
+            gaps.push(contact.contact.gap);
+            bodies.push(body_of(&contact.contact));
+            kinds.push(CONTACT);
+            arcs.push(0.0);
+            velocities.extend([0.0; 3]);
         }
     }
     let (segments, contacts) = (wires.len(), vertices.len());
     // Cell data are of vertices first, then of lines.
     let padded = |of: Vec<f64>| [vec![0.0; contacts], of].concat();
     let forces = [forces, vec![0.0; 3 * segments]].concat();
+    let gaps = [gaps, vec![0.0; segments]].concat();
+    let bodies = [bodies, vec![-1; segments]].concat();
     let wires = [
         vec![-1; contacts],
         wires.iter().map(|w| *w as i64).collect(),
@@ -156,13 +171,40 @@ pub fn polygons(record: &StepRecord, radii: &[f64]) -> String {
     cells(&mut text, &vertices, 1);
     text += "</Verts>\n<Lines>\n";
     cells(&mut text, &lines, 2);
-    text += "</Lines>\n<CellData Scalars=\"tension\">\n";
+    text += "</Lines>\n<PointData>\n";
+    array(&mut text, "Int64", "kind", 1, kinds);
+    array(&mut text, "Float64", "arc", 1, arcs);
+    array(&mut text, "Float64", "velocity", 3, velocities);
+    text += "</PointData>\n<CellData Scalars=\"tension\">\n";
     array(&mut text, "Float64", "tension", 1, padded(tensions));
     array(&mut text, "Float64", "torque", 1, padded(torques));
     array(&mut text, "Float64", "radius", 1, padded(thickness));
     array(&mut text, "Int64", "wire", 1, wires);
     array(&mut text, "Float64", "force", 3, forces);
+    array(&mut text, "Float64", "gap", 1, gaps);
+    array(&mut text, "Int64", "body", 1, bodies);
     text + "</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n"
+}
+
+/// Of a point that is the place of a contact.
+const CONTACT: i64 = 4;
+
+/// What carries a node, as a number: free, pinned, an eye, a contact node.
+fn kind(kind: &NodeKind) -> i64 {
+    match kind {
+        NodeKind::Free => 0,
+        NodeKind::Pinned => 1,
+        NodeKind::Eye { .. } => 2,
+        _ => 3,
+    }
+}
+
+/// The body that a contact is with, the second of two; -1 for two wires.
+fn body_of(contact: &ContactConstraint) -> i64 {
+    match (contact.b, contact.a) {
+        (ContactSite::Body { body, .. }, _) | (_, ContactSite::Body { body, .. }) => body.0 as i64,
+        _ => -1,
+    }
 }
 
 /// Cells of so many points each.
@@ -226,7 +268,7 @@ mod tests {
         record.wires[1].tensions[3] = 123.5;
         let contacts = record.contacts.len();
         assert!(contacts > 0);
-        let text = polygons(&record, &[0.02; 3]);
+        let text = polygons(&record, &[0.02; 3], world.settings().step);
         let document = roxmltree::Document::parse(&text).unwrap();
         let values = |parent: &str, name: &str| -> Vec<f64> {
             let array = document.descendants().find(|node| {
@@ -252,6 +294,12 @@ mod tests {
             values("Lines", "offsets").last(),
             Some(&(2.0 * (nodes - 3) as f64))
         );
+        for (name, each) in [("kind", 1), ("arc", 1), ("velocity", 3)] {
+            assert_eq!(values("PointData", name).len(), each * (nodes + contacts));
+        }
+        assert_eq!(values("PointData", "kind")[0], 1.0);
+        assert_eq!(values("PointData", "kind").last(), Some(&4.0));
+        assert_eq!(values("CellData", "gap")[0], record.contacts[0].contact.gap);
         // Of the second wire the fourth.
         assert_eq!(
             values("CellData", "tension")[contacts + record.wires[0].tensions.len() + 3],

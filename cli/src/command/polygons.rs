@@ -13,6 +13,8 @@ use super::output::unwritable;
 pub(super) struct Polygons<'a> {
     folder: &'a Path,
     radii: Vec<f64>,
+    /// A step in s.
+    step: f64,
     bodies: Bodies,
     times: Vec<(u64, f64)>,
 }
@@ -25,6 +27,7 @@ impl<'a> Polygons<'a> {
         Ok(Polygons {
             folder,
             radii: radii.collect(),
+            step: world.settings().step,
             bodies: Bodies::new(world.bodies().iter().map(|body| body.shape())),
             times: Vec::new(),
         })
@@ -33,7 +36,7 @@ impl<'a> Polygons<'a> {
     /// Writes what is after a step.
     pub(super) fn step(&mut self, record: &StepRecord) -> Result<(), Failure> {
         self.times.push((record.step, record.time));
-        let text = vtk::polygons(record, &self.radii);
+        let text = vtk::polygons(record, &self.radii, self.step);
         self.write(&vtk::file(record.step), &text)?;
         if self.bodies.is_empty() {
             return Ok(());

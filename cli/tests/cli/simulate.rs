@@ -106,6 +106,56 @@ fn simulate_writes_bodies_for_paraview_beside_the_steps() {
 }
 
 #[test]
+fn simulate_writes_a_line_for_each_step() {
+    let folder = tempfile::tempdir().unwrap();
+    let [table, summary] = ["run.csv", "run.json"].map(|name| folder.path().join(name));
+    let mut options = vec![
+        "simulate",
+        "twisting-under-load",
+        "--duration",
+        "0.5",
+        "--csv",
+    ];
+    options.extend([table.to_str().unwrap(), "--json", summary.to_str().unwrap()]);
+    let output = tunnelproof(&options);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let table = std::fs::read_to_string(table).unwrap();
+    let mut lines = table
+        .lines()
+        .map(|line| line.split(',').collect::<Vec<_>>());
+    let names = lines.next().unwrap();
+    let rows: Vec<Vec<f64>> = lines
+        .map(|line| line.iter().map(|number| number.parse().unwrap()).collect())
+        .collect();
+    assert_eq!(rows.len(), 30);
+    let column = |name: &str| {
+        let at = names.iter().position(|other| *other == name).unwrap();
+        rows.iter().map(|row| row[at]).collect::<Vec<_>>()
+    };
+    let document: Value = serde_json::from_slice(&std::fs::read(summary).unwrap()).unwrap();
+    let summary = &document["summary"];
+    let energies = ["kinetic (J)", "potential (J)", "elastic (J)"].map(column);
+    let end: f64 = energies.iter().map(|energy| energy[29]).sum();
+    let close = |a: f64, b: &Value| (a - b.as_f64().unwrap()).abs() < 1e-9 * a.abs().max(1.0);
+    assert!(close(end, &summary["energy"]["end"]), "{summary}");
+    let largest = |name| column(name).into_iter().fold(0.0, f64::max);
+    assert!(close(
+        largest("gain (J)"),
+        &summary["energy"]["largest_gain"]
+    ));
+    assert!(close(largest("largest tension (N)"), &summary["tension"]));
+    assert!(close(largest("contacts"), &summary["contacts"]));
+    let output = tunnelproof(&[
+        "simulate",
+        "basic-collision",
+        "--csv",
+        "/no/such/folder/run.csv",
+    ]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("/no/such/folder/run.csv"));
+}
+
+#[test]
 fn simulate_draws_two_runs_beside_each_other() {
     let folder = tempfile::tempdir().unwrap();
     let [pictures, page] = ["pictures", "both.html"].map(|name| folder.path().join(name));

@@ -95,6 +95,10 @@ pub(super) struct Simulate {
     /// the bodies
     #[arg(long, value_name = "FOLDER")]
     vtk: Option<PathBuf>,
+    /// Write a line for each step to this file, for spreadsheets: energies, tension, contacts, what was
+    /// prevented, how the step was solved
+    #[arg(long, value_name = "OUT")]
+    csv: Option<PathBuf>,
     /// Write the summary, and the audit, to this file, as JSON; - is the standard output, in place
     /// of the text
     #[arg(long, value_name = "OUT")]
@@ -151,9 +155,7 @@ impl Simulate {
         let steps = state.world.steps();
         self.saving.end(state, plan.narrow)?;
         let is_stopped = summary.steps < plan.steps() && summary.stopped.is_none();
-        if let Some(polygons) = &watch.vtk {
-            polygons.finish()?;
-        }
+        watch.finish()?;
         let audit = watch.audit.map(Audit::finish);
         if let Some(replay) = watch.replay {
             let replay = replay.ended(&plan.start.world, &summary);

@@ -1,12 +1,14 @@
 //! Who looks at every step of `simulate`.
 
 use std::fs::File;
+use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use tunnelproof::wire::StepRecord;
 use tunnelproof::wire::recording::Recorder;
+use tunnelproof::wire::{StepRecord, World};
 use tunnelproof_cli::audit::Audit;
 use tunnelproof_cli::replay::Replay;
+use tunnelproof_cli::simulate::StepTable;
 
 use super::Simulate;
 use super::plan::Plan;
@@ -19,7 +21,15 @@ pub(super) struct Watch<'a> {
     recorder: Option<(Recorder<File>, &'a Path)>,
     pub(super) audit: Option<Audit>,
     pub(super) replay: Option<Replay>,
-    pub(super) vtk: Option<Polygons<'a>>,
+    vtk: Option<Polygons<'a>>,
+    table: Option<Table<'a>>,
+}
+
+/// A table over time under way.
+struct Table<'a> {
+    lines: StepTable,
+    file: BufWriter<File>,
+    path: &'a Path,
 }
 
 impl<'a> Watch<'a> {
@@ -37,6 +47,11 @@ impl<'a> Watch<'a> {
                 .map(|folder| Polygons::new(folder, world))
                 .transpose()?,
             recorder: options.record.as_deref().map(record).transpose()?,
+            table: options
+                .csv
+                .as_deref()
+                .map(|path| Table::new(path, world))
+                .transpose()?,
             audit: options.audit.then(|| Audit::of_world(world)),
             replay: is_shown.then(|| plan.empty_replay(plan.narrow)),
         })
@@ -57,6 +72,45 @@ impl<'a> Watch<'a> {
         if let Some(polygons) = &mut self.vtk {
             polygons.step(record)?;
         }
+        if let Some(table) = &mut self.table {
+            table.step(record)?;
+        }
         Ok(())
+    }
+
+    /// Writes what is left to be written.
+    pub(super) fn finish(&mut self) -> Result<(), Failure> {
+        if let Some(polygons) = &self.vtk {
+            polygons.finish()?;
+        }
+        self.table.as_mut().map_or(Ok(()), Table::finish)
+    }
+}
+
+impl<'a> Table<'a> {
+    fn new(path: &'a Path, world: &World) -> Result<Self, Failure> {
+        let file = File::create(path).map_err(|error| unwritable(path, error))?;
+        let mut table = Table {
+            lines: StepTable::of(world),
+            file: BufWriter::new(file),
+            path,
+        };
+        table.write(&StepTable::head())?;
+        Ok(table)
+    }
+
+    fn step(&mut self, record: &StepRecord) -> Result<(), Failure> {
+        let line = self.lines.line(record);
+        self.write(&line)
+    }
+
+    fn finish(&mut self) -> Result<(), Failure> {
+        let end = self.file.flush();
+        end.map_err(|error| unwritable(self.path, error))
+    }
+
+    fn write(&mut self, text: &str) -> Result<(), Failure> {
+        let written = self.file.write_all(text.as_bytes());
+        written.map_err(|error| unwritable(self.path, error))
     }
 }

@@ -1,0 +1,122 @@
+//! What energy comes from nothing in runs of scenes that no table has.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use tunnelproof::wire::Mode;
+use tunnelproof_cli::scenes::{Scene, SceneError};
+use tunnelproof_cli::simulate::{Narrow, Run, Summary};
+
+fn run(toml: &str) -> Summary {
+    let scene = Scene::from_toml(toml).unwrap();
+    let narrow = Narrow::Certified.phase();
+    let run = Run {
+        scene: &scene,
+        narrow: &*narrow,
+        mode: Mode::Guard,
+    };
+    let summary = run.go(|_, _| Ok::<(), SceneError>(())).unwrap();
+    assert_eq!(summary.stopped, None);
+    summary
+}
+
+/// A rope over two bollards, with a box of 20 kg at its left end and one of `heavy` kg at its right one, at so many steps in
+/// a second.
+fn bollards(heavy: f64, rate: f64) -> String {
+    let mut text = format!(
+        "title = \"two bollards\"\nduration = 4\nfriction = 0.3\n[settings]\nstep = {}\n",
+        1.0 / rate
+    );
+    for (name, x) in [("left", -0.5), ("right", 0.5)] {
+        text += &format!(
+            "[[bodies]]\nname = \"{name}\"\nshape = {{ cylinder = {{ radius = 0.2, half_height = 0.5 }} }}\n\
+             position = [{x}, 0, 0]\nturn = {{ axis = [1, 0, 0], degrees = 90 }}\n"
+        );
+    }
+    let loads = [("a", -0.705, -3.0, 20.0), ("b", 0.705, -1.5, heavy)];
+    for (name, x, top, mass) in loads {
+        let half = f64::cbrt(mass / (8.0 * 7850.0));
+        text += &format!(
+            "[[bodies]]\nname = \"{name}\"\nshape = {{ box = {{ half = [{half}, {half}, {half}] }} }}\n\
+             position = [{x}, 0, {}]\ndrive = {{ dynamic = {{ density = 7850 }} }}\n",
+            top - half
+        );
+    }
+    let half = loads.map(|(_, _, _, mass)| f64::cbrt(mass / (8.0 * 7850.0)));
+    // A quarter of a turn over each, 5 mm from its surface.
+    let quarter = (0..=6).map(|k| f64::from(k) * std::f64::consts::FRAC_PI_2 / 6.0);
+    let over: Vec<[f64; 2]> = quarter
+        .map(|turn| [0.205 * turn.cos(), 0.205 * turn.sin()])
+        .collect();
+    let left = over.iter().map(|[x, z]| [-0.5 - x, *z]);
+    let right = over.iter().rev().map(|[x, z]| [0.5 + x, *z]);
+    let free: Vec<String> = left
+        .chain(right)
+        .map(|[x, z]| format!("{{ free = [{x}, 0, {z}] }}"))
+        .collect();
+    text + &format!(
+        "[[wires]]\nname = \"rope\"\nresolution = 0.1\n\
+         material = {{ radius = 0.005, mass_per_length = 0.1, stretch_stiffness = 1e6, bend_stiffness = 0 }}\n\
+         route = [{{ eye = {{ body = \"a\", local = [0, 0, {}] }} }}, {}, {{ eye = {{ body = \"b\", local = [0, 0, {}] }} }}]\n",
+        half[0],
+        free.join(", "),
+        half[1],
+    )
+}
+
+/// Below `e^(0.3 pi) = 2.57` times 20 kg the rope holds, above it slips: whatever the step, nothing is gained.
+#[test]
+fn rope_over_two_bollards_gains_no_energy() {
+    for rate in [30.0, 60.0, 240.0] {
+        let [holds, slips] = [48.0, 55.0].map(|heavy| run(&bollards(heavy, rate)));
+        for summary in [&holds, &slips] {
+            let energy = summary.energy;
+            assert!(energy.largest_gain < 0.1, "{rate}: {energy:?}");
+            assert_eq!(summary.slowed, 0);
+        }
+        let lost = |summary: &Summary| summary.energy.start - summary.energy.end;
+        assert!(lost(&holds) < 100.0, "{rate}: {:?}", holds.energy);
+        assert!(lost(&slips) > 600.0, "{rate}: {:?}", slips.energy);
+    }
+}
+
+/// A light rope that hangs folded between two balls, and is thrown: a node at which it is bent stays.
+#[test]
+fn folded_rope_that_resists_being_pressed_is_not_straightened() {
+    let text = "title = \"folded\"\nduration = 1\n[settings]\ngravity = [0, 0, 0]\n\
+        [[bodies]]\nname = \"a\"\nshape = { sphere = { radius = 0.1 } }\nposition = [0, 0, 0]\n\
+        drive = { dynamic = { density = 1000, velocity = [0, 0, 8] } }\n\
+        [[bodies]]\nname = \"b\"\nshape = { sphere = { radius = 0.1 } }\nposition = [1, 0, 0]\n\
+        drive = { dynamic = { density = 1000, velocity = [0, 5, -8] } }\n\
+        [[wires]]\nname = \"rope\"\nresolution = 0.2\n\
+        material = { radius = 0.0015, mass_per_length = 0.13, stretch_stiffness = 2e5, bend_stiffness = 2e-4 }\n\
+        route = [{ eye = { body = \"a\", local = [0, 0, 0.1] } }, { free = [0.5, 0, 0.1] }, { eye = { body = \"b\", local = [0, 0, 0.1] } }]\n";
+    let summary = run(text);
+    assert!(summary.remeshes > 0);
+    let energy = summary.energy;
+    assert!(energy.largest_gain < 0.01 * energy.start, "{energy:?}");
+}
+
+/// A ball of 4.2 kg on a rope that a scripted box lifts at 0.5 m/s for 2 s.
+#[test]
+fn what_scripted_bodies_do_is_work_and_no_gain() {
+    let text = "title = \"hoist\"\nduration = 4\n\
+        [[bodies]]\nname = \"hook\"\nshape = { box = { half = [0.1, 0.1, 0.1] } }\nposition = [0, 0, 0]\n\
+        drive = { kinematic = [{ from = 1, velocity = [0, 0, 0.5] }, { from = 3, velocity = [0, 0, 0] }] }\n\
+        [[bodies]]\nname = \"ball\"\nshape = { sphere = { radius = 0.1 } }\nposition = [0, 0, -2.2]\n\
+        drive = { dynamic = { density = 1000 } }\n\
+        [[wires]]\nname = \"rope\"\nresolution = 0.25\nmaterial = { radius = 0.005, bend_modulus = 0 }\n\
+        route = [{ eye = { body = \"hook\", local = [0, 0, -0.1] } }, { eye = { body = \"ball\", local = [0, 0, 0.1] } }]\n";
+    let summary = run(text);
+    let energy = summary.energy;
+    let mass =
+        4.0 / 3.0 * std::f64::consts::PI + 7850.0 * std::f64::consts::PI * 0.005 * 0.005 * 2.0;
+    let lifted = mass * 9.80665;
+    let rise = energy.end - energy.start;
+    assert!((rise - lifted).abs() < 0.01 * lifted, "{rise} {lifted}");
+    // What the jerks at the start and the end put in is damped.
+    assert!(
+        energy.work > rise && energy.work < 1.05 * lifted,
+        "{energy:?}"
+    );
+    assert!(energy.largest_gain < 0.01 * lifted, "{energy:?}");
+}
