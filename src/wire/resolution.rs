@@ -6,7 +6,7 @@
 //! [`TENSION_HISTORY`] steps, and put in where they are longer than a multiple of it. At one node
 //! at least [`TENSION_HISTORY`] steps lie between two changes.
 //!
-//! A node at which a wire is bent stays, if the wire would push once it is straight.
+//! A node stays at which a wire is folded that resists being pressed together.
 //!
 //! Where wires push on each other they have to bend: there tension does not count, `l_min =
 //! l_user`. The step keeps segments stable that are too short for their tension
@@ -114,7 +114,7 @@ fn merge(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
         let wanted = wanted(world, at, [node - 1, node], guard);
         let short = length < wanted * (1.0 - ROUNDING);
         let may_change =
-            wire.resolution.adaptive && this.remesh_from <= world.steps && is_straight(wire, node);
+            wire.resolution.adaptive && this.remesh_from <= world.steps && !is_folded(wire, node);
         let is_used_up = is_used_up(world, at, node, wanted);
         let is_asked = is_used_up || may_change && short;
         if this.kind == NodeKind::Free && is_asked && !joins_a_clamp(wire, node) {
@@ -135,16 +135,11 @@ fn merge(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
     }
 }
 
-/// Whether the wire is straight enough at a node to do without it: straightened, it pushes with no more force than it
-/// pulled with. One that is folded would be pressed together, which is energy that nobody put in. A chain never pushes.
-fn is_straight(wire: &Wire, node: usize) -> bool {
-    let beside = [node - 1, node];
-    let [before, after] = beside.map(|segment| wire.span(segment));
-    let shorter = before.norm() + after.norm() - (before + after).norm();
-    let rest: f64 = beside.map(|segment| wire.rest_length(segment)).iter().sum();
-    let push = wire.material.stretch_stiffness() * shorter / rest;
-    let pulled = beside.map(|segment| wire.segments[segment].largest_tension());
-    wire.material.is_chain() || push <= pulled[0].max(pulled[1])
+/// Whether the wire is folded at a node, by more than a right angle. Without the node it would be pressed together to
+/// less than 0.71 of its length, and fly apart if it resists that; a chain does not.
+fn is_folded(wire: &Wire, node: usize) -> bool {
+    let [before, after] = [node - 1, node].map(|segment| wire.span(segment));
+    !wire.material.is_chain() && before.dot(&after) < 0.0
 }
 
 /// Whether an end of a wire that resists twist would be clamped without a node: what clamps it is its
