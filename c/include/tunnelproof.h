@@ -160,7 +160,9 @@ int64_t tunnelproof_decide_vertex_face_batch(const double *points, const double 
  *
  * The answer is as above, with the normal in space; `place_error` is at most 2^-50.
  * Where the body does not turn, it is that of the functions above. Ordinary contacts take
- * microseconds; grazes, ends of edges and times that are doubles take up to some milliseconds. */
+ * microseconds; grazes, ends of edges and times that are doubles mostly take less than some
+ * milliseconds. No bound is stated: the slowest query found, with coordinates that span the range of
+ * double, takes 5.4 s. */
 int32_t tunnelproof_decide_edge_turning_edge(const double *points, const double *local,
                                              const double *poses, const double *radii,
                                              tunnelproof_hit *hit);

@@ -60,9 +60,9 @@ pub fn decide_observed<K: Kind>(
 
 /// As [`decide`], by integer arithmetic alone.
 ///
-/// It takes about a microsecond where the coordinates are of similar magnitude, and up to
-/// milliseconds where their exponents span the range of `f64`; with a radius above 0, about fifty
-/// times that.
+/// It takes about a microsecond where the coordinates are of similar magnitude; with a radius above
+/// 0, about fifty times that. The slowest queries found, whose exponents span the range of `f64`,
+/// take less than 0.015 s without a radius and less than 0.15 s with one.
 pub fn decide_exactly<K: Kind>(query: &K) -> Option<Hit<K::Place>> {
     debug_assert_eq!(environment::check(), Ok(()));
     let (positions, radius) = (Positions::of(query.start(), query.end()), query.radius());
