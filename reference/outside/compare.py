@@ -93,10 +93,16 @@ def said(line):
     return (toi["below"], toi["above"]) if line["hit"] else None
 
 
+def number_of_queries(text):
+    if not re.fullmatch("[0-9]+", text) or int(text) == 0:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number of at least 1")
+    return int(text)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("program", type=pathlib.Path)
-    parser.add_argument("--count", type=int, default=34, help="queries of each family")
+    parser.add_argument("--count", type=number_of_queries, default=34, help="queries of each family, at least 1")
     parser.add_argument("--seed", type=int, default=int(datetime.datetime.now().strftime("%y%j%H%M")))
     parser.add_argument("--families", help="some, separated by commas; by default all")
     parser.add_argument("--plant", choices=FAULTS, help="spoil every other answer")
