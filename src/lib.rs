@@ -38,7 +38,8 @@
 //! - `toi` bounds the *time*. Positions that are rounded to `f64` at that time may already be past
 //!   the contact.
 //! - The processor rounds to nearest and does not flush subnormal numbers to zero, as Rust programs
-//!   run. A host that changes these settings voids the proofs.
+//!   run. A host that changes these settings voids the proofs. [`environment::check`] says whether
+//!   a thread is as it should be.
 //!
 //! # Modules
 //!
@@ -47,6 +48,7 @@
 //! - [`mesh`] asks about whole meshes, and makes certified steps: the positions to store, with a
 //!   proof that nothing touches on the way.
 //! - [`broad`] finds the pairs that may meet during a step.
+//! - [`environment`] is how the processor has to compute, and a check of it.
 //! - [`narrow`] is the trait of every method, also of your own. The crate `tunnelproof-reference`
 //!   judges any of them against the exact answer.
 //! - [`thesis`] and [`additive`] are published methods to compare with.

@@ -25,7 +25,7 @@ queries and results, and ``plot()`` gives the picture of what has one.
 All functions release the global interpreter lock and use all cores. Ctrl-C ends a call on many
 queries soon. Arrays of other types are converted to ``float64``; complex numbers are refused. Arguments are copied, but for positions of meshes: these are read where
 they are, so no other thread may change them during a call. The proofs assume rounding to nearest
-and gradual underflow. Each function sets that for itself, on x86-64 and AArch64, and restores what
+and gradual underflow. Each function sets that for itself, on x86 with SSE2 and AArch64, and restores what
 the calling thread had: a library that switches on flush-to-zero changes no answer.
 """
 
