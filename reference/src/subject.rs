@@ -76,6 +76,34 @@ pub enum Answer {
     Said(Said),
 }
 
+impl Answer {
+    /// The time of impact, as far as it is said; `None` for a miss.
+    pub fn toi(&self) -> Option<Enclosure> {
+        match self {
+            Answer::Exact(exact) => exact.hit.map(|hit| hit.toi),
+            Answer::Certified(hit) => hit.as_ref().map(|hit| Enclosure {
+                below: hit.toi,
+                above: hit.toi_above,
+            }),
+            Answer::Engine(report) => {
+                let contact = report.verdict.contact();
+                contact.map(|contact| Enclosure::exactly(contact.toi))
+            }
+            Answer::Said(said) => said.toi,
+        }
+    }
+
+    /// The case of the motion, if it is stated.
+    pub fn case(&self) -> Option<Case> {
+        match self {
+            Answer::Exact(exact) => Some(exact.case),
+            Answer::Certified(hit) => hit.as_ref().map(|hit| hit.case),
+            Answer::Engine(report) => report.case,
+            Answer::Said(said) => said.case,
+        }
+    }
+}
+
 /// What a subject says, as far as everyone says it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Said {

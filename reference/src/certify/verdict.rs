@@ -34,9 +34,11 @@ pub struct Judgement {
     /// For an exact subject: whether the answer is not the exact one in every field. For the
     /// certified path: whether it is wrong in anything that it promises.
     pub differs: bool,
-    /// How much later than the exact time of impact, at most; 0 if it is not later.
+    /// How much later than the exact time of impact, at most; 0 if it is not later. Of bounds, how
+    /// much later the lower one is.
     pub late: f64,
-    /// How much earlier than the exact time of impact, at most; 0 if it is not earlier.
+    /// How much earlier than the exact time of impact, at most; 0 if it is not earlier. Of bounds,
+    /// how much earlier the upper one is.
     pub early: f64,
 }
 
@@ -122,29 +124,20 @@ pub fn judge(
     answer: Option<&Answer>,
     is_near: impl FnOnce() -> bool,
 ) -> Judgement {
-    let (toi, case, differs) = match answer {
-        Some(Answer::Exact(exact)) => {
-            let toi = exact.hit.map(|hit| hit.toi);
-            (toi, Some(exact.case), exact != truth)
-        }
-        Some(Answer::Certified(hit)) => {
-            let hit = hit.as_ref();
-            let toi = hit.map(|hit| Enclosure {
-                below: hit.toi,
-                above: hit.toi_above,
-            });
-            (toi, hit.map(|hit| hit.case), !keeps_promise(hit, truth))
-        }
-        Some(Answer::Engine(report)) => {
-            let toi = report.verdict.contact();
-            (toi.map(|c| Enclosure::exactly(c.toi)), report.case, false)
-        }
-        Some(Answer::Said(said)) => (said.toi, said.case, false),
-        None => return Judgement::NO_ANSWER,
+    let Some(answer) = answer else {
+        return Judgement::NO_ANSWER;
+    };
+    let said = Said {
+        toi: answer.toi(),
+        case: answer.case(),
     };
     Judgement {
-        differs,
-        ..judge_outline(&truth.into(), &Said { toi, case }, is_near)
+        differs: match answer {
+            Answer::Exact(exact) => exact != truth,
+            Answer::Certified(hit) => !keeps_promise(hit.as_ref(), truth),
+            Answer::Engine(_) | Answer::Said(_) => false,
+        },
+        ..judge_outline(&truth.into(), &said, is_near)
     }
 }
 
@@ -225,14 +218,61 @@ fn is_time_of_step(toi: Enclosure) -> bool {
     step.contains(&toi.below) && step.contains(&toi.above)
 }
 
-/// How much later and how much earlier one number may be than another.
+/// How much later and how much earlier a time is than the exact one; both 0 if that is between the
+/// bounds which are claimed, however far these are apart.
 ///
-/// Numbers with the same enclosure are not told apart here. Differences are correctly rounded.
+/// The lower bound is compared with the exact time rounded down, the upper one with it rounded up.
+/// Differences are correctly rounded.
 fn lateness(claimed: Enclosure, exact: Enclosure) -> (f64, f64) {
-    if claimed == exact {
-        return (0.0, 0.0);
-    }
-    let late = claimed.above - exact.below;
-    let early = exact.above - claimed.below;
+    let late = claimed.below - exact.below;
+    let early = exact.above - claimed.above;
     (late.max(0.0), early.max(0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lateness_of_bounds_around_the_exact_time_is_none_however_wide_they_are() {
+        let third = Enclosure {
+            below: 1.0_f64 / 3.0,
+            above: (1.0_f64 / 3.0).next_up(),
+        };
+        let Enclosure { below, above } = third;
+        let ulp = above - below;
+        for exact in [third, Enclosure::exactly(below)] {
+            for (below, above) in [
+                (exact.below, exact.above),
+                (exact.below.next_down(), exact.above.next_up()),
+                (exact.below, exact.above.next_up()),
+                (0.0, 1.0),
+            ] {
+                let claimed = Enclosure { below, above };
+                assert_eq!(lateness(claimed, exact), (0.0, 0.0), "{claimed:?}");
+            }
+        }
+        for (claimed, expected) in [
+            // One number, rounded down and rounded up.
+            (Enclosure::exactly(below), (0.0, ulp)),
+            (Enclosure::exactly(above), (ulp, 0.0)),
+            // Bounds beyond the exact time on either side.
+            (
+                Enclosure {
+                    below: above,
+                    above: 1.0,
+                },
+                (ulp, 0.0),
+            ),
+            (
+                Enclosure {
+                    below: 0.0,
+                    above: below,
+                },
+                (0.0, ulp),
+            ),
+        ] {
+            assert_eq!(lateness(claimed, third), expected, "{claimed:?}");
+        }
+    }
 }
