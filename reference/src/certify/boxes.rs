@@ -13,7 +13,7 @@ use tunnelproof::query::Point;
 
 use super::judged::no_time;
 use super::strict::{counts, refused_of_taken, took_none, words};
-use super::table::grouped;
+use super::table::{SURPLUS, many};
 use super::tally::Fault;
 use super::verdict::{Judgement, Outline, OutlineHit, judge_outline};
 use crate::boxes::{
@@ -173,8 +173,7 @@ pub fn failures(found: &[Judged], tolerance: Tolerance, surplus: u64) -> Vec<Str
     let counted = all
         .iter()
         .filter(|(fault, finding)| counts(tolerance, **fault, finding.worst.severity));
-    let counted = counted
-        .map(|(fault, finding)| format!("{} {}", grouped(finding.count), words(tolerance, *fault)));
+    let counted = counted.map(|(fault, finding)| many(finding.count, words(tolerance, *fault)));
     let queries: u64 = found.iter().map(|judged| judged.queries).sum();
     let refused: u64 = found.iter().map(Judged::refused).sum();
     let none = (queries == refused).then(|| took_none(queries));
@@ -183,7 +182,7 @@ pub fn failures(found: &[Judged], tolerance: Tolerance, surplus: u64) -> Vec<Str
     let chosen = by_sort.filter(|(sort, _)| taken.contains(sort));
     let chosen: u64 = chosen.map(|(_, count)| count).sum();
     let chosen = (chosen > 0).then(|| refused_of_taken(chosen));
-    let surplus = (surplus > 0).then(|| format!("{} answers too many", grouped(surplus)));
+    let surplus = (surplus > 0).then(|| many(surplus, SURPLUS));
     counted.chain(none).chain(chosen).chain(surplus).collect()
 }
 
@@ -220,7 +219,8 @@ impl Judged {
             None => vec![(Fault::NoAnswer, 0.0)],
             Some(judgement) => judgement.faults(&outline(&truth), || gap(cast)),
         };
-        let of_time = |judgement: &Judgement| no_time(judgement.verdict);
+        let toi = said.and_then(|said| said.toi);
+        let of_time = |judgement: &Judgement| no_time(judgement.verdict, toi);
         let lapse = lapse.or_else(|| judgement.as_ref().and_then(of_time));
         if let Some(lapse) = &lapse {
             *self.lapses.entry(lapse.kind).or_default() += 1;

@@ -8,7 +8,9 @@ use super::judged::Judged;
 use super::run::Panel;
 use super::strict;
 use super::summary::worst_of;
-use super::table::{Paint, Tone, count, cut, first, grouped, name_width, tolerance, worst};
+use super::table::{
+    Paint, QUERIES, Tone, contents, count, cut, first, grouped, many, name_width, tolerance, worst,
+};
 use super::tally::{Explained, Fault, Tally};
 use crate::figures;
 use crate::generate::{self, Family, RigidFamily};
@@ -111,19 +113,8 @@ fn row(width: usize, name: &str, block: &Block, tally: &Tally) -> String {
 }
 
 fn heading(block: &Block) -> String {
-    let some = |number, of| match number {
-        0 => String::new(),
-        number => format!(", {} {of}", grouped(number)),
-    };
-    format!(
-        "{}: {} queries, {} hits, {} crossings{}{}",
-        block.name,
-        grouped(block.queries),
-        grouped(block.hits),
-        grouped(block.crossings),
-        some(block.joints, "joints"),
-        some(block.labels, "labels"),
-    )
+    let queries = many(block.queries, QUERIES);
+    format!("{}: {queries}, {}", block.name, contents(block))
 }
 
 /// Which errata explain the answers of subjects that have any.
@@ -134,9 +125,9 @@ fn errata(panel: &Panel, total: &Block) -> String {
             continue;
         }
         lines.push(format!(
-            "{} differs from the exact answer on {} queries, which is explained by:",
+            "{} differs from the exact answer on {}, which is explained by:",
             judged.subject.name(),
-            count(tally, Fault::Differs)
+            many(tally.count(Fault::Differs), QUERIES)
         ));
         lines.push(format!(
             "  {:<26}{:>9}{:>13}  witness",
@@ -189,7 +180,10 @@ fn verdict(judged: &Judged, total: &Block, tally: &Tally) -> Vec<String> {
         Some(_) => "without it fails: ".to_owned(),
         None => format!("without its tolerance, {tolerance}, fails: "),
     };
+    let idle = (tolerated.is_empty() && !tolerance.is_empty())
+        .then(|| format!("its tolerance, {tolerance}, makes no difference"));
     let failures = failures.iter().map(|what| format!("fails: {what}"));
     let tolerated = tolerated.iter().map(|what| format!("{without}{what}"));
-    first.into_iter().chain(failures).chain(tolerated).collect()
+    let words = first.into_iter().chain(failures).chain(tolerated);
+    words.chain(idle).collect()
 }

@@ -2,7 +2,7 @@
 
 use tunnelproof::query::Query;
 
-use crate::answer::ExactAnswer;
+use crate::answer::{Enclosure, ExactAnswer};
 use crate::subject::{Answer, Lapse, LapseKind, Subject};
 
 use super::query::AnyQuery;
@@ -78,9 +78,10 @@ impl Judged<'_> {
             (Some(explain), AnyQuery::Linear(query)) => explain(query, truth),
             _ => Vec::new(),
         };
+        let toi = answer.as_ref().and_then(Answer::toi);
         Found {
             answer,
-            lapse: lapse.or_else(|| no_time(judgement.verdict)),
+            lapse: lapse.or_else(|| no_time(judgement.verdict, toi)),
             is_asked: true,
             is_hit: judgement.is_hit,
             is_miss: judgement.is_miss(),
@@ -91,7 +92,13 @@ impl Judged<'_> {
 }
 
 /// That a time of impact is no time of the step, if that is why an answer is none.
-pub(super) fn no_time(verdict: Verdict) -> Option<Lapse> {
-    let lapse = || Lapse::new(LapseKind::NoTime, "toi is not a number from 0 to 1");
-    (verdict == Verdict::NoAnswer).then(lapse)
+pub(super) fn no_time(verdict: Verdict, toi: Option<Enclosure>) -> Option<Lapse> {
+    let toi = toi.filter(|_| verdict == Verdict::NoAnswer)?;
+    let Enclosure { below, above } = toi;
+    let said = match below.to_bits() == above.to_bits() {
+        true => format!("{below:?}"),
+        false => format!("[{below:?}, {above:?}]"),
+    };
+    let detail = format!("toi is {said}, not a number from 0 to 1");
+    Some(Lapse::new(LapseKind::NoTime, detail))
 }

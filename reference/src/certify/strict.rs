@@ -5,7 +5,7 @@ use tunnelproof::narrow::Tolerance;
 use super::block::Block;
 use super::judged::Judged;
 use super::run::Panel;
-use super::table::grouped;
+use super::table::{QUERIES, SURPLUS, grouped, many};
 use super::tally::{Fault, Tally};
 
 /// What fails: a line for each subject and for each disagreement among judges and labels; none if
@@ -63,7 +63,7 @@ pub fn disagreements(panel: &Panel, total: &Block) -> Vec<String> {
     let labels = "labels disagree with the oracle".to_owned();
     for (what, count) in seconds.chain([(labels, total.wrong_labels.count)]) {
         if count > 0 {
-            lines.push(format!("{what} on {} queries", grouped(count)));
+            lines.push(format!("{what} on {}", many(count, QUERIES)));
         }
     }
     lines
@@ -75,23 +75,24 @@ pub(super) fn refusals(total: &Block, tally: &Tally) -> impl Iterator<Item = Str
     let of_taken = (refused > 0).then(|| refused_of_taken(refused));
     let takes_none = total.queries > 0 && tally.taken.is_empty();
     let none = takes_none.then(|| took_none(total.queries));
-    let surplus =
-        (tally.surplus > 0).then(|| format!("{} answers too many", grouped(tally.surplus)));
+    let surplus = (tally.surplus > 0).then(|| many(tally.surplus, SURPLUS));
     of_taken.into_iter().chain(none).chain(surplus)
 }
 
 /// Of a subject that answers other queries of the same sort.
 pub(super) fn refused_of_taken(queries: u64) -> String {
-    format!(
-        "{} queries refused of a sort that it takes",
-        grouped(queries)
-    )
+    format!("{} refused of a sort that it takes", many(queries, QUERIES))
 }
 
 /// Of a subject that takes no query, so that nothing but this can be said of it.
 pub(super) fn took_none(queries: u64) -> String {
-    let queries = grouped(queries);
-    format!("takes none of the {queries} queries, so it gave no answer")
+    match queries {
+        1 => "does not take the query, so it gave no answer".to_owned(),
+        _ => {
+            let queries = grouped(queries);
+            format!("takes none of the {queries} queries, so it gave no answer")
+        }
+    }
 }
 
 /// What a subject would fail by without its tolerance, and does not with it.
@@ -130,26 +131,28 @@ pub(super) fn counts(tolerance: Tolerance, fault: Fault, worst: f64) -> bool {
 }
 
 fn counted(tolerance: Tolerance, tally: &Tally, fault: Fault) -> String {
-    format!(
-        "{} {}",
-        grouped(tally.count(fault)),
-        words(tolerance, fault)
-    )
+    many(tally.count(fault), words(tolerance, fault))
 }
 
-/// What several faults are called.
-pub(super) fn words(tolerance: Tolerance, fault: Fault) -> &'static str {
+/// What a fault is called, and what several are.
+pub(super) fn words(tolerance: Tolerance, fault: Fault) -> [&'static str; 2] {
     match fault {
-        Fault::Tunnel => "tunnels",
-        Fault::JointTunnel => "joint tunnels",
-        Fault::MissedGraze => "missed grazes",
-        Fault::FalseHit => "false hits",
-        Fault::NoAnswer => "queries without answer",
-        Fault::NearHit => "near hits",
-        Fault::Late if tolerance.late > 0.0 => "late times of impact beyond its tolerance",
-        Fault::Late => "late times of impact",
-        Fault::Early => "early times of impact",
-        Fault::WrongCase => "wrong cases",
-        Fault::Differs => "answers that differ from the exact one",
+        Fault::Tunnel => ["tunnel", "tunnels"],
+        Fault::JointTunnel => ["joint tunnel", "joint tunnels"],
+        Fault::MissedGraze => ["missed graze", "missed grazes"],
+        Fault::FalseHit => ["false hit", "false hits"],
+        Fault::NoAnswer => ["query without answer", "queries without answer"],
+        Fault::NearHit => ["near hit", "near hits"],
+        Fault::Late if tolerance.late > 0.0 => [
+            "late time of impact beyond its tolerance",
+            "late times of impact beyond its tolerance",
+        ],
+        Fault::Late => ["late time of impact", "late times of impact"],
+        Fault::Early => ["early time of impact", "early times of impact"],
+        Fault::WrongCase => ["wrong case", "wrong cases"],
+        Fault::Differs => [
+            "answer that differs from the exact one",
+            "answers that differ from the exact one",
+        ],
     }
 }

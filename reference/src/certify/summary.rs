@@ -159,14 +159,18 @@ pub(super) fn notes(panel: &Panel, total: &Block) -> String {
     for (judged, tally) in panel.subjects.iter().zip(&total.tallies) {
         let name = cut(judged.subject.name());
         let tolerated = strict::tolerated(judged, tally).join(", ");
+        let tolerance = tolerance(judged.subject.tolerance());
         if !tolerated.is_empty() {
-            let verb = match passes(judged, total, tally) {
-                true => "passes",
-                false => "fails",
+            let [with, without] = match passes(judged, total, tally) {
+                true => ["passes", "fails"],
+                false => ["fails", "also fails"],
             };
-            let tolerance = tolerance(judged.subject.tolerance());
             lines.push(format!(
-                "{name} {verb} with its tolerance, {tolerance}; without it also fails: {tolerated}"
+                "{name} {with} with its tolerance, {tolerance}; without it {without}: {tolerated}"
+            ));
+        } else if !tolerance.is_empty() {
+            lines.push(format!(
+                "{name} has a tolerance, {tolerance}, which makes no difference here"
             ));
         }
         let refusals = strict::refusals(total, tally);

@@ -78,25 +78,34 @@ fn heading(findings: &Findings) -> String {
         true => String::new(),
         false => format!(", shard {}", settings.shard),
     };
-    let some = |number, of| match number {
-        0 => String::new(),
-        number => format!(", {} {of}", grouped(number)),
-    };
     format!(
-        "tunnelproof {}, seed {}, exact arithmetic by {}{shard}\n{} queries of {}: {} hits, {} crossings{}{}\n",
+        "tunnelproof {}, seed {}, exact arithmetic by {}{shard}\n{} of {}: {}\n",
         env!("CARGO_PKG_VERSION"),
         settings.seed,
         field::Default::BACKEND,
-        grouped(total.queries),
+        many(total.queries, QUERIES),
         match &findings.blocks[..] {
             [one] => one.name.clone(),
             several => format!("{} sources", several.len()),
         },
-        grouped(total.hits),
-        grouped(total.crossings),
-        some(total.joints, "joints"),
-        some(total.labels, "labels"),
+        contents(total),
     )
+}
+
+/// How many of the queries are hits and crossings, and how many are of joints or have labels.
+pub(super) fn contents(block: &Block) -> String {
+    let always = [
+        (block.hits, ["hit", "hits"]),
+        (block.crossings, ["crossing", "crossings"]),
+    ];
+    let sometimes = [
+        (block.joints, ["joint", "joints"]),
+        (block.labels, ["label", "labels"]),
+    ];
+    let there = sometimes.into_iter().filter(|(number, _)| *number > 0);
+    let all = always.into_iter().chain(there);
+    let all = all.map(|(number, names)| many(number, names));
+    all.collect::<Vec<_>>().join(", ")
 }
 
 /// The least and the greatest width of the subjects' names.
@@ -111,7 +120,7 @@ pub(super) fn name_width(panel: &Panel) -> usize {
 
 /// A name, or as much of its start and its end as there is room for: programs often differ in their
 /// last argument.
-pub(super) fn cut(name: &str) -> String {
+pub fn cut(name: &str) -> String {
     let letters: Vec<char> = name.chars().collect();
     let Some(over) = letters.len().checked_sub(NAME[1]).filter(|&over| over > 0) else {
         return name.to_owned();
@@ -184,11 +193,12 @@ fn joints(panel: &Panel, total: &Block) -> String {
 
 fn agree(who: &str, queries: u64, against: &Finding) -> String {
     match against.count {
+        0 if queries == 1 => format!("{who} agree on the query"),
         0 => format!("{who} agree on all {} queries", grouped(queries)),
         count => format!(
-            "{who} DISAGREE on {} of {} queries, first on {}",
+            "{who} DISAGREE on {} of {}, first on {}",
             grouped(count),
-            grouped(queries),
+            many(queries, QUERIES),
             first(against)
         ),
     }
@@ -199,8 +209,8 @@ fn lapses(name: &str, tally: &Tally) -> Option<String> {
     let first = tally.faults.get(&Fault::NoAnswer)?.worst.as_ref()?;
     let detail = first.lapse.as_ref().map_or("", |lapse| &lapse.detail);
     Some(format!(
-        "{name} gives no answer to {} queries: {}\n  first on {}: {detail}",
-        count(tally, Fault::NoAnswer),
+        "{name} gives no answer to {}: {}\n  first on {}: {detail}",
+        many(tally.count(Fault::NoAnswer), QUERIES),
         lapse_counts(tally),
         first.id,
     ))
@@ -211,7 +221,10 @@ pub fn tolerance(Tolerance { near, late }: Tolerance) -> String {
     let parts = [("near", near), ("late", late)].into_iter();
     let parts = parts.filter(|(_, value)| *value > 0.0);
     let parts: Vec<_> = parts
-        .map(|(name, value)| format!("{name}={value:e}"))
+        .map(|(name, value)| match value {
+            0.001..1e6 => format!("{name}={value}"),
+            _ => format!("{name}={value:e}"),
+        })
         .collect();
     parts.join(",")
 }
@@ -224,7 +237,7 @@ pub fn lapse_counts(tally: &Tally) -> String {
 }
 
 /// What programs did besides answering.
-fn programs(programs: &[(String, Conduct)]) -> String {
+pub fn programs(programs: &[(String, Conduct)]) -> String {
     let mut text = String::new();
     for (name, conduct) in programs {
         let times = match conduct.starts {
@@ -233,7 +246,7 @@ fn programs(programs: &[(String, Conduct)]) -> String {
         };
         text += &format!("\n{name} was started {times}");
         if conduct.surplus > 0 {
-            text += &format!(", and wrote {} answers too many", grouped(conduct.surplus));
+            text += &format!(", and wrote {}", many(conduct.surplus, SURPLUS));
         }
         text += "\n";
         if !conduct.stderr.is_empty() {
@@ -283,6 +296,18 @@ pub fn short(number: f64) -> String {
     }
 }
 
+/// So many of something, of which one is called by the first name and several by the second.
+pub fn many(number: u64, [one, several]: [&str; 2]) -> String {
+    let name = if number == 1 { one } else { several };
+    format!("{} {name}", grouped(number))
+}
+
+/// What queries are called, one and several.
+pub const QUERIES: [&str; 2] = ["query", "queries"];
+
+/// What is said of answers that nobody asked for.
+pub const SURPLUS: [&str; 2] = ["answer too many", "answers too many"];
+
 /// A number with a comma between groups of three digits.
 pub fn grouped(number: u64) -> String {
     let digits = number.to_string();
@@ -309,6 +334,18 @@ mod tests {
             (1234567, "1,234,567"),
         ] {
             assert_eq!(grouped(number), text);
+        }
+    }
+
+    #[test]
+    fn tolerance_is_written_as_people_write_numbers() {
+        for (near, late, text) in [
+            (0.0, 0.0, ""),
+            (1.0, 0.01, "near=1,late=0.01"),
+            (100.0, 1e-9, "near=100,late=1e-9"),
+            (1e9, 0.0, "near=1e9"),
+        ] {
+            assert_eq!(tolerance(Tolerance { near, late }), text);
         }
     }
 

@@ -65,48 +65,83 @@ fn line_says_what_it_says() {
 
 #[test]
 fn line_with_a_time_that_is_none_is_read_and_judged() {
-    for toi in ["NaN", "null", "Infinity", "-Infinity"] {
-        let message = line(&format!(r#"{{"hit":true,"toi":{toi}}}"#)).unwrap();
+    for (text, expected) in [
+        ("NaN", f64::NAN),
+        ("null", f64::NAN),
+        ("Infinity", f64::INFINITY),
+        ("-Infinity", f64::NEG_INFINITY),
+        ("1e999", f64::INFINITY),
+        ("-0.1", -0.1),
+    ] {
+        let message = line(&format!(r#"{{"hit":true,"toi":{text}}}"#)).unwrap();
         let Reply::Said(Said { toi: Some(toi), .. }) = message.reply else {
             panic!("{message:?}")
         };
-        assert!(toi.below.is_nan());
+        assert_eq!(toi.below.to_bits(), expected.to_bits(), "{text}");
+        assert_eq!(toi.above.to_bits(), expected.to_bits(), "{text}");
     }
 }
 
 #[test]
 fn line_that_is_no_answer_is_unreadable() {
     for (text, what) in [
-        (r#"{"hit": fa"#, "not JSON: "),
-        ("hello", "not JSON: "),
+        (r#"{"hit": fa"#, r#"not JSON: {"hit": fa"#),
+        ("hello", "not JSON: hello"),
         ("[]", "not a JSON object"),
         (r#"[null,null,true,0.5,null]"#, "not a JSON object"),
         ("5", "not a JSON object"),
-        (r#"{"hit":true,"toi":0.5,"hit":false}"#, "a field twice"),
-        (r#"{"hit":true,"toi":0.5,"toi":0.25}"#, "a field twice"),
-        ("{}", "hit is neither true nor false"),
-        (r#"{"hit":1}"#, "hit is neither true nor false"),
-        (r#"{"hit":true}"#, "a hit without toi"),
-        (r#"{"hit":true,"toi":true}"#, "toi is not a number"),
-        (r#"{"hit":true,"toi":"a"}"#, "toi is not a number"),
-        (r#"{"hit":true,"toi":{"below":0}}"#, "toi lacks a bound"),
+        (
+            r#"{"hit":true,"toi":0.5,"hit":false}"#,
+            "hit is there twice: {",
+        ),
+        (
+            r#"{"hit":true,"toi":0.5,"toi":0.25}"#,
+            "toi is there twice: {",
+        ),
+        (
+            r#"{"hit":true,"toi":{"below":0,"below":0.1,"above":1}}"#,
+            "toi.below is there twice: {",
+        ),
+        ("{}", "there is no hit: {}"),
+        (r#"{"unsupported":false}"#, "there is no hit: {"),
+        (r#"{"hit":1}"#, "hit is 1, neither true nor false: {"),
+        (
+            r#"{"unsupported":"yes"}"#,
+            r#"unsupported is "yes", neither true nor false: {"#,
+        ),
+        (r#"{"hit":true}"#, "a hit without toi: {"),
+        (r#"{"hit":true,"toi":true}"#, "toi is true, not a number: {"),
+        (
+            r#"{"hit":true,"toi":"a"}"#,
+            r#"toi is "a", not a number: {"#,
+        ),
+        (
+            r#"{"hit":true,"toi":{"below":0}}"#,
+            "there is no toi.above: {",
+        ),
+        (
+            r#"{"hit":true,"toi":{"below":[0],"above":1}}"#,
+            "toi.below is [0], not a number: {",
+        ),
         (
             r#"{"hit":true,"toi":{"below":1,"above":0}}"#,
-            "toi has bounds in the wrong order",
+            "toi.below is above toi.above: {",
         ),
-        (r#"{"hit":false,"case":"x"}"#, "no such case"),
+        (
+            r#"{"hit":false,"case":"x"}"#,
+            r#"case is "x", not the name of one: {"#,
+        ),
         (
             r#"{"hit":false,"id":"lattice:1:2"}"#,
-            "id is that of no query",
+            r#"id is "lattice:1:2", that of no query: {"#,
         ),
-        (r#"{"hit":true,"toi":1e999}"#, "not JSON"),
     ] {
         let lapse = line(text).unwrap_err();
         assert_eq!(lapse.kind, LapseKind::Unreadable);
         assert!(lapse.detail.starts_with(what), "{text}: {lapse}");
     }
-    let lapse = Wire::Lines.parse(&[b'x'; 100_000]).unwrap_err();
-    assert!(lapse.detail.len() < 120, "{lapse}");
+    let lapse = line(&format!(r#"{{"hit":{:?}}}"#, "\n".repeat(5000))).unwrap_err();
+    assert!(lapse.detail.len() < 180, "{lapse}");
     assert!(
         Wire::Lines
             .parse(b"\xff")
@@ -114,6 +149,26 @@ fn line_that_is_no_answer_is_unreadable() {
             .detail
             .starts_with("not UTF-8")
     );
+}
+
+#[test]
+fn line_that_is_too_long_is_unreadable_and_says_so() {
+    let longest = |more: usize| {
+        let line = r#"{"hit":false}"#;
+        let blanks = " ".repeat(lines::LONGEST_LINE + more - line.len());
+        let mut text = &*format!("{{{blanks}{}\n", &line[1..]).into_bytes();
+        Wire::Lines.read(&mut text).unwrap().unwrap()
+    };
+    assert_eq!(
+        Wire::Lines.parse(&longest(0)).unwrap().reply,
+        said(None, None)
+    );
+    let lapse = Wire::Lines.parse(&longest(1)).unwrap_err();
+    assert!(
+        lapse.detail.starts_with("longer than 65536 bytes: {"),
+        "{lapse}"
+    );
+    assert!(lapse.detail.len() < 120, "{lapse}");
 }
 
 /// Whether a JSON schema of `schema/` takes this text.

@@ -101,7 +101,7 @@ impl Worker {
         for (id, query) in (first..).zip(queries) {
             let message = self.wire.parse(&self.message()?)?;
             if let Some(other) = message.id.filter(|other| *other != id) {
-                let detail = format!("wrote the answer to query {other} where {id} is due");
+                let detail = format!("wrote the answer to id {other} where id {id} is due");
                 return Err(Lapse::new(LapseKind::Misplaced, detail));
             }
             answers.push(message.reply.to(query));

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use tunnelproof::contact::Case;
+use tunnelproof::narrow::Tolerance;
 
 use crate::answer::{Enclosure, ExactAnswer};
 use crate::certify::judged::{Found, Judged};
@@ -34,47 +35,36 @@ impl Statement {
     /// What a subject says of a query with this exact answer.
     pub fn new(judged: &Judged, query: &AnyQuery, truth: &ExactAnswer) -> Self {
         let found = judged.judge(*query, truth);
-        let (toi, case) = said(found.answer.as_ref());
+        let answer = found.answer.as_ref();
         Statement {
             name: judged.subject.name().to_owned(),
             is_asked: found.is_asked,
-            toi,
-            case: case.map(Case::name),
+            toi: answer.and_then(Answer::toi).map(|toi| toi.below),
+            case: answer.and_then(Answer::case).map(Case::name),
             claim: claim(&found),
             faults: found.faults.iter().map(|(fault, _)| fault.name()).collect(),
-            worth: worth(query, &found),
+            worth: worth(query, &found, judged.subject.tolerance()),
         }
     }
 }
 
 /// What they all say, a line each, below a heading.
 pub fn statements(all: &[Statement]) -> String {
-    let width = all.iter().map(|said| said.claim.len()).max().unwrap_or(0);
-    let line = |said: &Statement| {
-        let Statement {
-            name, claim, worth, ..
-        } = said;
-        format!("  {name:<17} {claim:<width$}  {worth}\n")
+    let names: Vec<_> = all.iter().map(|said| table::cut(&said.name)).collect();
+    let names_are = widest(names.iter());
+    let claims_are = widest(all.iter().map(|said| &said.claim));
+    let line = |(said, name): (&Statement, &String)| {
+        let Statement { claim, worth, .. } = said;
+        format!("  {name:<names_are$} {claim:<claims_are$}  {worth}\n")
     };
-    let lines: String = all.iter().map(line).collect();
+    let lines: String = all.iter().zip(&names).map(line).collect();
     format!("What the subjects say\n{lines}")
 }
 
-/// The time of impact and the case of an answer.
-fn said(answer: Option<&Answer>) -> (Option<f64>, Option<Case>) {
-    match answer {
-        None => (None, None),
-        Some(Answer::Exact(exact)) => (exact.hit.map(|hit| hit.toi.below), Some(exact.case)),
-        Some(Answer::Certified(hit)) => {
-            let hit = hit.as_ref();
-            (hit.map(|hit| hit.toi), hit.map(|hit| hit.case))
-        }
-        Some(Answer::Engine(report)) => {
-            let contact = report.verdict.contact();
-            (contact.map(|contact| contact.toi), report.case)
-        }
-        Some(Answer::Said(said)) => (said.toi.map(|toi| toi.below), said.case),
-    }
+/// How wide a column of these texts is. One that is longer than most are stands out of it.
+fn widest<'a>(texts: impl Iterator<Item = &'a String>) -> usize {
+    let widths = texts.map(|text| text.chars().count());
+    widths.filter(|width| *width <= 60).max().unwrap_or(0)
 }
 
 fn claim(found: &Found) -> String {
@@ -116,15 +106,22 @@ fn in_words(toi: Option<String>, case: Option<Case>) -> String {
 }
 
 /// The verdict, and what else is wrong.
-fn worth(query: &AnyQuery, found: &Found) -> String {
+fn worth(query: &AnyQuery, found: &Found, tolerance: Tolerance) -> String {
     if !found.is_asked {
         return "does not take such queries".to_owned();
     }
-    let is_verdict = |fault| !matches!(fault, Fault::WrongCase | Fault::Differs | Fault::Early);
-    let is_right = !found.faults.iter().any(|&(fault, _)| is_verdict(fault));
+    let is_verdict = |&(fault, severity)| match fault {
+        Fault::WrongCase | Fault::Differs | Fault::Early => false,
+        Fault::Late => !tolerance.permits_late(severity),
+        _ => true,
+    };
+    let is_right = !found.faults.iter().any(is_verdict);
     let faults = found.faults.iter().map(|&(fault, severity)| match fault {
         Fault::FalseHit => {
             format!("false hit (gap {} m)", table::short(query.exact_gap()))
+        }
+        Fault::Late if tolerance.permits_late(severity) => {
+            format!("late by {}, as it may be", table::short(severity))
         }
         Fault::Late | Fault::Early => format!("{} by {}", fault.name(), table::short(severity)),
         _ => fault.name().to_owned(),
