@@ -23,9 +23,9 @@ use tunnelproof_reference::subject::Subject;
 
 use super::certificate::Certificate;
 use super::resume::Resumed;
-use super::sources::{any_family, of_files};
+use super::sources::{any_family, of_files, once};
 use super::subjects::{Answering, AskedList, Permit, Programs, asked_list, check_turning};
-use super::{Failure, Reading, output, progress};
+use super::{Failure, Reading, output, progress, whole};
 
 /// Judge subjects against the exact answer
 ///
@@ -79,10 +79,10 @@ pub(super) struct Certify {
     #[arg(long, value_delimiter = ',', value_parser = any_family())]
     family: Vec<AnyFamily>,
     /// How many queries of each family; 0 for none
-    #[arg(long, value_name = "N", default_value_t = 20_000)]
+    #[arg(long, value_name = "N", default_value_t = 20_000, value_parser = whole, allow_negative_numbers = true)]
     count: u64,
     /// The seed of the families
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, value_parser = whole, allow_negative_numbers = true)]
     seed: u64,
     /// Take the oracle's word without asking the second judge, for long runs of other subjects
     #[arg(long)]
@@ -106,7 +106,8 @@ pub(super) struct Certify {
 }
 
 impl Certify {
-    pub(super) fn run(self) -> Result<ExitCode, Failure> {
+    pub(super) fn run(mut self) -> Result<ExitCode, Failure> {
+        self.family = once(self.family, |family| family.name());
         self.reading.check(&self.files)?;
         let files = self.files()?;
         if files.is_empty() && self.count == 0 && !self.family.is_empty() {
@@ -179,7 +180,10 @@ impl Certify {
             command: words.join(" "),
             caller: Caller::Shell {
                 program: program.to_owned(),
-                options: self.programs.options(),
+                options: [self.programs.options(), self.permit.options()]
+                    .join(" ")
+                    .trim()
+                    .to_owned(),
             },
             seed: self.seed,
             count: self.count,
@@ -218,6 +222,7 @@ impl Certify {
                 .collect(),
             false => self.programs.start_all(&self.subject)?,
         };
+        self.programs.check_used(&answering)?;
         self.permit.grant(&mut answering)?;
         // Beside queries of linear motion, such a subject is just not asked the others.
         if self.is_all_turning() {

@@ -8,13 +8,15 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use tunnelproof_reference::boxes::{BOX_FAMILIES, BoxFamily, box_family};
 use tunnelproof_reference::certify::boxes::{self, Judged, judge_family};
+use tunnelproof_reference::certify::table::short;
 use tunnelproof_reference::certify::tally::Fault;
 use tunnelproof_reference::report::boxes::report;
 use tunnelproof_reference::subject::Subject;
 
-use super::Failure;
 use super::output::JsonOutput;
+use super::sources::once;
 use super::subjects::{Asked, Permit, Programs, asked};
+use super::{Failure, whole};
 
 /// Judge a program on boxes that are cast along lines, against the exact answer
 #[derive(Args)]
@@ -38,10 +40,10 @@ pub(super) struct CertifyBoxes {
     #[arg(long, value_delimiter = ',', value_parser = family())]
     family: Vec<&'static BoxFamily>,
     /// How many casts of each family
-    #[arg(long, value_name = "N", default_value_t = 1000)]
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = whole, allow_negative_numbers = true)]
     count: u64,
     /// The seed of the families
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, value_parser = whole, allow_negative_numbers = true)]
     seed: u64,
     /// Write what was found to this file, - for the standard output
     #[arg(long, value_name = "OUT")]
@@ -66,7 +68,7 @@ impl CertifyBoxes {
         self.programs.check_casts(program)?;
         let families = match self.family.is_empty() {
             true => BOX_FAMILIES.iter().collect(),
-            false => self.family,
+            false => once(self.family, |family| family.name()),
         };
         let judge = |family| judge_family(program, family, self.seed, self.count);
         let found: Vec<Judged> = families.into_iter().map(judge).collect();
@@ -144,7 +146,7 @@ fn row(name: &str, found: &[impl Borrow<Judged>]) -> String {
         found().map(Judged::refused).sum(),
     ];
     let [a, b, c, d, e, f, g] = counts.map(|count| count.to_string());
-    let [late, early] = [Fault::Late, Fault::Early].map(|fault| format!("{:.1e}", worst(fault)));
+    let [late, early] = [Fault::Late, Fault::Early].map(|fault| short(worst(fault)));
     line(&[name.to_owned(), a, b, c, d, e, f, g, late, early])
 }
 

@@ -14,7 +14,7 @@ use tunnelproof_reference::report::boxes;
 use tunnelproof_reference::report::explanation::Explanation;
 
 use super::output::{OutputFile, print};
-use super::subjects::{Answering, AskedList, Programs, asked_list, check_turning};
+use super::subjects::{Answering, AskedList, Permit, Programs, asked_list, check_turning};
 use super::{Failure, Reading, certify};
 
 /// Explain the exact answer to one query, and what every subject says
@@ -45,6 +45,8 @@ pub(super) struct Explain {
     #[command(flatten)]
     programs: Programs,
     #[command(flatten)]
+    permit: Permit,
+    #[command(flatten)]
     reading: Reading,
 }
 
@@ -59,7 +61,8 @@ impl Explain {
         }
         let entry = locate(&self.query, self.reading.options())?;
         let svg = self.svg.as_deref().map(OutputFile::create).transpose()?;
-        let more = self.programs.start_all(&self.subject)?;
+        let mut more = self.programs.start_all(&self.subject)?;
+        self.permit.grant(&mut more)?;
         let subjects = registry::subjects().into_iter();
         // The known ones are asked without being named.
         let programs = more.iter().filter(|more| more.program().is_some());
@@ -84,6 +87,8 @@ impl Explain {
             let problem = "is a cast of a box, about which nobody is asked: certify-boxes asks";
             return Err(Failure::file(&self.query, problem));
         }
+        self.programs.check_used(&[])?;
+        self.permit.grant(&mut [])?;
         let svg = self.svg.as_deref().map(OutputFile::create).transpose()?;
         let cast = id.cast();
         let answer = tunnelproof_reference::boxes::decide(&cast);
@@ -102,7 +107,8 @@ impl Explain {
         if let Some(file) = svg {
             file.write(&picture::draw_turning(&entry.id, &entry.query, &answer))?;
         }
-        let more = self.programs.start_all(&self.subject)?;
+        let mut more = self.programs.start_all(&self.subject)?;
+        self.permit.grant(&mut more)?;
         check_turning(&more)?;
         let programs = more.iter().filter(|more| more.program().is_some());
         let subjects = registry::turning_subjects().into_iter();

@@ -139,8 +139,8 @@ enum Failure {
     Nothing,
     /// An option is about files, and there is none.
     NoFile(&'static str),
-    /// Deviations are permitted to nobody.
-    Permit,
+    /// An option is about programs, and there is none.
+    NoProgram(String),
     /// Nothing says which fuzz target the file at this path is for.
     Target(String),
     /// The thresholds cannot be swept like that.
@@ -278,6 +278,13 @@ fn radius(text: &str) -> Result<Radius, String> {
     })
 }
 
+/// A number of queries, or a seed.
+fn whole(text: &str) -> Result<u64, String> {
+    let most = u64::MAX;
+    let problem = |_| format!("it has to be a whole number from 0 to {most}");
+    text.parse().map_err(problem)
+}
+
 /// A finite number of at least 0, as options give it.
 fn not_negative(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -350,9 +357,9 @@ impl fmt::Display for Failure {
             Failure::Program { name, reason } => write!(f, "{name}: {reason}"),
             Failure::Merge { path, error } => write!(f, "{path}: {error}"),
             Failure::File { path, problem } => write!(f, "{path}: {problem}"),
-            Failure::Permit => write!(
+            Failure::NoProgram(option) => write!(
                 f,
-                "--permit is for programs and libraries, and none is judged: \
+                "{option} is for programs and libraries, and none is asked: \
                  add --subject cmd:PROGRAM or --subject lib:FILE"
             ),
             Failure::Nothing => f.write_str("--count 0: no query is left to judge"),
@@ -371,7 +378,11 @@ impl fmt::Display for Failure {
                 write!(f, "--penalty is {value}, not a finite number above 0")
             }
             Failure::Interruption(error) => write!(f, "Ctrl-C: {error}"),
-            Failure::Environment(error) => write!(f, "floating-point environment: {error}"),
+            Failure::Environment(error) => write!(
+                f,
+                "floating-point environment: {error}. A library that is loaded at the start \
+                 has set this: see LD_PRELOAD, and what was built with -ffast-math"
+            ),
             Failure::Threads(error) => write!(f, "--threads: {error}"),
         }
     }

@@ -5,17 +5,21 @@ use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use clap::Args;
+use tunnelproof::query::Query;
 use tunnelproof_reference::certify::query::AnyQuery;
+use tunnelproof_reference::certify::table;
 use tunnelproof_reference::corpus::jsonl::Numbers;
 use tunnelproof_reference::generate::{self, Family};
 use tunnelproof_reference::shrink::Disagreement;
 use tunnelproof_reference::slowest::{Costly, Search, time};
+use tunnelproof_reference::subject::NoAnswer;
 
 use super::Failure;
 use super::keeping::{interrupted, interruption};
 use super::output::print;
-use super::sources::family;
-use super::subjects::{Asked, Permit, Programs, asked, seconds};
+use super::sources::{family, once};
+use super::subjects::{Answering, Asked, Permit, Programs, asked, seconds};
+use super::whole;
 
 /// Search for the queries that a subject takes longest on
 #[derive(Args)]
@@ -51,13 +55,13 @@ pub(super) struct Slowest {
     #[arg(long, value_delimiter = ',', value_parser = family())]
     family: Vec<&'static Family>,
     /// How many slow queries to find, by as many searches
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=1000), allow_negative_numbers = true)]
     count: u16,
     /// How long to search, in seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = seconds, allow_negative_numbers = true)]
     seconds: f64,
     /// The seed of the search
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, value_parser = whole, allow_negative_numbers = true)]
     seed: u64,
 }
 
@@ -68,10 +72,18 @@ impl Slowest {
         let subject = answering.subject();
         let families = match self.family.is_empty() {
             true => generate::all().collect(),
-            false => self.family,
+            false => once(self.family, |family| family.name()),
         };
         let count = usize::from(self.count);
-        let mut search = Search::new(&families, self.seed, count, |query| time(subject, query));
+        let mut failed = None;
+        let cost = |query: &Query| match time(subject, query) {
+            Ok(time) => Some(time),
+            Err(reason) => {
+                failed.get_or_insert(reason);
+                None
+            }
+        };
+        let mut search = Search::new(&families, self.seed, count, cost);
         let limit = Duration::from_secs_f64(self.seconds);
         let start = Instant::now();
         let stop = interruption()?;
@@ -86,7 +98,7 @@ impl Slowest {
         let found = search.costliest();
         let is_stopped = stop.load(Ordering::Relaxed);
         if found.is_empty() && !is_stopped {
-            eprintln!("{} answers no query of these families", subject.name());
+            eprint!("{}", no_answer(&answering, failed));
             return Ok(ExitCode::FAILURE);
         }
         eprintln!("{}: {asked} queries tried", subject.name());
@@ -110,4 +122,16 @@ impl Slowest {
             false => Ok(ExitCode::SUCCESS),
         }
     }
+}
+
+/// That there was no answer, how the first one failed, and what a program did.
+fn no_answer(answering: &Answering, first: Option<NoAnswer>) -> String {
+    let name = answering.subject().name();
+    let Some(NoAnswer::Lapse(lapse)) = first else {
+        return format!("{name} answers no query of these families\n");
+    };
+    let conduct = answering.program().map(|program| program.finish());
+    let conduct = conduct.map(|conduct| (name.to_owned(), conduct));
+    let conduct = table::programs(conduct.as_slice());
+    format!("{name} answers no query: {lapse}\n{}", conduct.trim_start())
 }

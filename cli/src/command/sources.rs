@@ -52,12 +52,23 @@ impl Sources {
                 .iter()
                 .filter(|family| has_a_scale(family))
                 .collect(),
-            false => self.family.clone(),
+            false => once(self.family.iter().copied(), |family| family.name()),
         };
         let families = of_families(&families, seed, count);
         let files = of_files(&self.corpus, &self.reading)?;
         Ok(families.into_iter().chain(files).collect())
     }
+}
+
+/// What is listed, each once, where it is listed first.
+pub(super) fn once<T>(list: impl IntoIterator<Item = T>, name: impl Fn(&T) -> &str) -> Vec<T> {
+    let mut all: Vec<T> = Vec::new();
+    for one in list {
+        if all.iter().all(|other| name(other) != name(&one)) {
+            all.push(one);
+        }
+    }
+    all
 }
 
 /// The first queries of families.

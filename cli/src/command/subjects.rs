@@ -1,6 +1,7 @@
 //! Who answers: subjects of the registry, and programs of the user.
 
 use std::process;
+use std::slice;
 use std::time::Duration;
 
 use clap::Args;
@@ -13,6 +14,7 @@ use tunnelproof_reference::registry;
 use tunnelproof_reference::subject::Subject;
 
 use super::Failure;
+use super::sources::once;
 
 /// A subject that is asked for.
 #[derive(Clone)]
@@ -21,6 +23,15 @@ pub(super) enum Asked {
     /// A program, by the text that asks for it: `cmd:` and a command, or `lib:` and the path of a
     /// library.
     Program(String),
+}
+
+impl Asked {
+    fn name(&self) -> &str {
+        match self {
+            Asked::Known(subject) => subject.name(),
+            Asked::Program(name) => name,
+        }
+    }
 }
 
 /// Several of them, separated by commas. A command has commas of its own: it ends the list. So may
@@ -116,6 +127,12 @@ impl Programs {
 
     /// Starts the subject, if it is a program.
     pub(super) fn start(&self, asked: &Asked) -> Result<Answering, Failure> {
+        let answering = self.start_one(asked)?;
+        self.check_used(slice::from_ref(&answering))?;
+        Ok(answering)
+    }
+
+    fn start_one(&self, asked: &Asked) -> Result<Answering, Failure> {
         let name = match asked {
             Asked::Known(subject) => return Ok(Answering::Known(*subject)),
             Asked::Program(name) => name,
@@ -168,10 +185,24 @@ impl Programs {
         options.collect::<Vec<_>>().join(" ")
     }
 
-    /// Starts all of them.
+    /// Starts all of them, each once.
     pub(super) fn start_all(&self, lists: &[AskedList]) -> Result<Vec<Answering>, Failure> {
-        let asked = lists.iter().flat_map(|AskedList(list)| list);
-        asked.map(|asked| self.start(asked)).collect()
+        let asked = once(lists.iter().flat_map(|AskedList(list)| list), |asked| {
+            asked.name()
+        });
+        let answering = asked.into_iter().map(|asked| self.start_one(asked));
+        let answering = answering.collect::<Result<Vec<_>, _>>()?;
+        self.check_used(&answering)?;
+        Ok(answering)
+    }
+
+    /// That an option which says how programs are asked is not there without any.
+    pub(super) fn check_used(&self, answering: &[Answering]) -> Result<(), Failure> {
+        let options = self.options();
+        match options.is_empty() || answering.iter().any(|one| one.program().is_some()) {
+            true => Ok(()),
+            false => Err(Failure::NoProgram(options)),
+        }
     }
 }
 
@@ -181,6 +212,7 @@ impl Permit {
         let Some(tolerance) = self.permit else {
             return Ok(());
         };
+        let option = self.options();
         let mut is_granted = false;
         for answering in answering {
             if let Answering::Program(program) = answering {
@@ -188,12 +220,22 @@ impl Permit {
                 is_granted = true;
             }
         }
-        is_granted.then_some(()).ok_or(Failure::Permit)
+        is_granted.then_some(()).ok_or(Failure::NoProgram(option))
+    }
+
+    /// The option, if it is given, to be written.
+    pub(super) fn options(self) -> String {
+        let value = self.value();
+        value.map_or_else(String::new, |value| format!("--permit {value}"))
     }
 
     /// The value of the option, to be written.
     pub(super) fn value(self) -> Option<String> {
-        self.permit.map(table::tolerance)
+        let written = |tolerance| match table::tolerance(tolerance) {
+            nothing if nothing.is_empty() => "near=0".to_owned(),
+            some => some,
+        };
+        self.permit.map(written)
     }
 }
 
@@ -299,11 +341,8 @@ mod tests {
     fn lists_of_subjects_are_split_at_commas_before_subjects() {
         let names = |text| {
             let AskedList(list) = asked_list(text).ok()?;
-            let name = |asked: Asked| match asked {
-                Asked::Known(subject) => subject.name().to_owned(),
-                Asked::Program(name) => name,
-            };
-            Some(list.into_iter().map(name).collect::<Vec<_>>().join(" | "))
+            let names: Vec<_> = list.iter().map(Asked::name).collect();
+            Some(names.join(" | "))
         };
         for (text, expected) in [
             ("oracle,certified", "oracle | certified"),

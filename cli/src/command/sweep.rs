@@ -12,7 +12,7 @@ use super::axes::Axes;
 use super::keeping::{Keeping, NoSample, interrupted, interruption, save_truths};
 use super::pages::Pages;
 use super::sources::{Scene, Sources};
-use super::{Failure, progress};
+use super::{Failure, progress, whole};
 
 /// Judge the thesis path over a grid of its thresholds
 ///
@@ -44,10 +44,10 @@ pub(super) struct Sweep {
     #[command(flatten)]
     scene: Scene,
     /// How many queries of each family
-    #[arg(long, value_name = "N", default_value_t = 66_667)]
+    #[arg(long, value_name = "N", default_value_t = 66_667, value_parser = whole, allow_negative_numbers = true)]
     count: u64,
     /// The seed of the families
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, value_parser = whole, allow_negative_numbers = true)]
     seed: u64,
     /// Go on with a sweep that was interrupted
     #[arg(long, conflicts_with = "no_cache")]

@@ -13,7 +13,7 @@ use tunnelproof_reference::generate::{FAMILIES, Family};
 use super::keeping::{Keeping, NoSample, interrupted, interruption};
 use super::pages::Pages;
 use super::sources::{Scene, family, has_a_scale, of_families};
-use super::{Failure, progress};
+use super::{Failure, progress, whole};
 
 /// Find the best thresholds of the thesis path, and what they are worth
 ///
@@ -42,16 +42,16 @@ pub(super) struct Tune {
     #[arg(long, value_delimiter = ',', value_parser = family(), default_value = HELD_OUT)]
     held_out: Vec<&'static Family>,
     /// How many queries of each family to search on
-    #[arg(long, value_name = "N", default_value_t = 400)]
+    #[arg(long, value_name = "N", default_value_t = 400, value_parser = whole, allow_negative_numbers = true)]
     count: u64,
     /// The seed of the families to search on
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, value_parser = whole, allow_negative_numbers = true)]
     seed: u64,
     /// How many queries of each family to validate on
-    #[arg(long, value_name = "N", default_value_t = 4000)]
+    #[arg(long, value_name = "N", default_value_t = 4000, value_parser = whole, allow_negative_numbers = true)]
     unseen_count: u64,
     /// The seed of the families to validate on
-    #[arg(long, value_name = "S", default_value_t = 2)]
+    #[arg(long, value_name = "S", default_value_t = 2, value_parser = whole, allow_negative_numbers = true)]
     unseen_seed: u64,
     /// How many false hits a missed crossing is as bad as
     #[arg(

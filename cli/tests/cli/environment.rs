@@ -32,6 +32,7 @@ fn nothing_is_said_in_another_environment() {
             let said = stderr(&output);
             assert!(said.starts_with("floating-point environment: "), "{said}");
             assert!(said.contains(problem), "{said}");
+            assert!(said.contains("see LD_PRELOAD"), "{said}");
             assert_eq!(said.lines().count(), 1);
         }
     }

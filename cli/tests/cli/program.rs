@@ -5,7 +5,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::run::{PROGRAM, code, stderr, stdout, tunnelproof, with_input};
+use crate::run::{PROGRAM, code, file, stderr, stdout, tunnelproof, with_input};
 
 /// What a program does, each time that it is started, on its 40th query.
 const MISDEEDS: [&str; 6] = ["crash", "hang", "half a line", "nan", "garbage", "wrong id"];
@@ -127,7 +127,7 @@ fn certify_answers_that_nobody_asked_for_are_counted_at_the_end() {
     let output = tunnelproof(&[&["certify"], &arguments[..], &counted[..]].concat());
     assert_eq!(output.status.code(), Some(1));
     let message = stderr(&output);
-    assert!(message.contains(", 1 answers too many"), "{message}");
+    assert!(message.contains(", 1 answer too many"), "{message}");
     assert!(!message.contains("without answer"), "{message}");
 }
 
@@ -199,6 +199,134 @@ fn certify_of_a_program_goes_by_the_tolerance_that_is_declared_for_it() {
         declared[0].contains(" false hits") && !declared[0].contains("near hits"),
         "{declared:?}"
     );
+}
+
+/// Answers a single query with this line.
+fn certify_one(answer: &str, options: &[&str]) -> String {
+    let script = format!("while read -r line; do echo '{answer}'; done");
+    let (_folder, path) = file("answer.sh", script);
+    let subject = format!("cmd:sh {path}");
+    let arguments = ["certify", "--count", "1", "--subject", &subject, "--family"];
+    let output = tunnelproof(&[&arguments[..], &["shared_start"], options].concat());
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    stdout(&output)
+}
+
+#[test]
+fn certify_takes_bounds_around_the_time_for_right_however_wide_they_are() {
+    // The exact time of such a query is 0.
+    for (answer, is_late) in [
+        (r#"{"hit":true,"toi":{"below":0,"above":5e-324}}"#, false),
+        (r#"{"hit":true,"toi":{"below":0,"above":1}}"#, false),
+        (r#"{"hit":true,"toi":{"below":5e-324,"above":1}}"#, true),
+        (r#"{"hit":true,"toi":5e-324}"#, true),
+    ] {
+        let text = certify_one(answer, &[]);
+        assert_eq!(text.contains(" FAILS "), is_late, "{answer}: {text}");
+        assert_eq!(text.contains(", late, by "), is_late, "{answer}: {text}");
+    }
+}
+
+#[test]
+fn certify_shows_what_was_written_in_place_of_a_time() {
+    for (toi, what) in [
+        ("-0.1", "toi is -0.1, not a number from 0 to 1"),
+        ("1.5", "toi is 1.5, not a number from 0 to 1"),
+        ("NaN", "toi is NaN, not a number from 0 to 1"),
+        ("null", "toi is NaN, not a number from 0 to 1"),
+        ("1e999", "toi is inf, not a number from 0 to 1"),
+        (
+            r#"{"below":0.5,"above":1.5}"#,
+            "toi is [0.5, 1.5], not a number from 0 to 1",
+        ),
+        (
+            r#""x""#,
+            r#"toi is "x", not a number: {"hit":true,"toi":"x"}"#,
+        ),
+    ] {
+        let text = certify_one(&format!(r#"{{"hit":true,"toi":{toi}}}"#), &[]);
+        assert!(text.contains(what), "{toi}: {text}");
+        assert!(text.contains(" gives no answer to 1 query: 1 "), "{text}");
+    }
+    let text = certify_one(r#"{"id":"5","hit":false}"#, &[]);
+    let what = "wrote the answer to id 5 where id 0 is due";
+    assert!(text.contains(what), "{text}");
+}
+
+#[test]
+fn tolerances_are_said_where_they_make_a_difference_and_where_they_make_none() {
+    let late = r#"{"hit":true,"toi":0.001}"#;
+    let permitted = certify_one(late, &["--permit", "late=0.01"]);
+    assert!(
+        permitted.contains(
+            " passes with its tolerance, late=0.01; without it fails: 1 late time of impact\n"
+        ),
+        "{permitted}"
+    );
+    let idle = certify_one(late, &["--permit", "near=100"]);
+    assert!(
+        idle.contains(" has a tolerance, near=100, which makes no difference here\n"),
+        "{idle}"
+    );
+    let script = format!("while read -r line; do echo '{late}'; done");
+    let (_folder, path) = file("late.sh", script);
+    let subject = format!("cmd:sh {path}");
+    let explain = |options: &[&str]| {
+        let arguments = ["explain", "shared_start:1:0", "--subject", &subject];
+        let output = tunnelproof(&[&arguments[..], options].concat());
+        let text = stdout(&output);
+        let line = text.lines().find(|line| line.contains("cmd:")).unwrap();
+        line.to_owned()
+    };
+    assert!(
+        explain(&[]).ends_with("  late by 1.0e-3"),
+        "{}",
+        explain(&[])
+    );
+    let permitted = explain(&["--permit", "late=0.01"]);
+    assert!(
+        permitted.ends_with("  right, late by 1.0e-3, as it may be"),
+        "{permitted}"
+    );
+}
+
+#[test]
+fn options_of_programs_without_a_program_are_refused() {
+    for command in [
+        &["certify", "--count", "1"][..],
+        &["certify", "--count", "1", "--subject", "oracle"],
+        &["explain", "figure:4.1"],
+        &["explain", "cast_box_lattice:1:3"],
+        &["shrink", "--subject", "thesis", "figure:4.1"],
+        &["slowest", "--seconds", "0.1"],
+        &["eval", "-"],
+    ] {
+        for option in [["--wire", "binary"], ["--time-limit", "3"]] {
+            let output = tunnelproof(&[command, &option].concat());
+            assert_eq!(code(&output), 2, "{command:?}");
+            let [name, value] = option;
+            let what = format!("{name} {value} is for programs and libraries, and none is asked");
+            assert!(stderr(&output).starts_with(&what), "{}", stderr(&output));
+        }
+    }
+}
+
+#[test]
+fn what_is_named_twice_counts_once_and_numbers_below_0_are_refused() {
+    let twice = ["--family", "uniform,uniform", "--subject", "oracle,oracle"];
+    let output = tunnelproof(&[&["certify", "--count", "10"], &twice[..]].concat());
+    let text = stdout(&output);
+    assert!(text.contains("10 queries of uniform: "), "{text}");
+    assert_eq!(text.matches("\n  oracle ").count(), 1, "{text}");
+    for option in ["--count", "--seed"] {
+        let output = tunnelproof(&["certify", option, "-1"]);
+        assert_eq!(code(&output), 2);
+        let said = stderr(&output);
+        assert!(
+            said.contains("it has to be a whole number from 0"),
+            "{said}"
+        );
+    }
 }
 
 #[test]

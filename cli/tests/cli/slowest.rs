@@ -43,6 +43,25 @@ fn slowest_says_what_is_wrong_and_what_a_subject_does_not_take() {
         stderr(&output),
         "shadow-published answers no query of these families\n"
     );
+    let output = tunnelproof(&[
+        "slowest",
+        "--seconds",
+        "0.1",
+        "--count",
+        "1",
+        "--subject",
+        "cmd:sh no-such-file.sh",
+    ]);
+    let said = stderr(&output);
+    assert_eq!(code(&output), 1, "{said}");
+    for what in [
+        "cmd:sh no-such-file.sh answers no query: crashed: ended with exit status: ",
+        "\ncmd:sh no-such-file.sh was started ",
+        "\nThe end of its standard error:\n  | ",
+        "no-such-file.sh",
+    ] {
+        assert!(said.contains(what), "{what}: {said}");
+    }
     for [option, value] in [
         ["--seconds", "0"],
         ["--count", "0"],

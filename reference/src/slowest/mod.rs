@@ -163,15 +163,19 @@ fn cost_above<C: Copy + PartialOrd>(
     than.is_none_or(|than| least > than).then_some(least)
 }
 
-/// How long a subject takes for its answer, or is waited for; `None` for a query that it does not take
-/// or fails on in another way: a program that crashes is started again, which is no time of its own.
-pub fn time(subject: &dyn Subject, query: &Query) -> Option<Duration> {
+/// How long a subject takes for its answer, or is waited for.
+///
+/// # Errors
+///
+/// [`NoAnswer`] for a query that it does not take or fails on in another way: a program that crashes
+/// is started again, which is no time of its own.
+pub fn time(subject: &dyn Subject, query: &Query) -> Result<Duration, NoAnswer> {
     let start = Instant::now();
-    let answers = subject.answers(std::slice::from_ref(query));
+    let answer = subject.answers(std::slice::from_ref(query)).pop();
     let time = start.elapsed();
-    match answers.first()? {
-        Ok(_) => Some(time),
-        Err(NoAnswer::Lapse(lapse)) if lapse.kind == LapseKind::Hung => Some(time),
-        Err(_) => None,
+    match answer {
+        Some(Err(NoAnswer::Lapse(lapse))) if lapse.kind != LapseKind::Hung => Err(lapse.into()),
+        Some(Err(NoAnswer::Unsupported(reason))) => Err(reason.into()),
+        _ => Ok(time),
     }
 }

@@ -11,7 +11,9 @@ use tunnelproof_reference::certify::findings::Findings;
 use tunnelproof_reference::certify::judged::Judged;
 use tunnelproof_reference::certify::strict;
 use tunnelproof_reference::certify::summary;
-use tunnelproof_reference::certify::table::{grouped, lapse_counts, measure, short, tolerance};
+use tunnelproof_reference::certify::table::{
+    SURPLUS, grouped, lapse_counts, many, measure, short, tolerance,
+};
 use tunnelproof_reference::certify::tally::{Fault, Statement, Tally, Witness};
 use tunnelproof_reference::field::{self, Integer};
 use tunnelproof_reference::program::Conduct;
@@ -232,7 +234,7 @@ fn conduct_of(conduct: &Conduct) -> Markup {
     html! {
         p.pale {
             "Started " (grouped(conduct.starts)) @if conduct.starts == 1 { " time." } @else { " times." }
-            @if conduct.surplus > 0 { " It wrote " (grouped(conduct.surplus)) " answers too many." }
+            @if conduct.surplus > 0 { " It wrote " (many(conduct.surplus, SURPLUS)) "." }
         }
         @if !conduct.stderr.is_empty() {
             details { summary { "The end of its standard error" } pre { (conduct.stderr) } }
