@@ -67,7 +67,7 @@ const RIGHT: Change = |_, truth| Ok(Answer::Exact(truth));
 const LATE: Change = |_, truth| {
     let mut said = said(truth);
     if let Some(toi) = &mut said.toi {
-        toi.above = (toi.above + 1e-10).min(1.0);
+        *toi = Enclosure::exactly((toi.below + 1e-10).min(1.0));
     }
     Ok(Answer::Said(said))
 };
