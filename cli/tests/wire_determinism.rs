@@ -77,7 +77,7 @@ fn steps_with_bodies_give_the_same_bits_in_every_build() {
     // Nothing fell through the plane.
     let heights = world.bodies()[1..].iter().map(|body| body.position().z);
     assert!(heights.fold(f64::INFINITY, f64::min) > 0.0);
-    assert_eq!(hash(&world), 0x0a84_735d_f4eb_9d2a, "{:#x}", hash(&world));
+    assert_eq!(hash(&world), 0x99a7_495d_e45c_2cb2, "{:#x}", hash(&world));
 }
 
 #[test]
@@ -119,9 +119,9 @@ fn steps_of_twisted_wires_give_the_same_bits_in_every_build() {
     assert!(remeshed > 0);
     let twists = [0, 1].map(|wire: usize| world.wires()[wire].twist());
     let bits = twists.map(f64::to_bits);
-    let expected = [0x4005_5311_acb7_2285, 0x402d_ca5e_0c62_6b82];
+    let expected = [0xbfdd_550d_b24c_4245, 0x402d_ca5e_0c62_6b82];
     assert_eq!(bits, expected, "{bits:#x?} {twists:?}");
-    assert_eq!(hash(&world), 0xe608_977c_e460_2334, "{:#x}", hash(&world));
+    assert_eq!(hash(&world), 0x836f_3edc_9f62_ee4e, "{:#x}", hash(&world));
 }
 
 /// The same records on any number of threads, but for how long they took.
@@ -154,7 +154,7 @@ fn other_scenes_of_the_thesis_give_the_same_bits_in_every_build() {
     for (name, steps, expected) in [
         ("pulling-anchor", 600, 0xbb89_bda8_e9ca_1e4e),
         ("twisting-under-load", 60, 0x5e5e_693a_eff1_2430),
-        ("chains-on-deck", 60, 0xe1ae_83b2_2357_e4df),
+        ("chains-on-deck", 60, 0x3265_c5fa_89bf_69b3),
     ] {
         let scene = Scene::embedded(name).unwrap();
         let mut world = scene.world().unwrap();

@@ -11,7 +11,10 @@ use super::solve_step::Candidate;
 use crate::wire::world::World;
 use crate::wire::{ContactConstraint, Vector};
 
-/// Slows the motion of an island, given as a world of its own, if errors of its contacts' velocities are above
+/// How far from a solution contacts have to be, in impact speeds: a jam in which a search ends nearer is at rest.
+const FAR: f64 = 100.0;
+
+/// Slows the motion of an island, given as a world of its own, if contacts' velocities are off by more than [`FAR`] of
 /// [`impact_speed`](crate::wire::Settings::impact_speed). `work` is what scripted bodies do, in J.
 pub(super) fn slow(
     world: &World,
@@ -21,7 +24,7 @@ pub(super) fn slow(
     work: f64,
 ) {
     let settings = &world.settings;
-    if candidate.solver.contact_residual <= settings.impact_speed {
+    if candidate.solver.contact_residual <= FAR * settings.impact_speed {
         return;
     }
     let (kinetic, momentum) = moved(world, layout, &candidate.x);
