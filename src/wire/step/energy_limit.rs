@@ -21,7 +21,7 @@ pub(super) fn slow(
     layout: &Layout,
     contacts: &[ContactConstraint],
     candidate: &mut Candidate,
-    work: f64,
+    work: impl FnOnce(&Candidate) -> f64,
 ) {
     let settings = &world.settings;
     if candidate.solver.contact_residual <= FAR * settings.impact_speed {
@@ -31,7 +31,7 @@ pub(super) fn slow(
     let fall = settings.gravity * settings.step;
     let by_gravity = fall.dot(&(world.momentum() + momentum)) / 2.0;
     let before = world.kinetic_energy() + world.energy_of_forces();
-    let most = before + parting(world, layout, contacts) + by_gravity + work;
+    let most = before + parting(world, layout, contacts) + by_gravity + work(candidate);
     let most = most.max(0.0);
     if kinetic > most {
         let scale = (most / kinetic).sqrt();

@@ -110,6 +110,10 @@ impl Row {
 
     /// What the velocities that are prescribed do by the multiplier of a solution, in J.
     pub(super) fn work(&self, x: &[f64]) -> f64 {
+        let is_given = |(carrier, _): &(Carrier, Vector)| matches!(carrier, Carrier::Prescribed(_));
+        if !self.terms.iter().any(is_given) {
+            return 0.0;
+        }
         self.given() * (x[self.multiplier] + self.branch.offset)
     }
 

@@ -287,8 +287,10 @@ impl Solved {
             candidate.solver.factorisations += factorisations;
             is_followed = linearisation.follow(world, &system.rows, touches, &candidate.x);
         }
-        let impulses = &candidate.swept.impulses;
-        let work = system.work_of_rows(&candidate.x) + work_of_contacts(world, &contacts, impulses);
+        let work = |of: &Candidate| {
+            let by_contacts = work_of_contacts(world, &contacts, &of.swept.impulses);
+            system.work_of_rows(&of.x) + by_contacts
+        };
         energy_limit::slow(world, &system.layout, &contacts, &mut candidate, work);
         Ok(Solved {
             island,

@@ -38,7 +38,7 @@ fn slowed(speed: f64, residual: f64, work: f64) -> (f64, bool) {
     let world = world();
     let layout = Layout::new(&world, &by_wires(&world), &[]);
     let mut candidate = solution(&layout, speed, residual);
-    slow(&world, &layout, &[], &mut candidate, work);
+    slow(&world, &layout, &[], &mut candidate, |_| work);
     let down = -candidate.x[layout.bodies[0].unwrap() + 2];
     (down, candidate.solver.slowed)
 }
