@@ -128,8 +128,8 @@ impl World {
         self.potential_energy() + settings.step / 2.0 * settings.gravity.dot(&momentum)
     }
 
-    /// What scripted bodies do in a step on the wire that lies on them, in J: to go from these velocities to
-    /// `after`, and against gravity between the middles of the steps.
+    /// What scripted bodies did in the last step on the wire that they carry, in J: to bring it from the velocities
+    /// `before` to its present ones, and against gravity from the middle of the step before to that of the last.
     pub(in crate::wire) fn work_of_carrying(&self, before: &[Vector]) -> f64 {
         let settings = &self.settings;
         let works = self.carried().zip(before).map(|((mass, node), before)| {
