@@ -169,7 +169,7 @@ pub struct Summary {
     pub remeshes: usize,
     /// Changes of resolution refused.
     pub refused: usize,
-    /// The energy of all that forces move.
+    /// The energy of wires and of bodies that forces move.
     pub energy: EnergyBalance,
     /// The largest tension in N.
     pub tension: f64,

@@ -5,7 +5,7 @@ use std::fmt;
 use serde::Serialize;
 use tunnelproof::wire::{StepRecord, World};
 
-/// The energy of all that forces move, in J: kinetic, potential against the origin, and elastic.
+/// The energy of wires and of bodies that forces move, in J: kinetic, potential against the origin, and elastic.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct EnergyBalance {
     /// At the start.
