@@ -83,6 +83,11 @@ fn bench_thick(c: &mut Criterion) {
                 }
             });
         });
+        let mut batch = Batch::new();
+        queries.iter().for_each(|query| batch.push(query));
+        group.bench_function("certified-batch", |b| {
+            b.iter(|| batch.decide_observed(|_, hit| consume(hit), |_| {}));
+        });
         group.finish();
     }
 }

@@ -112,7 +112,8 @@ FAULTS = [
     ("separate", "const TINY: f64 = 1e-300;", "const TINY: f64 = 0.0;\nfn f() { const TINY: f64 = 1e-300; }", "margin of edges, underflow"),
     ("separate", "const TINY: f64 = 1e-300;", "const TINY: f64 = 1e-300;\nconst TINY: f64 = 0.0;", "margin of edges, underflow"),
     ("step", "    const SLACK: f64 = 1.0 +", "    const UNDERFLOW: f64 = 1.0;\n    const SLACK: f64 = 1.0 +", "stored position, underflow"),
-    ("step", "    if start == end {\n        return 0.0;", "    const U: f64 = 0.0;\n    if start == end {\n        return 0.0;", "stored position"),
+    ("step", "    let size = start.abs().max(end.abs());\n    let diff", "    const U: f64 = 0.0;\n    let size = start.abs().max(end.abs());\n    let diff", "stored position"),
+    ("step", "if start == end { 0.0 } else { error }", "if start == end { error } else { 0.0 }", "stored position"),
     ("cubic", "pub(super) fn permanents", "#[cfg(debug_assertions)]\npub(super) fn permanents", "Bernstein coefficient 0"),
     ("cubic", "const LARGEST: f64", "#[cfg(not(test))]\nconst LARGEST: f64", "Bernstein coefficient 0"),
     (
@@ -181,7 +182,7 @@ FAULTS = [
     ("separate", "const TINY: f64 = 1e-300;", "const TINY: f64 = 1e-300;\nmacro_rules! mk { ($n:ident) => { fn $n() {} } }", KEPT),
     # What chooses, and where guesses are taken to be.
     ("nearest", "smaller(larger(x, 0.0), 1.0)", "larger(x, 0.0)", KEPT),
-    ("block", "[cubic.is_valid() & cubic.has_no_root()]", "[cubic.has_no_root()]", KEPT),
+    ("block", "= cubic.is_valid() & cubic.has_no_root()", "= cubic.has_no_root()", KEPT),
     # What the certified path takes its input to be.
     ("src/rigid/motion", "MOST_DEGREES: f64 = 90.0", "MOST_DEGREES: f64 = 120.0", KEPT),
     ("src/rigid/error", "is_finite", "is_nan", KEPT),

@@ -24,7 +24,7 @@
 //! ```
 //!
 //! [`decide`] takes an [`EdgeEdge`] or a [`VertexFace`], with or without a [`Radius`], and gives
-//! `Some(`[`Hit`]`)` or `None`. A [`Batch`] decides many queries of a kind.
+//! `Some(`[`Hit`]`)` or `None`. [`Pairs`] decides many queries of a kind.
 //!
 //! # Guarantee
 //!
@@ -58,7 +58,7 @@
 //!
 //! | feature | what it adds |
 //! | --- | --- |
-//! | `rayon` | `Batch::par_decide`, and meshes on all threads |
+//! | `rayon` | `Pairs::par_decide`, and meshes on all threads |
 //! | `wire` | the wire stepper |
 //! | `serde` | its settings and records as data; includes `wire` |
 //! | `recording` | its steps, and its state, to a file and back; includes `serde` |
@@ -82,9 +82,9 @@ pub mod thesis;
 pub mod wire;
 
 pub use certified::{
-    Advance, Batch, BatchError, Blocked, Clearance, ClearanceError, Kind, Normal, Precision,
-    Proximity, advance, advance_in, classify, decide, decide_discrete, decide_exactly,
-    decide_rigid, interpolate, interpolate_in,
+    Advance, Batch, BatchError, Blocked, Clearance, ClearanceError, Kind, Normal, Pairs,
+    PairsError, Precision, Proximity, advance, advance_in, classify, decide, decide_discrete,
+    decide_exactly, decide_rigid, interpolate, interpolate_in,
 };
 pub use contact::{
     Case, Contact, ContactKind, ContactPoint, EdgePlace, EdgePoint, FacePlace, Flags, Hit,

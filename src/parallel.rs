@@ -19,6 +19,29 @@ pub(crate) fn mapped<A>(count: usize, _: usize, each: impl Fn(usize) -> A) -> Ve
     (0..count).map(each).collect()
 }
 
+/// What a function says of the numbers from 0, in order, with tools that it may use up: they are
+/// made for some numbers at a time, and what is said must not depend on what they were used for.
+#[cfg(feature = "rayon")]
+pub(crate) fn mapped_with<T, A: Send>(
+    count: usize,
+    tools: impl Fn() -> T + Sync + Send,
+    each: impl Fn(&mut T, usize) -> A + Sync + Send,
+) -> Vec<A> {
+    use rayon::prelude::*;
+    (0..count).into_par_iter().map_init(tools, each).collect()
+}
+
+/// What a function says of the numbers from 0, in order, with tools that it may use up.
+#[cfg(not(feature = "rayon"))]
+pub(crate) fn mapped_with<T, A>(
+    count: usize,
+    tools: impl Fn() -> T,
+    each: impl Fn(&mut T, usize) -> A,
+) -> Vec<A> {
+    let mut tools = tools();
+    (0..count).map(|number| each(&mut tools, number)).collect()
+}
+
 /// What two functions give, at the same time.
 #[cfg(feature = "rayon")]
 pub(crate) fn both<A: Send, B: Send>(

@@ -27,9 +27,10 @@ use std::fmt;
 use nalgebra::Point3;
 
 mod radius;
+mod shown;
 
 pub use radius::Radius;
-pub(crate) use radius::Short;
+pub(crate) use shown::{Counted, Short};
 
 /// A point in space, coordinates in metres.
 pub type Point = Point3<f64>;

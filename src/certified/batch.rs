@@ -1,22 +1,17 @@
 //! Many queries at once, coordinates in separate arrays.
 //!
-//! The first stages of the cascade are taken for a block of queries at once (`block`); what they
-//! leave goes through the rest one by one, with its coordinates from the block.
+//! How they are decided: `queries`.
 
 use std::marker::PhantomData;
 use std::ops::Range;
 
-use super::block::{BLOCK, Block};
-use super::cascade::{decide_motion, decide_rest};
+use super::block::{CHUNK, LANES, Source, Tile};
 use super::kind::Kind;
 use super::motion::Positions;
+use super::queries;
 use super::stage::Stage;
 use crate::contact::Hit;
-use crate::environment;
 use crate::query::{Point, QueryError, Radius, check};
-
-/// How many blocks are not screened after one for which that did not pay.
-const UNSCREENED: u32 = 15;
 
 /// Queries of one kind, [`EdgeEdge`](crate::query::EdgeEdge) or
 /// [`VertexFace`](crate::query::VertexFace), as a structure of arrays.
@@ -146,9 +141,7 @@ impl<K: Kind> Batch<K> {
 
     /// All hits with the places of their queries, in order.
     pub fn decide(&self) -> Vec<(usize, Hit<K::Place>)> {
-        let mut hits = Vec::new();
-        self.decide_observed(|index, hit| hits.push((index, hit)), |_| {});
-        hits
+        queries::decide::<K::Stages>(self, self.len())
     }
 
     /// As [`decide`](Self::decide): calls `hit` for each hit, in order, and says for each query, in
@@ -158,72 +151,40 @@ impl<K: Kind> Batch<K> {
         hit: impl FnMut(usize, Hit<K::Place>),
         observe: impl FnMut(Stage),
     ) {
-        self.decide_range(0..self.len(), hit, observe);
+        queries::decide_range::<K::Stages>(self, 0..self.len(), hit, observe);
     }
 
     /// As [`decide`](Self::decide), by all threads of the current pool.
     #[cfg(feature = "rayon")]
     pub fn par_decide(&self) -> Vec<(usize, Hit<K::Place>)> {
-        use rayon::prelude::*;
-
-        const CHUNK: usize = 16 * BLOCK;
-        let starts = (0..self.len()).into_par_iter().step_by(CHUNK);
-        let hits = starts.flat_map_iter(|start| {
-            let mut hits = Vec::new();
-            let end = self.len().min(start + CHUNK);
-            self.decide_range(start..end, |index, hit| hits.push((index, hit)), |_| {});
-            hits
-        });
-        hits.collect()
+        queries::par_decide::<K::Stages>(self, self.len())
     }
+}
 
-    fn decide_range(
-        &self,
-        range: Range<usize>,
-        mut hit: impl FnMut(usize, Hit<K::Place>),
-        mut observe: impl FnMut(Stage),
-    ) {
-        // By each thread that takes a part.
-        debug_assert_eq!(environment::check(), Ok(()));
-        let mut block = Block::new();
-        let mut unscreened = 0;
-        for start in range.clone().step_by(BLOCK) {
-            let end = range.end.min(start + BLOCK);
-            let radii = self.radii.get(start..end).unwrap_or_default();
-            block.fill(self.coordinates.each_ref().map(|array| &array[start..end]));
-            // Blocks with and without a radius are screened, mixed ones are not.
-            let is_thick = !radii.is_empty() && radii.iter().all(|radius| !radius.is_zero());
-            let is_thin = radii.iter().all(Radius::is_zero);
-            let is_screened = unscreened == 0 && (is_thick || is_thin);
-            let pays = if !is_screened {
-                unscreened = u32::saturating_sub(unscreened, 1);
-                true
-            } else if is_thick {
-                block.fill_radii(radii);
-                block.screen_thick::<K::Stages>(&mut observe)
+impl<K> Source for Batch<K> {
+    #[inline(always)]
+    fn load(&self, tiles: &mut [Tile; CHUNK / LANES], queries: Range<usize>) {
+        for (row, array) in self.coordinates.iter().enumerate() {
+            let array = &array[queries.clone()];
+            if let Ok(whole) = <&[f64; CHUNK]>::try_from(array) {
+                for (tile, lanes) in tiles.iter_mut().zip(whole.as_chunks().0) {
+                    tile.coordinates[row] = *lanes;
+                }
             } else {
-                block.screen::<K::Stages>(&mut observe)
-            };
-            if !pays {
-                unscreened = UNSCREENED;
-            }
-            for (place, &i) in block.open().iter().enumerate() {
-                let index = start + usize::from(i);
-                let positions = || block.positions(place);
-                let found = if is_screened && is_thin {
-                    decide_rest::<K::Stages>(positions, &mut observe)
-                } else {
-                    decide_motion::<K::Stages>(positions, self.radius(index), &mut observe)
-                };
-                if let Some(found) = found {
-                    hit(index, found);
+                for (lane, &x) in array.iter().enumerate() {
+                    tiles[lane / LANES].coordinates[row][lane % LANES] = x;
                 }
             }
         }
     }
 
+    #[inline(always)]
     fn radius(&self, index: usize) -> Radius {
         self.radii.get(index).copied().unwrap_or(Radius::ZERO)
+    }
+
+    fn are_thin(&self, queries: Range<usize>) -> Option<bool> {
+        queries::are_thin(self.radii.get(queries).unwrap_or_default())
     }
 
     #[inline(always)]

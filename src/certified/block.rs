@@ -6,223 +6,530 @@
 
 use std::array;
 use std::marker::PhantomData;
+use std::ops::Range;
 
 use pulp::{Arch, WithSimd};
 
 use super::cubic::Cubic;
 use super::ends::{Ends, Plain};
 use super::kind::Stages;
-use super::motion::Positions;
+use super::motion::{Motion, Positions, reach};
 use super::stage::Stage;
-use super::thick::{self, rounded_up};
+use super::step::{Precision, room, widened};
+use super::thick::{self, Reached, rounded_up};
 use crate::query::Radius;
 
-/// How many queries go through a stage together: enough that few lanes are idle in the later
-/// stages, few enough that their coordinates stay in the cache.
-pub(super) const BLOCK: usize = 256;
-
 /// How many queries lie side by side: a few registers, whatever the processor.
-const LANES: usize = 8;
+pub(crate) const LANES: usize = 8;
 
-/// The coordinates of [`LANES`] queries, and numbers not below their radii.
-type Tile = [[f64; LANES]; ROWS];
+/// The coordinates of [`LANES`] queries, and what the stages have found of them.
+///
+/// Row `3 p + i` is axis `i` of point `p`: A, B, C, D at `t = 0`, then at `t = 1`.
+#[derive(Clone, Copy)]
+pub(crate) struct Tile {
+    pub(crate) coordinates: [[f64; LANES]; COORDINATES],
+    found: [[f64; LANES]; FOUND],
+}
 
-const RADIUS: usize = 24;
-const ROWS: usize = 25;
+pub(super) const COORDINATES: usize = 24;
 
-/// Queries that go through the first stages together; those that a stage decides are taken out.
-pub(super) struct Block {
-    tiles: [Tile; BLOCK / LANES],
-    /// Which queries are still open, ascending.
-    open: [u16; BLOCK],
+/// What stages hand on: the cubic, or what [`Planes`] take.
+const FOUND: usize = 5;
+
+/// How many queries are asked the first two stages before the later ones take what is open.
+pub(crate) const CHUNK: usize = 32;
+
+/// How many may be open: what a chunk leaves beside less than another one.
+const MOST_OPEN: usize = 2 * CHUNK;
+
+/// Queries of a kind, wherever they are.
+pub(crate) trait Source {
+    /// Puts the coordinates of up to [`CHUNK`] queries into as many lanes of tiles, in order. Lanes
+    /// without a query may hold anything.
+    fn load(&self, tiles: &mut [Tile; CHUNK / LANES], queries: Range<usize>);
+
+    /// The positions of a query.
+    fn positions(&self, query: usize) -> Positions;
+
+    /// The distance at which its sides touch.
+    fn radius(&self, query: usize) -> Radius;
+
+    /// Whether no query of some has a radius above 0; `None` if some have and some have not.
+    fn are_thin(&self, queries: Range<usize>) -> Option<bool>;
+}
+
+/// Queries that no stage has decided so far.
+pub(super) struct Open {
+    /// The last ones are for a chunk that is new, if it has no place behind what is open: that has
+    /// to fill its tiles.
+    tiles: [Tile; (MOST_OPEN + CHUNK) / LANES],
+    /// Which queries they are, ascending.
+    queries: [usize; MOST_OPEN],
     count: usize,
 }
 
-impl Block {
+impl Open {
     pub(super) fn new() -> Self {
-        Block {
-            tiles: [[[0.0; LANES]; ROWS]; BLOCK / LANES],
-            open: [0; BLOCK],
+        Open {
+            tiles: [Tile {
+                coordinates: [[0.0; LANES]; COORDINATES],
+                found: [[0.0; LANES]; FOUND],
+            }; (MOST_OPEN + CHUNK) / LANES],
+            queries: [0; MOST_OPEN],
             count: 0,
         }
     }
 
-    /// Takes up to [`BLOCK`] queries. Lanes without one keep what they had, which does no harm.
-    pub(super) fn fill(&mut self, coordinates: [&[f64]; 24]) {
-        self.count = coordinates[0].len();
-        self.open = array::from_fn(|i| i as u16);
-        for (row, array) in coordinates.into_iter().enumerate() {
-            let (whole, rest) = array.as_chunks::<LANES>();
-            for (tile, lanes) in self.tiles.iter_mut().zip(whole) {
-                tile[row] = *lanes;
-            }
-            if let Some(tile) = self.tiles.get_mut(whole.len()) {
-                tile[row][..rest.len()].copy_from_slice(rest);
-            }
-        }
+    /// Whether there is no room for what a chunk may leave.
+    pub(super) fn is_full(&self) -> bool {
+        self.count > MOST_OPEN - CHUNK
     }
 
-    /// The radii of the queries, all above 0.
-    pub(super) fn fill_radii(&mut self, radii: &[Radius]) {
-        for (i, radius) in radii.iter().enumerate() {
-            self.tiles[i / LANES][RADIUS][i % LANES] = rounded_up(*radius);
-        }
+    pub(super) fn clear(&mut self) {
+        self.count = 0;
+    }
+
+    pub(super) fn queries(&self) -> &[usize] {
+        &self.queries[..self.count]
     }
 
     /// The positions of the query that is open at this place.
     #[inline(always)]
     pub(super) fn positions(&self, place: usize) -> Positions {
         let (tile, lane) = (&self.tiles[place / LANES], place % LANES);
-        let at = |row: usize| [tile[row][lane], tile[row + 1][lane], tile[row + 2][lane]];
+        let at = |row: usize| [0, 1, 2].map(|i| tile.coordinates[row + i][lane]);
         Positions {
             start: [at(0), at(3), at(6), at(9)],
             end: [at(12), at(15), at(18), at(21)],
         }
     }
 
-    pub(super) fn open(&self) -> &[u16] {
-        &self.open[..self.count]
+    fn found(&self, place: usize) -> [f64; FOUND] {
+        let (tile, lane) = (&self.tiles[place / LANES], place % LANES);
+        tile.found.map(|row| row[lane])
     }
 
-    /// The first three stages, and the fourth as far as it goes without a branch: a miss at the
-    /// only root. Stops after the first two where they decide little: then most of these pairs
-    /// touch, and one by one is faster. Returns whether it went on.
-    pub(super) fn screen<K: Stages>(&mut self, observe: &mut impl FnMut(Stage)) -> bool {
-        let all = self.count;
-        let apart = self.test(Apart::<K>(PhantomData));
-        self.take_out([Stage::Boxes, Stage::Direction], &apart, observe);
-        if 4 * self.count > 3 * all {
+    /// The cubic of the query that is open at this place, which has this motion; after
+    /// [`screen`](Self::screen).
+    pub(super) fn cubic<E: Ends>(&self, place: usize, motion: &Motion<E>) -> Option<Cubic> {
+        let cubic = cubic_of(motion, &self.found(place));
+        cubic.is_valid().then_some(cubic)
+    }
+
+    /// How far the planes of the query that is open at this place reach, after
+    /// [`screen_thick`](Self::screen_thick).
+    pub(super) fn reached(&self, place: usize) -> Reached {
+        reached_of(&self.found(place))
+    }
+
+    /// Adds what the first two stages leave of some queries without a radius, no more than
+    /// [`CHUNK`].
+    pub(super) fn add<K: Stages>(
+        &mut self,
+        source: &impl Source,
+        queries: Range<usize>,
+        observe: &mut impl FnMut(Stage),
+    ) {
+        let decided = Arch::new().dispatch(First::<_, _, _, 2, 0> {
+            open: self,
+            source,
+            queries,
+            test: Apart::<K>(PhantomData),
+            prepare: |_: &mut [Tile; CHUNK / LANES], _: Range<usize>| {},
+        });
+        report([Stage::Boxes, Stage::Direction], decided, observe);
+    }
+
+    /// The same for queries with radii above 0.
+    pub(super) fn add_thick<K: Stages>(
+        &mut self,
+        source: &impl Source,
+        queries: Range<usize>,
+        observe: &mut impl FnMut(Stage),
+    ) {
+        let test = ApartThick::<K>(PhantomData);
+        let decided = self.first_thick(source, queries, test);
+        report([Stage::Boxes, Stage::Direction], decided, observe);
+    }
+
+    /// The same for radii and the room that the rounding of positions takes.
+    pub(super) fn add_with_room<K: Stages>(
+        &mut self,
+        source: &impl Source,
+        queries: Range<usize>,
+        precision: Precision,
+    ) {
+        let kind = PhantomData::<K>;
+        match precision {
+            Precision::F64 => self.first_thick(source, queries, ApartWithRoom::<K, false>(kind)),
+            Precision::F32 => self.first_thick(source, queries, ApartWithRoom::<K, true>(kind)),
+        };
+    }
+
+    fn first_thick(
+        &mut self,
+        source: &impl Source,
+        queries: Range<usize>,
+        test: impl Test<2, 4>,
+    ) -> [u32; 2] {
+        let prepare = |tiles: &mut [Tile; CHUNK / LANES], queries: Range<usize>| {
+            // Most have the same.
+            let mut last = (Radius::ZERO, rounded_up(Radius::ZERO));
+            for (lane, query) in queries.enumerate() {
+                let radius = source.radius(query);
+                if radius != last.0 {
+                    last = (radius, rounded_up(radius));
+                }
+                tiles[lane / LANES].found[0][lane % LANES] = last.1;
+            }
+        };
+        Arch::new().dispatch(First::<_, _, _, 2, 4> {
+            open: self,
+            source,
+            queries,
+            test,
+            prepare,
+        })
+    }
+
+    /// The third stage, and if `by_roots` the fourth as far as it goes without a branch: a miss at
+    /// the only root. Returns whether that decides so much that it pays.
+    pub(super) fn screen<K: Stages>(
+        &mut self,
+        by_roots: bool,
+        observe: &mut impl FnMut(Stage),
+    ) -> bool {
+        self.test([Stage::Signs], Signs::<K>(PhantomData), observe);
+        if !by_roots {
             return false;
         }
-        let signs = self.test(Signs::<K>(PhantomData));
-        self.take_out([Stage::Signs], &signs, observe);
-        let roots = self.test(Roots::<K>(PhantomData));
-        self.take_out([Stage::Roots], &roots, observe);
-        true
+        let asked = self.count;
+        self.test([Stage::Roots], Roots::<K>(PhantomData), observe);
+        2 * self.count <= asked
     }
 
-    /// The first two stages with radii above 0. Returns whether they decide so much that it pays.
-    pub(super) fn screen_thick<K: Stages>(&mut self, observe: &mut impl FnMut(Stage)) -> bool {
-        let all = self.count;
-        let apart = self.test(ApartThick::<K>(PhantomData));
-        self.take_out([Stage::Boxes, Stage::Direction], &apart, observe);
-        4 * self.count <= 3 * all
+    /// Planes that separate for the whole step or the next part of it.
+    pub(super) fn screen_thick<K: Stages>(&mut self, observe: &mut impl FnMut(Stage)) {
+        self.test([Stage::Planes], Fixed::<K>(PhantomData), observe);
+        for _ in 0..PLANES {
+            let asked = self.count;
+            self.test([Stage::Planes], Planes::<K>(PhantomData), observe);
+            let advancing = (0..self.count).filter(|&place| !has_ended(self.found(place)[3]));
+            if 2 * advancing.count() <= asked {
+                break;
+            }
+        }
     }
 
-    fn test<const N: usize, T: Test<N>>(&self, test: T) -> Answers<N> {
-        Arch::new().dispatch(Each::<N, T> { block: self, test })
+    fn test<const N: usize, const R: usize, T: Test<N, R>>(
+        &mut self,
+        stages: [Stage; N],
+        test: T,
+        observe: &mut impl FnMut(Stage),
+    ) {
+        let decided = Arch::new().dispatch(Next { open: self, test });
+        report(stages, decided, observe);
+    }
+
+    /// Keeps a query, which is at a place not before those that are kept: its coordinates and so
+    /// many numbers that have been found.
+    #[inline(always)]
+    fn keep(&mut self, place: usize, query: usize, found: usize) {
+        if place != self.count {
+            let (from, lane) = (place / LANES, place % LANES);
+            let (to, to_lane) = (self.count / LANES, self.count % LANES);
+            for row in 0..COORDINATES {
+                self.tiles[to].coordinates[row][to_lane] = self.tiles[from].coordinates[row][lane];
+            }
+            for row in 0..found {
+                self.tiles[to].found[row][to_lane] = self.tiles[from].found[row][lane];
+            }
+        }
+        self.queries[self.count] = query;
+        self.count += 1;
     }
 }
 
-/// What tests say of each query.
-type Answers<const N: usize> = [[[bool; N]; LANES]; BLOCK / LANES];
+fn report<const N: usize>(stages: [Stage; N], decided: [u32; N], observe: &mut impl FnMut(Stage)) {
+    for (stage, count) in stages.into_iter().zip(decided) {
+        for _ in 0..count {
+            observe(stage);
+        }
+    }
+}
 
-/// `N` tests of a query, without a branch.
-trait Test<const N: usize> {
-    fn of(&self, points: &[[Plain; 3]; 4], radius: f64) -> [bool; N];
+/// `N` tests of a query and `R` numbers that they find, without a branch.
+trait Test<const N: usize, const R: usize> {
+    /// How many of the numbers found are of use afterwards.
+    const HELD: usize;
+
+    fn of(&self, points: &[[Plain; 3]; 4], found: &[f64; FOUND]) -> ([bool; N], [f64; R]);
 }
 
 /// Stages 1 and 2.
 struct Apart<K>(PhantomData<K>);
 
-impl<K: Stages> Test<2> for Apart<K> {
+impl<K: Stages> Test<2, 0> for Apart<K> {
+    const HELD: usize = 0;
+
     #[inline(always)]
-    fn of(&self, points: &[[Plain; 3]; 4], _: f64) -> [bool; 2] {
+    fn of(&self, points: &[[Plain; 3]; 4], _: &[f64; FOUND]) -> ([bool; 2], [f64; 0]) {
         let boxes = K::boxes(points, 0.0);
         let is_separated = K::is_separated_by_centres(&K::motion(points), &boxes);
-        [boxes.are_disjoint, is_separated]
+        ([boxes.are_disjoint, is_separated], [])
     }
 }
 
-/// The same with a radius.
+/// The same with a radius, and how far the direction separates.
 struct ApartThick<K>(PhantomData<K>);
 
-impl<K: Stages> Test<2> for ApartThick<K> {
+impl<K: Stages> Test<2, 4> for ApartThick<K> {
+    const HELD: usize = 4;
+
     #[inline(always)]
-    fn of(&self, points: &[[Plain; 3]; 4], radius: f64) -> [bool; 2] {
-        thick::are_apart::<K, _>(points, radius)
+    fn of(&self, points: &[[Plain; 3]; 4], found: &[f64; FOUND]) -> ([bool; 2], [f64; 4]) {
+        let radius = found[0];
+        let (are_disjoint, proved) = thick::apart_until_by_centres::<K, _>(points, radius);
+        ([are_disjoint, proved >= 1.0], [radius, proved, 0.0, 0.0])
+    }
+}
+
+/// The same with the room that positions take which are rounded.
+struct ApartWithRoom<K, const IS_SINGLE: bool>(PhantomData<K>);
+
+impl<K: Stages, const IS_SINGLE: bool> Test<2, 4> for ApartWithRoom<K, IS_SINGLE> {
+    const HELD: usize = 4;
+
+    #[inline(always)]
+    fn of(&self, points: &[[Plain; 3]; 4], found: &[f64; FOUND]) -> ([bool; 2], [f64; 4]) {
+        let precision = if IS_SINGLE {
+            Precision::F32
+        } else {
+            Precision::F64
+        };
+        let radius = widened(found[0], room::<K, _>(points, precision));
+        let (are_disjoint, proved) = thick::apart_until_by_centres::<K, _>(points, radius);
+        ([are_disjoint, proved >= 1.0], [radius, proved, 0.0, 0.0])
     }
 }
 
 /// Stage 3.
 struct Signs<K>(PhantomData<K>);
 
-impl<K: Stages> Test<1> for Signs<K> {
+impl<K: Stages> Test<1, FOUND> for Signs<K> {
+    const HELD: usize = FOUND;
+
     #[inline(always)]
-    fn of(&self, points: &[[Plain; 3]; 4], _: f64) -> [bool; 1] {
+    fn of(&self, points: &[[Plain; 3]; 4], _: &[f64; FOUND]) -> ([bool; 1], [f64; FOUND]) {
         let cubic = Cubic::unchecked(&K::motion(points));
-        [cubic.is_valid() & cubic.has_no_root()]
+        let is_decided = cubic.is_valid() & cubic.has_no_root();
+        let [b0, b1, b2, b3] = cubic.bernstein;
+        ([is_decided], [b0, b1, b2, b3, cubic.permanent])
     }
+}
+
+#[inline(always)]
+fn cubic_of<E: Ends>(
+    Motion { k, l, m }: &Motion<E>,
+    &[b0, b1, b2, b3, permanent]: &[f64; FOUND],
+) -> Cubic {
+    Cubic::of_parts([b0, b1, b2, b3], permanent, [reach(k), reach(l), reach(m)])
 }
 
 /// Stage 4, for a miss at the only root in each half of the step.
 struct Roots<K>(PhantomData<K>);
 
-impl<K: Stages> Test<1> for Roots<K> {
+impl<K: Stages> Test<1, 0> for Roots<K> {
+    const HELD: usize = FOUND;
+
     #[inline(always)]
-    fn of(&self, points: &[[Plain; 3]; 4], _: f64) -> [bool; 1] {
+    fn of(&self, points: &[[Plain; 3]; 4], found: &[f64; FOUND]) -> ([bool; 1], [f64; 0]) {
         let motion = K::motion(points);
-        let cubic = Cubic::unchecked(&motion);
+        let cubic = cubic_of(&motion, found);
         let [lower, upper] = cubic.halves();
         let is_apart_in = |half| K::is_apart_in(&motion, &cubic, half);
         let is_apart = is_apart_in(&lower) & is_apart_in(&upper);
-        [cubic.is_valid() & is_apart]
+        ([cubic.is_valid() & is_apart], [])
     }
 }
 
-/// A test of each open query; what it says beyond these means nothing.
-struct Each<'a, const N: usize, T> {
-    block: &'a Block,
+/// With a radius: the plane that stays, between the points that are nearest where the direction
+/// from middle to middle fails.
+struct Fixed<K>(PhantomData<K>);
+
+impl<K: Stages> Test<1, 0> for Fixed<K> {
+    const HELD: usize = 4;
+
+    #[inline(always)]
+    fn of(&self, points: &[[Plain; 3]; 4], found: &[f64; FOUND]) -> ([bool; 1], [f64; 0]) {
+        let [radius, proved, ..] = *found;
+        ([thick::are_apart_from::<K, _>(points, radius, proved)], [])
+    }
+}
+
+/// With a radius: the next plane, which turns.
+struct Planes<K>(PhantomData<K>);
+
+/// How many planes that turn are tried here.
+const PLANES: u32 = 5;
+
+impl<K: Stages> Test<1, 4> for Planes<K> {
+    const HELD: usize = 4;
+
+    #[inline(always)]
+    fn of(&self, points: &[[Plain; 3]; 4], found: &[f64; FOUND]) -> ([bool; 1], [f64; 4]) {
+        let [radius, t, planes, last, ..] = *found;
+        let next = thick::next_plane::<K, _>(points, radius, t);
+        let has_ended = has_ended(last);
+        let t = if has_ended { t } else { next.t };
+        let planes = if has_ended { planes } else { planes + 1.0 };
+        let last = if has_ended | next.is_last { 1.0 } else { 0.0 };
+        ([next.is_apart & !has_ended], [radius, t, planes, last])
+    }
+}
+
+/// Whether a plane was the last that leads farther, as rows say it.
+#[inline(always)]
+fn has_ended(last: f64) -> bool {
+    last > 0.0
+}
+
+fn reached_of(&[_, t, planes, last, ..]: &[f64; FOUND]) -> Reached {
+    Reached::ByPlanes {
+        t,
+        planes: planes as u32,
+        is_last: has_ended(last),
+    }
+}
+
+/// The queries of a tile that tests decide, as bits; what they find is put into the tile.
+#[inline(always)]
+fn test_tile<const N: usize, const R: usize>(
+    test: &impl Test<N, R>,
+    Tile { coordinates, found }: &mut Tile,
+) -> [u64; N] {
+    let mut decided = [[false; LANES]; N];
+    for i in 0..LANES {
+        let of = |row: usize| Plain::new(coordinates[row][i], coordinates[row + 12][i]);
+        let at = |row: usize| [of(row), of(row + 1), of(row + 2)];
+        let before = array::from_fn(|row| found[row][i]);
+        let (is_decided, after) = test.of(&[at(0), at(3), at(6), at(9)], &before);
+        for (lanes, is_decided) in decided.iter_mut().zip(is_decided) {
+            lanes[i] = is_decided;
+        }
+        for (row, after) in found.iter_mut().zip(after) {
+            row[i] = after;
+        }
+    }
+    decided.map(bits)
+}
+
+/// The bit `i` of the result is that of lane `i`.
+#[inline(always)]
+fn bits(lanes: [bool; LANES]) -> u64 {
+    let bytes = u64::from_le_bytes(lanes.map(u8::from));
+    // Byte `i`, 0 or 1, comes to bit `56 + i`: no two summands meet.
+    bytes.wrapping_mul(0x0102_0408_1020_4080) >> 56
+}
+
+/// The first lanes of a tile, as bits.
+#[inline(always)]
+fn first_lanes(count: usize) -> u64 {
+    (1 << count) - 1
+}
+
+/// How many queries each test decides, of those that the ones before it do not, and the mask of
+/// those that are left.
+#[inline(always)]
+fn counted<const N: usize>(decided: [u64; N], mut open: u64, counts: &mut [u32; N]) -> u64 {
+    for (decided, count) in decided.into_iter().zip(counts) {
+        *count += (decided & open).count_ones();
+        open &= !decided;
+    }
+    open
+}
+
+/// The first test of queries that are new.
+struct First<'a, S, T, F, const N: usize, const R: usize> {
+    open: &'a mut Open,
+    source: &'a S,
+    queries: Range<usize>,
+    test: T,
+    /// Puts in what the test takes beside the coordinates.
+    prepare: F,
+}
+
+impl<S, T, F, const N: usize, const R: usize> WithSimd for First<'_, S, T, F, N, R>
+where
+    S: Source,
+    T: Test<N, R>,
+    F: Fn(&mut [Tile; CHUNK / LANES], Range<usize>),
+{
+    type Output = [u32; N];
+
+    #[inline(always)]
+    fn with_simd<V: pulp::Simd>(self, _: V) -> Self::Output {
+        let First {
+            open,
+            source,
+            queries,
+            test,
+            prepare,
+        } = self;
+        let mut counts = [0; N];
+        let is_aligned = open.count.is_multiple_of(LANES);
+        let at = if is_aligned { open.count } else { MOST_OPEN };
+        if let Some(tiles) = open.tiles[at / LANES..].first_chunk_mut() {
+            source.load(tiles, queries.clone());
+            prepare(tiles, queries.clone());
+        }
+        for first in (0..queries.len()).step_by(LANES) {
+            let kept = test_tile(&test, &mut open.tiles[(at + first) / LANES]);
+            let lanes = first_lanes(LANES.min(queries.len() - first));
+            for lane in Lanes(counted(kept, lanes, &mut counts)) {
+                open.keep(at + first + lane, queries.start + first + lane, T::HELD);
+            }
+        }
+        counts
+    }
+}
+
+/// The lanes of a mask, ascending.
+struct Lanes(u64);
+
+impl Iterator for Lanes {
+    type Item = usize;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<usize> {
+        let lane = self.0.trailing_zeros() as usize;
+        let is_some = self.0 != 0;
+        self.0 &= self.0.wrapping_sub(1);
+        is_some.then_some(lane)
+    }
+}
+
+/// A test of the queries that are open.
+struct Next<'a, T, const N: usize, const R: usize> {
+    open: &'a mut Open,
     test: T,
 }
 
-impl<const N: usize, T: Test<N>> WithSimd for Each<'_, N, T> {
-    type Output = Answers<N>;
+impl<T: Test<N, R>, const N: usize, const R: usize> WithSimd for Next<'_, T, N, R> {
+    type Output = [u32; N];
 
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> Self::Output {
-        let mut answers = [[[false; N]; LANES]; BLOCK / LANES];
-        let tiles = self.block.tiles.iter();
-        let tiles = tiles.take(self.block.count.div_ceil(LANES));
-        for (tile, answers) in tiles.zip(&mut answers) {
-            for i in 0..LANES {
-                let of = |row: usize| Plain::new(tile[row][i], tile[row + 12][i]);
-                let at = |row: usize| [of(row), of(row + 1), of(row + 2)];
-                answers[i] = self.test.of(&[at(0), at(3), at(6), at(9)], tile[RADIUS][i]);
+    fn with_simd<V: pulp::Simd>(self, _: V) -> Self::Output {
+        let mut counts = [0; N];
+        let open = self.open;
+        let all = std::mem::take(&mut open.count);
+        for first in (0..all).step_by(LANES) {
+            let decided = test_tile(&self.test, &mut open.tiles[first / LANES]);
+            let lanes = first_lanes(LANES.min(all - first));
+            for lane in Lanes(counted(decided, lanes, &mut counts)) {
+                open.keep(first + lane, open.queries[first + lane], T::HELD);
             }
         }
-        answers
-    }
-}
-
-impl Block {
-    /// Takes out the queries that a stage decided.
-    #[inline(always)]
-    fn take_out<const N: usize>(
-        &mut self,
-        stages: [Stage; N],
-        decided: &Answers<N>,
-        observe: &mut impl FnMut(Stage),
-    ) {
-        let mut kept = [0; BLOCK];
-        let mut count = 0;
-        for (i, decided) in decided.as_flattened().iter().enumerate().take(self.count) {
-            let stage = stages
-                .iter()
-                .zip(decided)
-                .find(|(_, is_decided)| **is_decided);
-            if let Some((stage, _)) = stage {
-                observe(*stage);
-            }
-            kept[count] = i;
-            count += usize::from(stage.is_none());
-        }
-        for (i, &from) in kept[..count].iter().enumerate() {
-            for row in 0..ROWS {
-                self.tiles[i / LANES][row][i % LANES] = self.tiles[from / LANES][row][from % LANES];
-            }
-            self.open[i] = self.open[from];
-        }
-        self.count = count;
+        counts
     }
 }

@@ -3,10 +3,8 @@
 use wide::f64x2;
 
 use super::cubic::Cubic;
-use super::ends::Ends;
 use super::kind::{Kind, Stages};
 use super::motion::{Motion, Positions};
-use super::separate::SweptBoxes;
 use super::stage::Stage;
 use super::thick;
 use crate::contact::{Case, Hit};
@@ -109,30 +107,29 @@ fn decide_all<K: Stages>(
         observe(Stage::Direction);
         return None;
     }
-    decide_open::<K, _>(positions, &boxes, &motion, observe)
-}
-
-/// The stages after the first two, for a query that those leave open.
-pub(super) fn decide_rest<K: Stages>(
-    positions: impl Fn() -> Positions,
-    observe: &mut impl FnMut(Stage),
-) -> Option<Hit<K::Place>> {
-    let points = positions().points::<f64x2>();
-    let (boxes, motion) = (K::boxes(&points, 0.0), K::motion(&points));
-    decide_open::<K, _>(positions, &boxes, &motion, observe)
-}
-
-#[inline(always)]
-fn decide_open<K: Stages, E: Ends>(
-    positions: impl Fn() -> Positions,
-    boxes: &SweptBoxes,
-    motion: &Motion<E>,
-    observe: &mut impl FnMut(Stage),
-) -> Option<Hit<K::Place>> {
-    let cubic = Cubic::new(motion);
+    let cubic = Cubic::new(&motion);
     if cubic.is_some_and(|cubic| cubic.has_no_root()) {
         observe(Stage::Signs);
         return None;
     }
-    K::decide_by_roots(positions, boxes, motion, cubic.as_ref(), observe)
+    K::decide_by_roots(positions, || boxes, &motion, cubic.as_ref(), observe)
+}
+
+/// The stages after the first three, for a query that those leave open.
+#[inline(always)]
+pub(super) fn decide_rest<K: Stages>(
+    positions: &Positions,
+    cubic: impl Fn(&Motion<f64x2>) -> Option<Cubic>,
+    observe: &mut impl FnMut(Stage),
+) -> Option<Hit<K::Place>> {
+    let points = positions.points::<f64x2>();
+    let motion = K::motion(&points);
+    let boxes = || K::boxes(&points, 0.0);
+    K::decide_by_roots(
+        || *positions,
+        boxes,
+        &motion,
+        cubic(&motion).as_ref(),
+        observe,
+    )
 }

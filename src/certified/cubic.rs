@@ -55,13 +55,20 @@ impl Cubic {
         let mixed = both(&[normal_x.sum(), normal_y.sum(), normal_z.sum()]);
         let outer = dot(m, &same);
         let inner = dot(&m.map(E::swapped), &same) + dot(m, &mixed);
+        let bernstein = [
+            outer.start(),
+            inner.start() / 3.0,
+            inner.end() / 3.0,
+            outer.end(),
+        ];
+        Self::of_parts(bernstein, permanent, reach)
+    }
+
+    /// Of what has been computed before.
+    #[inline(always)]
+    pub(super) fn of_parts(bernstein: [f64; 4], permanent: f64, reach: [Vector; 3]) -> Self {
         Cubic {
-            bernstein: [
-                outer.start(),
-                inner.start() / 3.0,
-                inner.end() / 3.0,
-                outer.end(),
-            ],
+            bernstein,
             error: 16.0 * U * permanent,
             permanent,
             reach,

@@ -69,7 +69,7 @@ impl Stages for EdgeEdge {
     #[inline(never)]
     fn decide_by_roots<E: Ends>(
         positions: impl Fn() -> Positions,
-        boxes: &SweptBoxes,
+        boxes: impl Fn() -> SweptBoxes,
         motion: &Motion<E>,
         cubic: Option<&Cubic>,
         observe: &mut impl FnMut(Stage),
@@ -92,7 +92,7 @@ impl Stages for EdgeEdge {
             }
             Finding::Undecided => {}
         }
-        if motion.is_separated_by_search(boxes) {
+        if motion.is_separated_by_search(&boxes()) {
             observe(Stage::Search);
             return None;
         }

@@ -71,7 +71,7 @@ pub(super) trait Stages: 'static {
     /// The stages from the roots of the cubic on.
     fn decide_by_roots<E: Ends>(
         positions: impl Fn() -> Positions,
-        boxes: &SweptBoxes,
+        boxes: impl Fn() -> SweptBoxes,
         motion: &Motion<E>,
         cubic: Option<&Cubic>,
         observe: &mut impl FnMut(Stage),

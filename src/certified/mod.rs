@@ -70,6 +70,8 @@ mod motion;
 mod narrow;
 mod nearest;
 mod normal;
+mod pairs;
+mod queries;
 mod refine;
 mod rigid;
 mod root;
@@ -83,18 +85,20 @@ mod thick;
 mod vector;
 
 pub use batch::{Batch, BatchError};
+pub(crate) use block::CHUNK;
 pub use cascade::{classify, decide, decide_exactly, decide_observed};
 pub use discrete::{Proximity, decide_discrete};
 pub use kind::Kind;
 pub(crate) use motion::Positions;
 pub use narrow::Certified;
 pub use normal::{HasNormal, Normal};
+pub(crate) use pairs::{Indexed, Radii};
+pub use pairs::{Pairs, PairsError};
+pub(crate) use queries::MayTouch;
 pub use rigid::{RigidKind, decide_rigid, decide_rigid_exactly};
 pub use stage::Stage;
 pub use step::{
     Advance, Blocked, Clearance, ClearanceError, Precision, advance, advance_in, interpolate,
     interpolate_in,
 };
-pub(crate) use step::{
-    Limit, first_toi, halved, is_apart_until, is_apart_with_room, limit, rounding_of, stored,
-};
+pub(crate) use step::{Limit, first_toi, halved, is_apart_until, limit, rounding_of, stored};

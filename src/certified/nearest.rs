@@ -51,11 +51,13 @@ impl Gram {
     }
 
     /// `|K x L|^2`.
+    #[inline(always)]
     pub(super) fn determinant(&self) -> f64 {
         self.kk * self.ll - self.kl * self.kl
     }
 
     /// Where no boundary is in the way, times the determinant.
+    #[inline(always)]
     fn centre(&self) -> (f64, f64) {
         let Gram { kk, ll, kl, mk, ml } = self;
         (mk * ll - ml * kl, mk * kl - ml * kk)
@@ -81,51 +83,60 @@ pub(super) fn nearest_on_edges(gram: &Gram) -> Spot {
     Spot { u, v, directions }
 }
 
-/// The foot in the plane, or the nearest of the nearest points of the sides.
+/// The foot in the plane, or the nearest of the nearest points of the sides. Without a branch.
+#[inline(always)]
 pub(super) fn nearest_on_face(gram: &Gram) -> Spot {
     let (determinant, centre) = (gram.determinant(), gram.centre());
     let (u, v) = (centre.0 / determinant, centre.1 / determinant);
-    if u > 0.0 && v > 0.0 && u + v < 1.0 {
-        let directions = [
-            Direction::new(1.0, 0.0, true),
-            Direction::new(0.0, 1.0, true),
-        ];
-        return Spot { u, v, directions };
-    }
+    let is_inside = (u > 0.0) & (v > 0.0) & (u + v < 1.0);
     let Gram { kk, ll, kl, mk, ml } = gram;
     let third = clamped((kk - mk - ml + kl) / (ll + kk + 2.0 * kl));
     // One and what is left of it add up to 1 exactly.
     let rest = 1.0 - third;
     // Each side with the direction along it and one into the face.
-    let places = [
-        (clamped(mk / kk), 0.0, [(1.0, 0.0), (0.0, 1.0)]),
-        (0.0, clamped(-ml / ll), [(0.0, 1.0), (1.0, 0.0)]),
-        (rest, 1.0 - rest, [(1.0, -1.0), (-1.0, 0.0)]),
+    let sides = [
+        [clamped(mk / kk), 0.0, 1.0, 0.0, 0.0, 1.0],
+        [0.0, clamped(-ml / ll), 0.0, 1.0, 1.0, 0.0],
+        [rest, 1.0 - rest, 1.0, -1.0, -1.0, 0.0],
     ];
-    let height = |&(u, v, _): &(f64, f64, _)| {
+    let height = |[u, v, ..]: &[f64; 6]| {
         u * (u * kk - 2.0 * mk) + v * (v * ll + 2.0 * ml) - 2.0 * u * v * kl
     };
-    let [first, second, third] = places;
-    let nearer = |x, y| if height(&y) < height(&x) { y } else { x };
-    let (u, v, [along, inward]) = nearer(nearer(first, second), third);
+    let [first, second, third] = sides;
+    let nearer = |x, y| chosen(height(&y) < height(&x), y, x);
+    let side = nearer(nearer(first, second), third);
     // At a corner, the directions along both of its sides.
-    let [along, inward] = match (u, v) {
-        (0.0, 0.0) => [(1.0, 0.0), (0.0, 1.0)],
-        (1.0, 0.0) => [(-1.0, 0.0), (-1.0, 1.0)],
-        (0.0, 1.0) => [(0.0, -1.0), (1.0, -1.0)],
-        _ => {
-            let directions = [
-                Direction::new(along.0, along.1, true),
-                Direction::new(inward.0, inward.1, false),
-            ];
-            return Spot { u, v, directions };
-        }
-    };
-    let directions = [along, inward].map(|(u, v)| Direction::new(u, v, false));
+    let [u_side, v_side, ..] = side;
+    let is_at = |u: f64, v: f64| (u_side == u) & (v_side == v);
+    let corners = [
+        (is_at(0.0, 0.0), [0.0, 0.0, 1.0, 0.0, 0.0, 1.0]),
+        (is_at(1.0, 0.0), [1.0, 0.0, -1.0, 0.0, -1.0, 1.0]),
+        (is_at(0.0, 1.0), [0.0, 1.0, 0.0, -1.0, 1.0, -1.0]),
+    ];
+    let mut place = side;
+    let mut is_corner = false;
+    for (is_here, corner) in corners {
+        place = chosen(is_here, corner, place);
+        is_corner |= is_here;
+    }
+    let inside = [u, v, 1.0, 0.0, 0.0, 1.0];
+    let [u, v, first_u, first_v, second_u, second_v] = chosen(is_inside, inside, place);
+    let directions = [
+        Direction::new(first_u, first_v, is_inside | !is_corner),
+        Direction::new(second_u, second_v, is_inside),
+    ];
     Spot { u, v, directions }
 }
 
+/// One or the other, number by number.
+#[inline(always)]
+fn chosen(is_first: bool, first: [f64; 6], second: [f64; 6]) -> [f64; 6] {
+    let of = |i: usize| if is_first { first[i] } else { second[i] };
+    [of(0), of(1), of(2), of(3), of(4), of(5)]
+}
+
 impl Direction {
+    #[inline(always)]
     fn new(u: f64, v: f64, is_free: bool) -> Self {
         Direction { u, v, is_free }
     }

@@ -41,6 +41,7 @@
 use std::fmt;
 
 use super::cascade::decide_motion;
+use super::ends::{Ends, Plain, larger};
 use super::kind::{Kind, Stages};
 use super::motion::Positions;
 use super::thick::{self, apart_until, start_distance, starts_within};
@@ -108,7 +109,7 @@ impl Precision {
     #[inline(always)]
     fn is_single(self, start: f64, end: f64) -> bool {
         let is_single = |x: f64| f64::from(x as f32) == x;
-        self == Precision::F32 && is_single(start) && is_single(end)
+        (self == Precision::F32) & is_single(start) & is_single(end)
     }
 
     /// The number that a coordinate moves to. What is not finite stays so.
@@ -314,12 +315,10 @@ fn rounding(start: f64, end: f64) -> f64 {
     const SLACK: f64 = 1.0 + 1.0 / 1_048_576.0;
     /// 2^-1070.
     const UNDERFLOW: f64 = f64::from_bits(16);
-    if start == end {
-        return 0.0;
-    }
     let size = start.abs().max(end.abs());
     let difference = (end * U - start * U).abs();
-    ((size * U + 3.0 * difference) * SLACK) + UNDERFLOW
+    let error = ((size * U + 3.0 * difference) * SLACK) + UNDERFLOW;
+    if start == end { 0.0 } else { error }
 }
 
 /// More than the error of [`coordinate_in`], at any step.
@@ -330,9 +329,11 @@ fn rounding_in(start: f64, end: f64, precision: Precision) -> f64 {
     /// 2^-149.
     const LEAST: f64 = 1.401298464324817e-45;
     let double = rounding(start, end);
-    match start != end && precision.is_single(start, end) {
-        true => start.abs().max(end.abs()) * V + LEAST + double,
-        false => double,
+    let single = start.abs().max(end.abs()) * V + LEAST + double;
+    if (start != end) & precision.is_single(start, end) {
+        single
+    } else {
+        double
     }
 }
 
@@ -449,18 +450,6 @@ pub(crate) fn limit<K: Kind>(
     None
 }
 
-/// Whether rounded positions at any step certainly keep a distance above this, as far as planes
-/// prove it.
-#[inline(always)]
-pub(crate) fn is_apart_with_room<K: Kind>(
-    positions: &Positions,
-    kept: Radius,
-    precision: Precision,
-) -> bool {
-    with_room::<K::Stages>(positions, kept, precision)
-        .is_some_and(|radius| apart_until::<K::Stages>(&positions.points(), radius) >= 1.0)
-}
-
 /// Whether straight motion to the rounded positions at a step keeps a distance above this.
 pub(crate) fn is_apart_until<K: Kind>(
     positions: &Positions,
@@ -541,30 +530,45 @@ fn with_room<K: Stages>(
     kept: Radius,
     precision: Precision,
 ) -> Option<Radius> {
-    let Positions { start, end } = positions;
-    let of = |i: usize| rounding_of(&start[i], &end[i], precision);
-    let side = |points: std::ops::Range<usize>| points.map(of).fold(0.0, f64::max);
-    let room = (side(0..K::FIRST) + side(K::FIRST..4)) * (1.0 + 8.0 * f64::EPSILON);
-    with(kept, room)
+    with(kept, room::<K, _>(&positions.points::<Plain>(), precision))
+}
+
+/// At least the sum of the rounding errors of both sides.
+#[inline(always)]
+pub(super) fn room<K: Stages, E: Ends>(points: &[[E; 3]; 4], precision: Precision) -> f64 {
+    let of = |[x, y, z]: &[E; 3]| {
+        let axis = |x: &E| rounding_in(x.start(), x.end(), precision);
+        axis(x) + axis(y) + axis(z)
+    };
+    let [a, b, c, d] = points;
+    let (a, b, c, d) = (of(a), of(b), of(c), of(d));
+    let both = match K::FIRST {
+        1 => a + larger(larger(b, c), d),
+        _ => larger(a, b) + larger(c, d),
+    };
+    both * (1.0 + 8.0 * f64::EPSILON)
+}
+
+/// Above the sum of two numbers of at least 0, unless it is infinite.
+///
+/// The sum is off by a factor of at least `1 - u`, and so is its product with `1 + 8 u`. What that
+/// loses where it underflows is far below what is added.
+#[inline(always)]
+pub(super) fn widened(radius: f64, room: f64) -> f64 {
+    (radius + room) * (1.0 + 4.0 * f64::EPSILON) + f64::MIN_POSITIVE
 }
 
 /// More than the rounding error of a position: the sum of those along the axes is at least their
 /// Euclidean sum.
 #[inline(always)]
 pub(crate) fn rounding_of(start: &[f64; 3], end: &[f64; 3], precision: Precision) -> f64 {
-    let [x, y, z] = [0, 1, 2].map(|i| rounding_in(start[i], end[i], precision));
-    x + y + z
+    let axis = |i: usize| rounding_in(start[i], end[i], precision);
+    axis(0) + axis(1) + axis(2)
 }
 
 /// At least the radius and a distance; `None` if one is not a number of 0 or more.
 fn with(radius: Radius, distance: f64) -> Option<Radius> {
-    let [first, second] = radius.parts();
-    let sum = if first == 0.0 || second == 0.0 {
-        first + second
-    } else {
-        (first + second).next_up()
-    };
-    let sum = Radius::from([sum, distance]);
+    let sum = radius.beyond(distance);
     sum.is_valid().then_some(sum)
 }
 

@@ -1,11 +1,12 @@
 //! The pairs of a mesh that may come near each other during a step.
 
+use super::chunk::{Chunk, Screen};
 use super::error::MeshError;
 use super::topology::{Feature, Mesh, Pair, Thickness, half};
 use super::tree::{Bounds, Grid, Lane, Meets, Task, Tree};
 use crate::certified::{Positions, Precision, rounding_of};
 use crate::environment;
-use crate::parallel::{both, mapped};
+use crate::parallel::{both, mapped, mapped_with};
 use crate::query::Radius;
 
 /// A position as it is stored.
@@ -213,10 +214,10 @@ impl<'a> Candidates<'a> {
     }
 
     /// Visits all pairs, in parts: each part has a collection of its own, and these are returned in
-    /// an order that depends on the mesh alone.
+    /// an order that depends on the mesh alone. The pairs of a part come in chunks.
     pub(super) fn visit<A: Default + Send>(
         &self,
-        each: impl Fn(&mut A, &Candidate, &[u32; 4]) + Sync,
+        each: impl Fn(&mut A, &mut Screen, &Chunk) + Sync,
     ) -> Vec<A> {
         let meets = self.meets.as_ref();
         let edges = self.segments.tasks_within(PARTS, meets);
@@ -224,40 +225,50 @@ impl<'a> Candidates<'a> {
         let edges = edges.into_iter().map(|task| (PairKind::Edges, task));
         let faces = faces.into_iter().map(|task| (PairKind::Face, task));
         let tasks: Vec<(PairKind, Task)> = edges.chain(faces).collect();
-        mapped(tasks.len(), 1, |task| {
+        let share = tasks.len().div_ceil(PARTS).max(1);
+        let parts: Vec<&[(PairKind, Task)]> = tasks.chunks(share).collect();
+        mapped_with(parts.len(), Screen::default, |screen, part| {
             // By each thread that takes a part.
             debug_assert_eq!(environment::check(), Ok(()));
-            let (kind, task) = &tasks[task];
             let mut collected = A::default();
-            let mut found = |first: u32, second: u32| {
-                let candidate = Candidate {
-                    kind: *kind,
-                    first,
-                    second,
+            let mut chunk = Chunk::default();
+            for (kind, task) in parts[part] {
+                let mut found = |first: u32, second: u32| {
+                    let candidate = Candidate {
+                        kind: *kind,
+                        first,
+                        second,
+                    };
+                    let vertices = self.question.vertices_of(&candidate);
+                    let (a, b) = sides(*kind, &vertices);
+                    let is_shared = a.iter().any(|vertex| b.contains(vertex));
+                    if is_shared || self.question.mesh.is_left_out(a, b) {
+                        return;
+                    }
+                    if !chunk.takes(*kind) {
+                        each(&mut collected, screen, &chunk);
+                        chunk.clear();
+                    }
+                    chunk.push(candidate, vertices);
                 };
-                let vertices = self.question.vertices_of(&candidate);
-                let (a, b) = sides(*kind, &vertices);
-                let is_shared = a.iter().any(|vertex| b.contains(vertex));
-                if !is_shared && !self.question.mesh.is_left_out(a, b) {
-                    each(&mut collected, &candidate, &vertices);
-                }
-            };
-            match kind {
-                PairKind::Edges => {
-                    self.segments
-                        .pairs(&self.segments, task, meets, true, &mut found);
-                }
-                PairKind::Face => {
-                    self.vertices
-                        .pairs(&self.faces, task, meets, false, &mut found);
+                match kind {
+                    PairKind::Edges => {
+                        self.segments
+                            .pairs(&self.segments, task, meets, true, &mut found);
+                    }
+                    PairKind::Face => {
+                        self.vertices
+                            .pairs(&self.faces, task, meets, false, &mut found);
+                    }
                 }
             }
+            each(&mut collected, screen, &chunk);
             collected
         })
     }
 }
 
-/// About how many parts of each kind the pairs are visited in.
+/// About how many parts the pairs are visited in.
 const PARTS: usize = 256;
 
 /// How many boxes a thread makes at a time.

@@ -44,18 +44,19 @@ impl Mesh {
     ) -> Result<Option<MeshContact>, MeshError> {
         let question = Question::new(self, start, end, thickness.into())?;
         let candidates = Candidates::new(question, 0.0, None);
-        let parts = candidates.visit(
-            |first: &mut Option<(f64, Candidate)>, candidate, vertices| {
+        let parts = candidates.visit(|first: &mut Option<(f64, Candidate)>, screen, chunk| {
+            screen.may_touch(&question, chunk, |candidate, vertices| {
                 // Nothing is earlier than the start, and of several contacts there the first counts.
-                if first.is_some_and(|(toi, known)| toi == 0.0 && known < *candidate) {
+                let is_later = |(toi, known): (f64, Candidate)| toi == 0.0 && known < *candidate;
+                if first.is_some_and(is_later) {
                     return;
                 }
                 if let Some(toi) = question.toi(candidate.kind, vertices) {
                     let found = (toi, *candidate);
                     *first = Some(first.map_or(found, |known| earlier(known, found)));
                 }
-            },
-        );
+            });
+        });
         let first = parts.into_iter().flatten().reduce(earlier);
         Ok(first.and_then(|(_, candidate)| question.contact(&candidate)))
     }
@@ -74,14 +75,13 @@ impl Mesh {
     ) -> Result<Vec<MeshContact>, MeshError> {
         let question = Question::new(self, start, end, thickness.into())?;
         let candidates = Candidates::new(question, 0.0, None);
-        let parts = candidates.visit(|found: &mut Vec<_>, candidate, vertices| {
-            if question.toi(candidate.kind, vertices).is_some() {
-                found.extend(
-                    question
-                        .contact(candidate)
-                        .map(|contact| (*candidate, contact)),
-                );
-            }
+        let parts = candidates.visit(|found: &mut Vec<_>, screen, chunk| {
+            screen.may_touch(&question, chunk, |candidate, vertices| {
+                if question.toi(candidate.kind, vertices).is_some() {
+                    let contact = question.contact(candidate);
+                    found.extend(contact.map(|contact| (*candidate, contact)));
+                }
+            });
         });
         let mut contacts: Vec<_> = parts.into_iter().flatten().collect();
         contacts.sort_unstable_by_key(|(candidate, _)| *candidate);
@@ -102,11 +102,16 @@ impl Mesh {
         let question = Question::new(self, start, end, thickness.into())?;
         let candidates = Candidates::new(question, 0.0, None);
         let is_free = AtomicBool::new(true);
-        candidates.visit(|(): &mut (), candidate, vertices| {
-            let is_open = is_free.load(Ordering::Relaxed);
-            if is_open && question.toi(candidate.kind, vertices).is_some() {
-                is_free.store(false, Ordering::Relaxed);
+        candidates.visit(|(): &mut (), screen, chunk| {
+            if !is_free.load(Ordering::Relaxed) {
+                return;
             }
+            screen.may_touch(&question, chunk, |candidate, vertices| {
+                let is_open = is_free.load(Ordering::Relaxed);
+                if is_open && question.toi(candidate.kind, vertices).is_some() {
+                    is_free.store(false, Ordering::Relaxed);
+                }
+            });
         });
         Ok(is_free.into_inner())
     }

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::certified::{Clearance, ClearanceError};
-use crate::query::Short;
+use crate::query::{Counted, Short};
 
 /// What is wrong with the arrays of a mesh or of a question about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,22 +126,6 @@ impl fmt::Display for MeshError {
             }
             MeshError::Clearance(clearance) => ClearanceError(clearance).fmt(f),
         }
-    }
-}
-
-/// How many there are of something.
-struct Counted(usize, &'static str, &'static str);
-
-impl Counted {
-    fn verb(&self) -> &'static str {
-        if self.0 == 1 { "is" } else { "are" }
-    }
-}
-
-impl fmt::Display for Counted {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Counted(count, one, many) = *self;
-        write!(f, "{count} {}", if count == 1 { one } else { many })
     }
 }
 

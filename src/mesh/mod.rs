@@ -39,6 +39,7 @@
 //! current pool, and give the same answers, in the same order, on any number of them.
 
 mod candidates;
+mod chunk;
 mod contacts;
 mod error;
 mod step;

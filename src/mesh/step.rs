@@ -10,8 +10,7 @@ use super::candidates::{Candidate, Candidates, PairKind, Position, Question};
 use super::error::MeshError;
 use super::topology::{Mesh, Pair, Thickness};
 use crate::certified::{
-    Blocked, Clearance, Limit, Positions, Precision, halved, is_apart_until, is_apart_with_room,
-    limit, stored,
+    Blocked, Clearance, Limit, Positions, Precision, halved, is_apart_until, limit, stored,
 };
 use crate::query::{EdgeEdge, Radius, VertexFace};
 
@@ -131,19 +130,17 @@ impl Mesh {
             _ => 0.0,
         };
         let candidates = Candidates::new(question, beyond, Some(precision));
-        let parts = candidates.visit(|found: &mut Found, candidate, vertices| {
-            found.counts[candidate.kind as usize] += 1;
-            let positions = question.positions(vertices);
-            let radius = question.radius(candidate.kind, vertices);
-            let pair = PairOf {
-                kind: candidate.kind,
-                positions,
+        let parts = candidates.visit(|found: &mut Found, screen, chunk| {
+            found.counts[chunk.kind as usize] += chunk.len();
+            let close = &mut found.close;
+            let limit = |candidate: &Candidate, vertices: &[u32; 4]| {
+                let radius = question.radius(chunk.kind, vertices);
+                let limit = question
+                    .motion(candidate)
+                    .limit(radius, clearance, precision);
+                close.push((*candidate, limit));
             };
-            if !pair.is_apart_with_room(radius, beyond, precision) {
-                found
-                    .close
-                    .push((*candidate, pair.limit(radius, clearance, precision)));
-            }
+            screen.may_touch_rounded(&question, chunk, beyond, precision, limit);
         });
         let mut counts = [0; 2];
         let mut close = Vec::new();
@@ -302,25 +299,6 @@ struct PairOf {
 }
 
 impl PairOf {
-    #[inline(always)]
-    fn is_apart_with_room(&self, radius: Radius, beyond: f64, precision: Precision) -> bool {
-        let kept = match beyond == 0.0 {
-            true => radius,
-            false => {
-                let [first, second] = radius.parts();
-                let sum = match second == 0.0 {
-                    true => first,
-                    false => (first + second).next_up(),
-                };
-                [sum, beyond].into()
-            }
-        };
-        match self.kind {
-            PairKind::Edges => is_apart_with_room::<EdgeEdge>(&self.positions, kept, precision),
-            PairKind::Face => is_apart_with_room::<VertexFace>(&self.positions, kept, precision),
-        }
-    }
-
     #[inline(never)]
     fn limit(&self, radius: Radius, clearance: Clearance, precision: Precision) -> Option<Limit> {
         match self.kind {

@@ -87,6 +87,9 @@ const CELLS: f64 = 1024.0;
 struct Block {
     low: [[f32; WIDTH]; 3],
     high: [[f32; WIDTH]; 3],
+    /// The box around all of them.
+    least: [f32; 3],
+    largest: [f32; 3],
     /// The groups in each box, as bits.
     groups: [u64; WIDTH],
 }
@@ -97,8 +100,12 @@ impl Block {
             // No box: overlaps none, not even an infinite one.
             low: [[f32::NAN; WIDTH]; 3],
             high: [[f32::NAN; WIDTH]; 3],
+            least: [0.0; 3],
+            largest: [0.0; 3],
             groups: [0; WIDTH],
         };
+        let around = around(boxes);
+        (block.least, block.largest) = (around.low, around.high);
         for (i, lane) in boxes.iter().enumerate() {
             for axis in 0..3 {
                 block.low[axis][i] = lane.low[axis];
@@ -112,8 +119,22 @@ impl Block {
     /// The lanes of another block that a lane of this one overlaps, as bits.
     #[inline(always)]
     fn overlaps(&self, lane: usize, other: &Block) -> u32 {
+        let box_of = |rows: &[[f32; WIDTH]; 3]| [rows[0][lane], rows[1][lane], rows[2][lane]];
+        other.lanes_over(&box_of(&self.low), &box_of(&self.high))
+    }
+
+    /// The lanes that overlap the box around all of another block, as bits.
+    #[inline(always)]
+    fn overlap_all(&self, other: &Block) -> u32 {
+        self.lanes_over(&other.least, &other.largest)
+    }
+
+    /// The lanes that overlap a box, as bits.
+    #[inline(always)]
+    fn lanes_over(&self, low: &[f32; 3], high: &[f32; 3]) -> u32 {
+        let other = self;
         let axis = |i: usize| {
-            let [low, high] = [&self.low, &self.high].map(|rows| f32x8::splat(rows[i][lane]));
+            let [low, high] = [f32x8::splat(low[i]), f32x8::splat(high[i])];
             let [other_low, other_high] = [&other.low, &other.high].map(|rows| f32x8::new(rows[i]));
             low.simd_le(other_high) & other_low.simd_le(high)
         };
@@ -154,6 +175,12 @@ impl Lane {
     }
 }
 
+/// The box around some.
+fn around(boxes: &[Lane]) -> Lane {
+    let joined = |around: Lane, lane: &Lane| around.joined(lane);
+    boxes.iter().fold(Lane::NOTHING, joined)
+}
+
 /// Which groups meet which: bit `h` of entry `g`. Groups from 64 on share these bits.
 pub(super) type Meets = [u64; 64];
 
@@ -187,10 +214,6 @@ impl Tree {
             if level.len() <= WIDTH {
                 break;
             }
-            let around = |block: &[Lane]| {
-                let joined = |around: Lane, lane: &Lane| around.joined(lane);
-                block.iter().fold(Lane::NOTHING, joined)
-            };
             level = level.chunks(WIDTH).map(around).collect();
         }
         Tree { levels, items }
@@ -293,7 +316,11 @@ impl Tree {
         } = *task;
         let (a, b) = (&self.levels[level][first], &other.levels[level][second]);
         let is_self = within && first == second;
-        for i in 0..WIDTH {
+        let mut rows = a.overlap_all(b);
+        // Ends: a lane is taken out each time.
+        while rows != 0 {
+            let i = rows.trailing_zeros() as usize;
+            rows &= rows - 1;
             let mut lanes = a.overlaps(i, b);
             if is_self {
                 lanes &= u32::MAX << (i + usize::from(level == 0));

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::shown::Short;
+
 /// The sum of two radii in metres, as of two wires. The sum is meant exactly: it is never rounded.
 ///
 /// A query is refused unless both are finite and not negative.
@@ -20,6 +22,7 @@ impl Radius {
     }
 
     /// Whether it is 0.
+    #[inline]
     pub fn is_zero(&self) -> bool {
         self.parts == [0.0; 2]
     }
@@ -27,6 +30,18 @@ impl Radius {
     /// The sum, rounded to the nearest `f64`; infinite if it is beyond the largest.
     pub fn rounded(&self) -> f64 {
         self.parts[0] + self.parts[1]
+    }
+
+    /// At least this and a distance.
+    #[inline]
+    pub(crate) fn beyond(&self, distance: f64) -> Self {
+        let [first, second] = self.parts;
+        let sum = if first == 0.0 || second == 0.0 {
+            first + second
+        } else {
+            (first + second).next_up()
+        };
+        [sum, distance].into()
     }
 
     /// Whether both radii are finite and not negative.
@@ -46,22 +61,6 @@ impl From<f64> for Radius {
 impl From<[f64; 2]> for Radius {
     fn from(parts: [f64; 2]) -> Self {
         Radius { parts }
-    }
-}
-
-/// A number in an error or a table: with an exponent where it would have many digits.
-pub(crate) struct Short(pub(crate) f64);
-
-impl fmt::Display for Short {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Short(value) = *self;
-        let is_ordinary = (1e-6..1e16).contains(&value.abs()) || !value.is_finite();
-        match value {
-            // Of either sign.
-            0.0 => f.write_str("0"),
-            _ if is_ordinary => write!(f, "{value}"),
-            _ => write!(f, "{value:e}"),
-        }
     }
 }
 

@@ -83,7 +83,7 @@ impl Stages for VertexFace {
     #[inline(always)]
     fn decide_by_roots<E: Ends>(
         positions: impl Fn() -> Positions,
-        _: &SweptBoxes,
+        _: impl Fn() -> SweptBoxes,
         motion: &Motion<E>,
         cubic: Option<&Cubic>,
         observe: &mut impl FnMut(Stage),

@@ -36,7 +36,33 @@ pub(super) enum Advance {
     Near,
 }
 
-const MOST_STEPS: u32 = 24;
+/// How far planes have been tried.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::certified) enum Reached {
+    /// The direction from middle to middle proves so much.
+    ByCentres(f64),
+    /// Planes that turn prove so much.
+    ByPlanes {
+        t: f64,
+        /// How many there have been.
+        planes: u32,
+        /// Whether another one would not lead farther.
+        is_last: bool,
+    },
+}
+
+/// What a plane that turns proves.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::certified) struct Plane {
+    /// That they are apart for the whole step.
+    pub(in crate::certified) is_apart: bool,
+    /// Else that they are up to this time.
+    pub(in crate::certified) t: f64,
+    /// Whether another plane would not lead farther.
+    pub(in crate::certified) is_last: bool,
+}
+
+const MOST_PLANES: u32 = 24;
 
 impl<E: Ends> Moving<E> {
     #[inline(always)]
@@ -92,7 +118,7 @@ impl<E: Ends> Moving<E> {
 
     /// Whether it does so for the whole step.
     #[inline(always)]
-    fn is_separated_by<K: Stages>(&self, n: &Vector) -> bool {
+    pub(super) fn is_separated_by<K: Stages>(&self, n: &Vector) -> bool {
         let [start, end] = self.margins::<K>(n);
         (start > 0.0) & (end > 0.0)
     }
@@ -102,12 +128,6 @@ impl<E: Ends> Moving<E> {
     #[inline(always)]
     pub(super) fn stays_apart_by_centres<K: Stages>(&self) -> f64 {
         self.stays_apart_by::<K>(&self.between_centres::<K>())
-    }
-
-    /// Whether that is so for the whole step.
-    #[inline(always)]
-    pub(super) fn is_separated_by_centres<K: Stages>(&self) -> bool {
-        self.is_separated_by::<K>(&self.between_centres::<K>())
     }
 
     /// The direction from the middle of one side's motion to that of the other.
@@ -120,32 +140,53 @@ impl<E: Ends> Moving<E> {
     }
 
     /// Advances from a time up to which they are apart.
-    pub(super) fn advance<K: Stages>(&self, from: f64) -> Advance {
-        let mut t = from;
+    pub(super) fn advance<K: Stages>(&self, reached: Reached) -> Advance {
+        let (mut t, mut planes) = match reached {
+            Reached::ByCentres(t) => (t, 0),
+            Reached::ByPlanes { t, is_last, .. } if is_last => return Advance::until(t),
+            Reached::ByPlanes { t, planes, .. } => (t, planes),
+        };
         let mut here = Instant::new::<K, E>(self, t);
         // Most sides that stay apart turn little.
-        if self.is_separated_by::<K>(&here.difference) {
+        let is_first = matches!(reached, Reached::ByCentres(_));
+        if is_first && self.is_separated_by::<K>(&here.difference) {
             return Advance::Apart;
         }
         // Ends: after so many planes, at the end of the step or not.
-        for _ in 0..MOST_STEPS {
-            // Not below what is left.
-            let left = (1.0 - t) * (1.0 + 2.0 * U);
-            let step = self.stays_apart_turning::<K>(&here, &Turning::new(&here), left);
-            if step >= left {
+        while planes < MOST_PLANES {
+            let plane = self.next_plane::<K>(&here, t);
+            if plane.is_apart {
                 return Advance::Apart;
             }
-            // Not above the time that is reached.
-            let next = (t + step) * (1.0 - 2.0 * U);
-            if !(next > t) {
-                break;
-            }
-            t = next;
-            if step < t * SHORT {
+            t = plane.t;
+            if plane.is_last {
                 break;
             }
             here = Instant::new::<K, E>(self, t);
+            planes += 1;
         }
+        Advance::until(t)
+    }
+
+    /// The plane that turns, from a time on.
+    #[inline(always)]
+    pub(super) fn next_plane<K: Stages>(&self, here: &Instant, t: f64) -> Plane {
+        // Not below what is left.
+        let left = (1.0 - t) * (1.0 + 2.0 * U);
+        let step = self.stays_apart_turning::<K>(here, &Turning::new(here), left);
+        // Not above the time that is reached.
+        let next = (t + step) * (1.0 - 2.0 * U);
+        let is_later = next > t;
+        Plane {
+            is_apart: step >= left,
+            t: if is_later { next } else { t },
+            is_last: !is_later | (step < next * SHORT),
+        }
+    }
+}
+
+impl Advance {
+    fn until(t: f64) -> Self {
         if t > 0.0 {
             Advance::Until(t)
         } else {

@@ -35,8 +35,9 @@ use super::separate::U;
 use super::stage::{Finding, Stage};
 use crate::contact::Hit;
 use crate::query::Radius;
+pub(super) use advance::Reached;
 pub(super) use advance::rounded_up;
-use advance::{Advance, Moving};
+use advance::{Advance, Moving, Plane};
 use contact::contact;
 use instant::Instant;
 use refine_toi::{RefinedToi, refine_toi};
@@ -48,15 +49,37 @@ pub(super) fn start_distance<K: Stages>(positions: &Positions) -> f64 {
     dot(&difference, &difference).sqrt()
 }
 
-/// Whether the swept boxes are farther apart than a radius, which is [`rounded_up`], and whether the
-/// direction from middle to middle separates the two by more than it for the whole step.
+/// Whether the swept boxes are farther apart than a radius, which is [`rounded_up`], and up to when
+/// the direction from middle to middle separates the two by more than it: 1 or more for the whole
+/// step.
 #[inline(always)]
-pub(super) fn are_apart<K: Stages, E: Ends>(points: &[[E; 3]; 4], radius: f64) -> [bool; 2] {
+pub(super) fn apart_until_by_centres<K: Stages, E: Ends>(
+    points: &[[E; 3]; 4],
+    radius: f64,
+) -> (bool, f64) {
     let moving = Moving::new::<K>(points, radius);
-    [
-        moving.boxes.are_disjoint,
-        moving.is_separated_by_centres::<K>(),
-    ]
+    let proved = moving.stays_apart_by_centres::<K>();
+    (moving.boxes.are_disjoint, proved)
+}
+
+/// Whether the plane between the points that are nearest at a time separates the two by more than
+/// the radius for the whole step.
+#[inline(always)]
+pub(super) fn are_apart_from<K: Stages, E: Ends>(
+    points: &[[E; 3]; 4],
+    radius: f64,
+    t: f64,
+) -> bool {
+    let moving = Moving::new::<K>(points, radius);
+    let here = Instant::new::<K, E>(&moving, t);
+    moving.is_separated_by::<K>(&here.difference)
+}
+
+/// What the next plane that turns proves, from a time on.
+#[inline(always)]
+pub(super) fn next_plane<K: Stages, E: Ends>(points: &[[E; 3]; 4], radius: f64, t: f64) -> Plane {
+    let moving = Moving::new::<K>(points, radius);
+    moving.next_plane::<K>(&Instant::new::<K, E>(&moving, t), t)
 }
 
 /// Up to when the two sides are certainly farther apart than a radius above 0, as far as planes
@@ -76,7 +99,7 @@ pub(super) fn apart_until<K: Stages>(points: &[[f64x2; 3]; 4], radius: Radius) -
 
 #[inline(never)]
 fn apart_until_by_planes<K: Stages>(moving: &Moving<f64x2>, proved: f64) -> f64 {
-    match moving.advance::<K>(proved) {
+    match moving.advance::<K>(Reached::ByCentres(proved)) {
         Advance::Apart => 1.0,
         Advance::Until(proved) => proved,
         Advance::Near => 0.0,
@@ -115,7 +138,8 @@ fn toi_open<K: Stages>(
     if is_open && moving.is_within(&Instant::new::<K, _>(moving, 0.0), radius) {
         return Some(0.0);
     }
-    decide_open::<K>(&|| *positions, moving, radius, proved, &mut |_| {}).map(|hit| hit.toi)
+    let reached = Reached::ByCentres(proved);
+    decide_open::<K>(&|| *positions, moving, radius, reached, &mut |_| {}).map(|hit| hit.toi)
 }
 
 /// The first contact within a radius above 0, by all stages.
@@ -135,7 +159,24 @@ pub(super) fn decide<K: Stages>(
         observe(Stage::Direction);
         return None;
     }
-    decide_open::<K>(&positions, &moving, radius, proved, observe)
+    decide_open::<K>(
+        &positions,
+        &moving,
+        radius,
+        Reached::ByCentres(proved),
+        observe,
+    )
+}
+
+/// The first contact within a radius above 0, by the stages after those that have reached a time.
+pub(super) fn decide_from<K: Stages>(
+    positions: &Positions,
+    radius: Radius,
+    reached: Reached,
+    observe: &mut impl FnMut(Stage),
+) -> Option<Hit<K::Place>> {
+    let moving = Moving::new::<K>(&positions.points::<f64x2>(), rounded_up(radius));
+    decide_open::<K>(&|| *positions, &moving, radius, reached, observe)
 }
 
 /// What the first two stages leave open; not inlined, so that these stay small.
@@ -144,10 +185,10 @@ fn decide_open<K: Stages>(
     positions: &impl Fn() -> Positions,
     moving: &Moving<f64x2>,
     radius: Radius,
-    proved: f64,
+    reached: Reached,
     observe: &mut impl FnMut(Stage),
 ) -> Option<Hit<K::Place>> {
-    match decide_by_planes::<K>(positions, moving, radius, proved) {
+    match decide_by_planes::<K>(positions, moving, radius, reached) {
         Finding::Hit(hit) => {
             observe(Stage::Planes);
             Some(hit)
@@ -168,9 +209,9 @@ fn decide_by_planes<K: Stages>(
     positions: &impl Fn() -> Positions,
     moving: &Moving<f64x2>,
     radius: Radius,
-    proved: f64,
+    reached: Reached,
 ) -> Finding<Hit<K::Place>> {
-    let refined = match moving.advance::<K>(proved) {
+    let refined = match moving.advance::<K>(reached) {
         Advance::Apart => return Finding::Miss,
         _ if !moving.is_ordinary() => return Finding::Undecided,
         Advance::Near => {

@@ -1,0 +1,197 @@
+//! Many queries: the first stages for several at once, the rest one by one.
+
+use std::ops::Range;
+
+use super::block::{CHUNK, Open, Source};
+use super::cascade::{decide_motion, decide_rest};
+use super::kind::{Kind, Stages};
+use super::stage::Stage;
+use super::step::Precision;
+use super::thick;
+use crate::contact::Hit;
+use crate::environment;
+use crate::query::Radius;
+
+/// Whether none of these is above 0; `None` if some are and some are not.
+pub(super) fn are_thin(radii: &[Radius]) -> Option<bool> {
+    let zeros = radii.iter().filter(|radius| radius.is_zero()).count();
+    let are_thin = zeros == radii.len();
+    (are_thin || zeros == 0).then_some(are_thin)
+}
+
+/// All hits of so many queries with their places, in order.
+pub(super) fn decide<K: Stages>(source: &impl Source, count: usize) -> Vec<(usize, Hit<K::Place>)> {
+    let mut hits = Vec::new();
+    decide_range::<K>(
+        source,
+        0..count,
+        |query, hit| hits.push((query, hit)),
+        |_| {},
+    );
+    hits
+}
+
+/// The same by all threads of the current pool.
+#[cfg(feature = "rayon")]
+pub(super) fn par_decide<K: Stages>(
+    source: &(impl Source + Sync),
+    count: usize,
+) -> Vec<(usize, Hit<K::Place>)>
+where
+    K::Place: Send,
+{
+    use rayon::prelude::*;
+
+    /// How many queries a thread takes at a time.
+    const SHARE: usize = 4096;
+    let starts = (0..count).into_par_iter().step_by(SHARE);
+    let hits = starts.flat_map_iter(|start| {
+        let mut hits = Vec::new();
+        let share = start..count.min(start + SHARE);
+        decide_range::<K>(source, share, |query, hit| hits.push((query, hit)), |_| {});
+        hits
+    });
+    hits.collect()
+}
+
+/// Calls `hit` for each hit of some queries, in order, and says for each query, in any order, which
+/// stage decided it. Allocates nothing.
+pub(super) fn decide_range<K: Stages>(
+    source: &impl Source,
+    queries: Range<usize>,
+    mut hit: impl FnMut(usize, Hit<K::Place>),
+    mut observe: impl FnMut(Stage),
+) {
+    // By each thread that takes a part.
+    debug_assert_eq!(environment::check(), Ok(()));
+    let mut screen = Screen {
+        open: Open::new(),
+        are_thin: true,
+        unscreened: 0,
+    };
+    for first in queries.clone().step_by(CHUNK) {
+        let chunk = first..queries.end.min(first + CHUNK);
+        let are_thin = source.are_thin(chunk.clone());
+        if screen.open.is_full() || are_thin != Some(screen.are_thin) {
+            screen.finish::<K>(source, &mut hit, &mut observe);
+        }
+        screen.are_thin = are_thin.unwrap_or_default();
+        match are_thin {
+            Some(true) => screen.open.add::<K>(source, chunk, &mut observe),
+            Some(false) => screen.open.add_thick::<K>(source, chunk, &mut observe),
+            None => {
+                for query in chunk {
+                    let positions = || source.positions(query);
+                    let radius = source.radius(query);
+                    if let Some(found) = decide_motion::<K>(positions, radius, &mut observe) {
+                        hit(query, found);
+                    }
+                }
+            }
+        }
+    }
+    screen.finish::<K>(source, &mut hit, &mut observe);
+}
+
+/// Which queries may touch, as far as the stages say that are taken for several at once.
+pub(crate) struct MayTouch {
+    open: Open,
+}
+
+impl MayTouch {
+    pub(crate) fn new() -> Self {
+        MayTouch { open: Open::new() }
+    }
+
+    /// Calls `each` for queries, of the first [`CHUNK`] or fewer of a source, in order: for all that
+    /// touch, and for some that do not.
+    pub(crate) fn of<K: Kind>(
+        &mut self,
+        source: &impl Source,
+        count: usize,
+        each: impl FnMut(usize),
+    ) {
+        let all = 0..count.min(CHUNK);
+        match source.are_thin(all.clone()) {
+            Some(true) => {
+                self.open.add::<K::Stages>(source, all, &mut |_| {});
+                self.open.screen::<K::Stages>(true, &mut |_| {});
+            }
+            Some(false) => {
+                self.open.add_thick::<K::Stages>(source, all, &mut |_| {});
+                self.open.screen_thick::<K::Stages>(&mut |_| {});
+            }
+            None => return all.for_each(each),
+        }
+        self.visit(each);
+    }
+
+    /// As [`of`](Self::of), for what rounded positions at any step touch.
+    pub(crate) fn with_room<K: Kind>(
+        &mut self,
+        source: &impl Source,
+        count: usize,
+        precision: Precision,
+        each: impl FnMut(usize),
+    ) {
+        let all = 0..count.min(CHUNK);
+        self.open.add_with_room::<K::Stages>(source, all, precision);
+        self.open.screen_thick::<K::Stages>(&mut |_| {});
+        self.visit(each);
+    }
+
+    fn visit(&mut self, each: impl FnMut(usize)) {
+        self.open.queries().iter().copied().for_each(each);
+        self.open.clear();
+    }
+}
+
+/// What the first two stages leave, and what becomes of it.
+struct Screen {
+    open: Open,
+    /// Whether what is open has no radius, or all of it has one above 0.
+    are_thin: bool,
+    /// How many times more the roots are left to the rest.
+    unscreened: u32,
+}
+
+/// How many times that is so after it did not pay.
+const UNSCREENED: u32 = 15;
+
+impl Screen {
+    /// Decides what is open.
+    fn finish<K: Stages>(
+        &mut self,
+        source: &impl Source,
+        hit: &mut impl FnMut(usize, Hit<K::Place>),
+        observe: &mut impl FnMut(Stage),
+    ) {
+        match self.are_thin {
+            true => self.screen::<K>(observe),
+            false => self.open.screen_thick::<K>(observe),
+        }
+        for (place, &query) in self.open.queries().iter().enumerate() {
+            let positions = self.open.positions(place);
+            let found = if self.are_thin {
+                let cubic = |motion: &_| self.open.cubic(place, motion);
+                decide_rest::<K>(&positions, cubic, observe)
+            } else {
+                let (radius, reached) = (source.radius(query), self.open.reached(place));
+                thick::decide_from::<K>(&positions, radius, reached, observe)
+            };
+            if let Some(found) = found {
+                hit(query, found);
+            }
+        }
+        self.open.clear();
+    }
+
+    fn screen<K: Stages>(&mut self, observe: &mut impl FnMut(Stage)) {
+        if self.unscreened > 0 {
+            self.unscreened -= 1;
+            self.open.screen::<K>(false, observe);
+        } else if !self.open.screen::<K>(true, observe) {
+            self.unscreened = UNSCREENED;
+        }
+    }
+}

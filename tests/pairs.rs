@@ -1,0 +1,165 @@
+//! Pairs by index: the answers of one by one, and what is refused.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use tunnelproof::certified::Stage;
+use tunnelproof::{EdgeEdge, Kind, Pairs, PairsError, Point, Query, Radius, VertexFace, decide};
+use tunnelproof_reference::generate::{FAMILIES, OTHER_KINDS};
+
+type Position = [f64; 3];
+
+/// Around the sizes in which the first stages take queries.
+const COUNTS: [usize; 12] = [0, 1, 7, 8, 9, 31, 32, 33, 64, 65, 257, 1000];
+
+/// Queries with their points in arrays.
+#[derive(Default)]
+struct Set {
+    start: Vec<Position>,
+    end: Vec<Position>,
+    indices: Vec<[u32; 4]>,
+    radii: Vec<Radius>,
+}
+
+impl Set {
+    fn push<K: Kind>(&mut self, query: &K) {
+        let first = self.start.len() as u32;
+        let plain = |point: &Point| [point.x, point.y, point.z];
+        self.start.extend(query.start().iter().map(plain));
+        self.end.extend(query.end().iter().map(plain));
+        self.indices.push([0, 1, 2, 3].map(|corner| first + corner));
+        self.radii.push(query.radius());
+    }
+
+    fn points(&self, pair: usize) -> [[Point; 4]; 2] {
+        let of = |all: &[Position]| self.indices[pair].map(|index| all[index as usize].into());
+        [of(&self.start), of(&self.end)]
+    }
+
+    /// Asks the first pairs, with the radius of each: how many hits there are.
+    fn check<K: Kind>(&self, count: usize, query: impl Fn([[Point; 4]; 2], Radius) -> K) -> usize {
+        let (indices, radii) = (&self.indices[..count], &self.radii[..count]);
+        let pairs = Pairs::<K>::with_radii(&self.start, &self.end, indices, radii);
+        let pairs = pairs.expect("they are pairs");
+        let one_by_one = |pair: usize| decide(&query(self.points(pair), radii[pair]));
+        let expected = (0..count).filter_map(|pair| Some((pair, one_by_one(pair)?)));
+        let expected: Vec<_> = expected.collect();
+        assert_eq!(pairs.decide(), expected, "{count}");
+        let (mut found, mut stages) = (Vec::new(), Vec::<Stage>::new());
+        pairs.decide_observed(
+            |pair, hit| found.push((pair, hit)),
+            |stage| stages.push(stage),
+        );
+        assert_eq!((found, stages.len()), (expected, pairs.len()), "{count}");
+        #[cfg(feature = "rayon")]
+        assert_eq!(pairs.par_decide(), pairs.decide());
+        pairs.decide().len()
+    }
+}
+
+fn edges([start, end]: [[Point; 4]; 2], radius: Radius) -> EdgeEdge {
+    EdgeEdge::new(start, end, radius).expect("finite")
+}
+
+fn face([start, end]: [[Point; 4]; 2], radius: Radius) -> VertexFace {
+    VertexFace::new(start, end, radius).expect("finite")
+}
+
+#[test]
+fn pairs_of_every_family_are_decided_as_one_by_one() {
+    let mut hits = [0; 2];
+    for family in FAMILIES.iter().chain(OTHER_KINDS) {
+        let (mut of_edges, mut of_faces) = (Set::default(), Set::default());
+        for index in 0..1000 {
+            match family.query(5, index) {
+                Query::EdgeEdge(query) => of_edges.push(&query),
+                Query::VertexFace(query) => of_faces.push(&query),
+            }
+        }
+        for count in COUNTS {
+            if count <= of_edges.indices.len() {
+                hits[0] += of_edges.check(count, edges);
+            }
+            if count <= of_faces.indices.len() {
+                hits[1] += of_faces.check(count, face);
+            }
+        }
+    }
+    assert!(hits[0] > 10_000 && hits[1] > 1000, "{hits:?}");
+}
+
+/// Points of a small cloud, which pairs share, and a pair may have twice.
+#[test]
+fn pairs_that_share_points_are_decided_as_one_by_one() {
+    let rng = &mut ChaCha8Rng::seed_from_u64(11);
+    for radius in [0.0, 0.02, 0.3] {
+        let mut set = Set::default();
+        let mut points = |size: f64| -> Vec<Position> {
+            let point = |_| [(); 3].map(|()| rng.random_range(-size..size));
+            (0..60).map(point).collect()
+        };
+        (set.start, set.end) = (points(1.0), points(1.0));
+        let mut indices = || [(); 4].map(|()| rng.random_range(0..60));
+        set.indices = (0..1000).map(|_| indices()).collect();
+        // The same for all, and of every fifth pair another one.
+        set.radii = vec![radius.into(); 1000];
+        let (of_edges, of_faces) = (set.check(1000, edges), set.check(1000, face));
+        assert!(of_edges > 10 && of_faces > 10, "{of_edges} {of_faces}");
+        let same = Pairs::<EdgeEdge>::new(&set.start, &set.end, &set.indices, radius);
+        let each = Pairs::with_radii(&set.start, &set.end, &set.indices, &set.radii);
+        let decided =
+            |pairs: Result<Pairs<EdgeEdge>, PairsError>| pairs.map(|pairs| pairs.decide());
+        assert_eq!(decided(same), decided(each));
+        for (pair, radius) in set.radii.iter_mut().enumerate() {
+            if pair % 5 == 0 {
+                *radius = [0.1, 0.05].into();
+            }
+        }
+        set.check(1000, edges);
+        set.check(1000, face);
+    }
+}
+
+#[test]
+fn what_is_no_pair_is_refused() {
+    let points = [[0.0; 3], [1.0; 3], [2.0; 3], [3.0; 3]];
+    let mut not_finite = points;
+    not_finite[2][1] = f64::NAN;
+    let all = [[0, 1, 2, 3]];
+    let said = |start: &[Position], end: &[Position], indices: &[[u32; 4]], radius: f64| {
+        let pairs = Pairs::<EdgeEdge>::new(start, end, indices, radius);
+        pairs
+            .map(|pairs| pairs.len())
+            .map_err(|error| error.to_string())
+    };
+    assert_eq!(said(&points, &points, &all, 0.0), Ok(1));
+    assert_eq!(said(&[], &[], &[], 0.0), Ok(0));
+    let error = |text: &str| Err(text.to_owned());
+    assert_eq!(
+        said(&points, &points[..3], &all, 0.0),
+        error("3 positions at the end, and 4 positions at the start")
+    );
+    assert_eq!(
+        said(&points, &not_finite, &all, 0.0),
+        error("end[2][1] is NaN, not a finite number")
+    );
+    assert_eq!(
+        said(&points, &points, &[[0, 1, 2, 3], [0, 4, 1, 2]], 0.0),
+        error("pair 1: index 1 is 4, and there are 4 positions")
+    );
+    assert_eq!(
+        said(&points, &points, &all, -1.0),
+        error("the radius is -1; it has to be finite, and 0 or more")
+    );
+    let of_radii = |radii: &[Radius]| {
+        let pairs = Pairs::<VertexFace>::with_radii(&points, &points, &all, radii);
+        pairs
+            .map(|pairs| pairs.len())
+            .map_err(|error| error.to_string())
+    };
+    assert_eq!(of_radii(&[Radius::ZERO]), Ok(1));
+    assert_eq!(of_radii(&[]), error("0 radii, and 1 pair"));
+    assert_eq!(
+        of_radii(&[f64::INFINITY.into()]),
+        error("pair 0: the radius is inf; it has to be finite, and 0 or more")
+    );
+}
