@@ -159,6 +159,15 @@ impl<K: Kind> Batch<K> {
     pub fn par_decide(&self) -> Vec<(usize, Hit<K::Place>)> {
         queries::par_decide::<K::Stages>(self, self.len())
     }
+
+    fn positions(&self, index: usize) -> Positions {
+        let of = |i: usize| self.coordinates[i][index];
+        let at = |i: usize| [of(i), of(i + 1), of(i + 2)];
+        Positions {
+            start: [at(0), at(3), at(6), at(9)],
+            end: [at(12), at(15), at(18), at(21)],
+        }
+    }
 }
 
 impl<K> Source for Batch<K> {
@@ -185,16 +194,6 @@ impl<K> Source for Batch<K> {
 
     fn are_thin(&self, queries: Range<usize>) -> Option<bool> {
         queries::are_thin(self.radii.get(queries).unwrap_or_default())
-    }
-
-    #[inline(always)]
-    fn positions(&self, index: usize) -> Positions {
-        let of = |i: usize| self.coordinates[i][index];
-        let at = |i: usize| [of(i), of(i + 1), of(i + 2)];
-        Positions {
-            start: [at(0), at(3), at(6), at(9)],
-            end: [at(12), at(15), at(18), at(21)],
-        }
     }
 }
 

@@ -48,9 +48,6 @@ pub(crate) trait Source {
     /// without a query may hold anything.
     fn load(&self, tiles: &mut [Tile; CHUNK / LANES], queries: Range<usize>);
 
-    /// The positions of a query.
-    fn positions(&self, query: usize) -> Positions;
-
     /// The distance at which its sides touch.
     fn radius(&self, query: usize) -> Radius;
 
@@ -122,14 +119,23 @@ impl Open {
         reached_of(&self.found(place))
     }
 
+    /// Puts the [positions](Self::positions) of some queries, no more than [`CHUNK`], at the first
+    /// places. Nothing may be open; nor are these.
+    pub(super) fn put(&mut self, source: &impl Source, queries: Range<usize>) {
+        if let Some(tiles) = self.tiles.first_chunk_mut() {
+            source.load(tiles, queries);
+        }
+    }
+
     /// Adds what the first two stages leave of some queries without a radius, no more than
-    /// [`CHUNK`].
+    /// [`CHUNK`]: how many these are.
     pub(super) fn add<K: Stages>(
         &mut self,
         source: &impl Source,
         queries: Range<usize>,
         observe: &mut impl FnMut(Stage),
-    ) {
+    ) -> usize {
+        let before = self.count;
         let decided = Arch::new().dispatch(First::<_, _, _, 2, 0> {
             open: self,
             source,
@@ -138,6 +144,7 @@ impl Open {
             prepare: |_: &mut [Tile; CHUNK / LANES], _: Range<usize>| {},
         });
         report([Stage::Boxes, Stage::Direction], decided, observe);
+        self.count - before
     }
 
     /// The same for queries with radii above 0.
@@ -192,20 +199,10 @@ impl Open {
         })
     }
 
-    /// The third stage, and if `by_roots` the fourth as far as it goes without a branch: a miss at
-    /// the only root. Returns whether that decides so much that it pays.
-    pub(super) fn screen<K: Stages>(
-        &mut self,
-        by_roots: bool,
-        observe: &mut impl FnMut(Stage),
-    ) -> bool {
+    /// The third stage, and the fourth as far as it goes without a branch: a miss at the only root.
+    pub(super) fn screen<K: Stages>(&mut self, observe: &mut impl FnMut(Stage)) {
         self.test([Stage::Signs], Signs::<K>(PhantomData), observe);
-        if !by_roots {
-            return false;
-        }
-        let asked = self.count;
         self.test([Stage::Roots], Roots::<K>(PhantomData), observe);
-        2 * self.count <= asked
     }
 
     /// Planes that separate for the whole step or the next part of it.

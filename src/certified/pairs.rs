@@ -6,7 +6,6 @@ use std::ops::Range;
 
 use super::block::{CHUNK, LANES, Source, Tile};
 use super::kind::Kind;
-use super::motion::Positions;
 use super::queries;
 use super::stage::Stage;
 use crate::contact::Hit;
@@ -201,15 +200,6 @@ impl Source for Indexed<'_> {
                     }
                 }
             }
-        }
-    }
-
-    #[inline(always)]
-    fn positions(&self, query: usize) -> Positions {
-        let of = |all: &[[f64; 3]]| self.indices[query].map(|index| all[index as usize]);
-        Positions {
-            start: of(self.start),
-            end: of(self.end),
         }
     }
 

@@ -64,24 +64,32 @@ pub(super) fn decide_range<K: Stages>(
 ) {
     // By each thread that takes a part.
     debug_assert_eq!(environment::check(), Ok(()));
-    let mut screen = Screen {
-        open: Open::new(),
-        are_thin: true,
-        unscreened: 0,
-    };
+    let (mut open, mut are_thin) = (Open::new(), true);
+    // Of those without a radius: how many were asked the first stages and left open, of late.
+    let (mut asked, mut left, mut unscreened) = (0, 0, 0);
     for first in queries.clone().step_by(CHUNK) {
         let chunk = first..queries.end.min(first + CHUNK);
-        let are_thin = source.are_thin(chunk.clone());
-        if screen.open.is_full() || are_thin != Some(screen.are_thin) {
-            screen.finish::<K>(source, &mut hit, &mut observe);
+        let are_now_thin = source.are_thin(chunk.clone());
+        if open.is_full() || are_now_thin != Some(are_thin) {
+            finish::<K>(&mut open, are_thin, source, &mut hit, &mut observe);
         }
-        screen.are_thin = are_thin.unwrap_or_default();
-        match are_thin {
-            Some(true) => screen.open.add::<K>(source, chunk, &mut observe),
-            Some(false) => screen.open.add_thick::<K>(source, chunk, &mut observe),
-            None => {
-                for query in chunk {
-                    let positions = || source.positions(query);
+        are_thin = are_now_thin.unwrap_or_default();
+        match are_now_thin {
+            Some(false) => open.add_thick::<K>(source, chunk, &mut observe),
+            Some(true) if unscreened == 0 => {
+                asked += chunk.len();
+                left += open.add::<K>(source, chunk, &mut observe);
+                if asked >= SAMPLE {
+                    unscreened = if 4 * left > 3 * asked { UNSCREENED } else { 0 };
+                    (asked, left) = (0, 0);
+                }
+            }
+            _ => {
+                unscreened = u32::saturating_sub(unscreened, 1);
+                finish::<K>(&mut open, are_thin, source, &mut hit, &mut observe);
+                open.put(source, chunk.clone());
+                for (place, query) in chunk.enumerate() {
+                    let positions = || open.positions(place);
                     let radius = source.radius(query);
                     if let Some(found) = decide_motion::<K>(positions, radius, &mut observe) {
                         hit(query, found);
@@ -90,7 +98,45 @@ pub(super) fn decide_range<K: Stages>(
             }
         }
     }
-    screen.finish::<K>(source, &mut hit, &mut observe);
+    finish::<K>(&mut open, are_thin, source, &mut hit, &mut observe);
+}
+
+/// How many queries without a radius show whether the first two stages decide so much that it pays
+/// to ask them of several at once.
+const SAMPLE: usize = 256;
+
+/// How many chunks are decided one by one after a sample for which it did not.
+const UNSCREENED: u32 = 15 * (SAMPLE / CHUNK) as u32;
+
+/// Decides what the first two stages leave.
+fn finish<K: Stages>(
+    open: &mut Open,
+    are_thin: bool,
+    source: &impl Source,
+    hit: &mut impl FnMut(usize, Hit<K::Place>),
+    observe: &mut impl FnMut(Stage),
+) {
+    if open.queries().is_empty() {
+        return;
+    }
+    match are_thin {
+        true => open.screen::<K>(observe),
+        false => open.screen_thick::<K>(observe),
+    }
+    for (place, &query) in open.queries().iter().enumerate() {
+        let positions = open.positions(place);
+        let found = if are_thin {
+            let cubic = |motion: &_| open.cubic(place, motion);
+            decide_rest::<K>(&positions, cubic, observe)
+        } else {
+            let (radius, reached) = (source.radius(query), open.reached(place));
+            thick::decide_from::<K>(&positions, radius, reached, observe)
+        };
+        if let Some(found) = found {
+            hit(query, found);
+        }
+    }
+    open.clear();
 }
 
 /// Which queries may touch, as far as the stages say that are taken for several at once.
@@ -115,7 +161,7 @@ impl MayTouch {
         match source.are_thin(all.clone()) {
             Some(true) => {
                 self.open.add::<K::Stages>(source, all, &mut |_| {});
-                self.open.screen::<K::Stages>(true, &mut |_| {});
+                self.open.screen::<K::Stages>(&mut |_| {});
             }
             Some(false) => {
                 self.open.add_thick::<K::Stages>(source, all, &mut |_| {});
@@ -143,55 +189,5 @@ impl MayTouch {
     fn visit(&mut self, each: impl FnMut(usize)) {
         self.open.queries().iter().copied().for_each(each);
         self.open.clear();
-    }
-}
-
-/// What the first two stages leave, and what becomes of it.
-struct Screen {
-    open: Open,
-    /// Whether what is open has no radius, or all of it has one above 0.
-    are_thin: bool,
-    /// How many times more the roots are left to the rest.
-    unscreened: u32,
-}
-
-/// How many times that is so after it did not pay.
-const UNSCREENED: u32 = 15;
-
-impl Screen {
-    /// Decides what is open.
-    fn finish<K: Stages>(
-        &mut self,
-        source: &impl Source,
-        hit: &mut impl FnMut(usize, Hit<K::Place>),
-        observe: &mut impl FnMut(Stage),
-    ) {
-        match self.are_thin {
-            true => self.screen::<K>(observe),
-            false => self.open.screen_thick::<K>(observe),
-        }
-        for (place, &query) in self.open.queries().iter().enumerate() {
-            let positions = self.open.positions(place);
-            let found = if self.are_thin {
-                let cubic = |motion: &_| self.open.cubic(place, motion);
-                decide_rest::<K>(&positions, cubic, observe)
-            } else {
-                let (radius, reached) = (source.radius(query), self.open.reached(place));
-                thick::decide_from::<K>(&positions, radius, reached, observe)
-            };
-            if let Some(found) = found {
-                hit(query, found);
-            }
-        }
-        self.open.clear();
-    }
-
-    fn screen<K: Stages>(&mut self, observe: &mut impl FnMut(Stage)) {
-        if self.unscreened > 0 {
-            self.unscreened -= 1;
-            self.open.screen::<K>(false, observe);
-        } else if !self.open.screen::<K>(true, observe) {
-            self.unscreened = UNSCREENED;
-        }
     }
 }
