@@ -116,6 +116,7 @@ const CERTIFIED_TESTS: &[&str] = &[
     "underflow",
     "vertex_face",
     "cascade",
+    "pairs",
     "worst",
     "mesh",
 ];
