@@ -132,11 +132,10 @@ impl Block {
     /// The lanes that overlap a box, as bits.
     #[inline(always)]
     fn lanes_over(&self, low: &[f32; 3], high: &[f32; 3]) -> u32 {
-        let other = self;
         let axis = |i: usize| {
             let [low, high] = [f32x8::splat(low[i]), f32x8::splat(high[i])];
-            let [other_low, other_high] = [&other.low, &other.high].map(|rows| f32x8::new(rows[i]));
-            low.simd_le(other_high) & other_low.simd_le(high)
+            let [own_low, own_high] = [&self.low, &self.high].map(|rows| f32x8::new(rows[i]));
+            low.simd_le(own_high) & own_low.simd_le(high)
         };
         (axis(0) & axis(1) & axis(2)).to_bitmask()
     }
