@@ -291,6 +291,16 @@ impl fmt::Display for QueryError {
 
 impl std::error::Error for QueryError {}
 
+/// The first coordinate that is not a finite number: of which position, on which axis, and what it
+/// is.
+pub(crate) fn first_not_finite(positions: &[[f64; 3]]) -> Option<(usize, usize, f64)> {
+    let mut all = positions.iter().enumerate();
+    all.find_map(|(place, position)| {
+        let axis = position.iter().position(|x| !x.is_finite())?;
+        Some((place, axis, position[axis]))
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

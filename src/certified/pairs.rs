@@ -9,7 +9,7 @@ use super::kind::Kind;
 use super::queries;
 use super::stage::Stage;
 use crate::contact::Hit;
-use crate::query::{Counted, QueryError, Radius};
+use crate::query::{Counted, QueryError, Radius, first_not_finite};
 
 /// Queries of one kind, [`EdgeEdge`](crate::EdgeEdge) or [`VertexFace`](crate::VertexFace), whose
 /// points are given by their indices into arrays of positions: candidate pairs as the broad phase
@@ -101,16 +101,13 @@ impl<'a, K: Kind> Pairs<'a, K> {
             });
         }
         for (array, positions) in [("start", start), ("end", end)] {
-            for (point, position) in positions.iter().enumerate() {
-                if let Some(axis) = position.iter().position(|x| !x.is_finite()) {
-                    let value = position[axis];
-                    return Err(PairsError::NotFinite {
-                        array,
-                        point,
-                        axis,
-                        value,
-                    });
-                }
+            if let Some((point, axis, value)) = first_not_finite(positions) {
+                return Err(PairsError::NotFinite {
+                    array,
+                    point,
+                    axis,
+                    value,
+                });
             }
         }
         for (pair, indices) in indices.iter().enumerate() {

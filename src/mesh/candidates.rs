@@ -7,7 +7,7 @@ use super::tree::{Bounds, Grid, Lane, Meets, Task, Tree};
 use crate::certified::{Positions, Precision, rounding_of};
 use crate::environment;
 use crate::parallel::{both, mapped, mapped_with};
-use crate::query::Radius;
+use crate::query::{Radius, first_not_finite};
 
 /// A position as it is stored.
 pub(super) type Position = [f64; 3];
@@ -295,17 +295,13 @@ fn check_positions(
             expected,
         });
     }
-    for (vertex, position) in positions.iter().enumerate() {
-        for (axis, &value) in position.iter().enumerate() {
-            if !value.is_finite() {
-                return Err(MeshError::NotFinite {
-                    array,
-                    vertex,
-                    axis,
-                    value,
-                });
-            }
-        }
+    if let Some((vertex, axis, value)) = first_not_finite(positions) {
+        return Err(MeshError::NotFinite {
+            array,
+            vertex,
+            axis,
+            value,
+        });
     }
     Ok(())
 }
