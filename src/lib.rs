@@ -58,7 +58,7 @@
 //!
 //! | feature | what it adds |
 //! | --- | --- |
-//! | `rayon` | `Pairs::par_decide`, and meshes on all threads |
+//! | `rayon` | `par_decide` of `Pairs` and `Batch`; steps of pairs and meshes on all threads |
 //! | `wire` | the wire stepper |
 //! | `serde` | its settings and records as data; includes `wire` |
 //! | `recording` | its steps, and its state, to a file and back; includes `serde` |
@@ -82,9 +82,10 @@ pub mod thesis;
 pub mod wire;
 
 pub use certified::{
-    Advance, Batch, BatchError, Blocked, Clearance, ClearanceError, Kind, Normal, Pairs,
-    PairsError, Precision, Proximity, advance, advance_in, classify, decide, decide_discrete,
-    decide_exactly, decide_rigid, interpolate, interpolate_in,
+    Advance, Batch, BatchError, Blocked, Clearance, ClearanceError, Kind, ListedPair, Normal,
+    Pairs, PairsError, PairsLimit, PairsStep, Precision, Proximity, advance, advance_in,
+    advance_pairs, classify, decide, decide_discrete, decide_exactly, decide_rigid, interpolate,
+    interpolate_in,
 };
 pub use contact::{
     Case, Contact, ContactKind, ContactPoint, EdgePlace, EdgePoint, FacePlace, Flags, Hit,

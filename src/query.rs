@@ -113,6 +113,13 @@ macro_rules! four_points {
                 Ok(Self { start, end, radius })
             }
 
+            /// The query of finite coordinates and a valid radius.
+            #[inline(always)]
+            pub(crate) fn of(start: [Point; 4], end: [Point; 4], radius: Radius) -> Self {
+                debug_assert_eq!(check(&start, &end, radius), Ok(()));
+                Self { start, end, radius }
+            }
+
             /// The query of four points that do not move, in metres.
             ///
             /// # Errors
@@ -280,9 +287,11 @@ impl fmt::Display for QueryError {
                 )
             }
             QueryError::Radius(value) => {
+                let [_, second] = value.parts();
+                let has = if second == 0.0 { "it has" } else { "both have" };
                 write!(
                     f,
-                    "the radius is {value}; it has to be finite, and 0 or more"
+                    "the radius is {value}; {has} to be finite, and 0 or more"
                 )
             }
         }

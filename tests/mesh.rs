@@ -5,8 +5,10 @@
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tunnelproof::mesh::{Feature, Mesh, MeshError, MeshStep, Pair, Thickness};
-use tunnelproof::query::{EdgeEdge, Point, Query, Radius, VertexFace};
-use tunnelproof::{Blocked, Clearance, Precision, decide_exactly, interpolate};
+use tunnelproof::query::{EdgeEdge, Point, Query, QueryKind, Radius, VertexFace};
+use tunnelproof::{
+    Blocked, Clearance, ListedPair, Pairs, Precision, advance_pairs, decide_exactly, interpolate,
+};
 use tunnelproof_reference::oracle::decide_query;
 
 type Position = [f64; 3];
@@ -259,6 +261,48 @@ fn judge(scene: &Scene, step: &MeshStep, clearance: Clearance, seed: u64) {
     }
 }
 
+/// The step of all pairs by their indices is that of the mesh, which asks those alone that its trees
+/// find.
+fn compare_with_pairs(scene: &Scene, clearance: Clearance, precision: Precision, seed: u64) {
+    let Scene {
+        mesh, start, end, ..
+    } = scene;
+    let pairs = scene.pairs();
+    let is_face = |pair: Pair| matches!(pair.second, Feature::Face(_));
+    let list = |faces: bool| -> (Vec<Pair>, Vec<[u32; 4]>, Vec<Radius>) {
+        let of_kind = pairs.iter().filter(|(pair, _)| is_face(*pair) == faces);
+        let rows = of_kind.map(|(pair, all)| (*pair, *all, scene.radius(*pair, all)));
+        rows.collect()
+    };
+    let [edges, faces] = [list(false), list(true)];
+    let of_edges = Pairs::with_radii(start, end, &edges.1, &edges.2).unwrap();
+    let of_faces = Pairs::with_radii(start, end, &faces.1, &faces.2).unwrap();
+    let found = advance_pairs(&of_edges, &of_faces, clearance, precision).unwrap();
+    let step = mesh.step_in(start, end, scene.thickness(), clearance, precision);
+    let step = step.unwrap();
+    assert_eq!(
+        (found.step, &found.positions),
+        (step.step, &step.positions),
+        "seed {seed}"
+    );
+    let pair = |listed: ListedPair| match listed.kind {
+        QueryKind::EdgeEdge => edges.0[listed.index],
+        QueryKind::VertexFace => faces.0[listed.index],
+    };
+    let limits = found.limits.iter();
+    let limits: Vec<_> = limits
+        .map(|limit| (pair(limit.pair), limit.blocked))
+        .collect();
+    let expected = step.limits.iter();
+    let expected: Vec<_> = expected.map(|limit| (limit.pair, limit.blocked)).collect();
+    assert_eq!(limits, expected, "seed {seed}");
+    let near = found
+        .near
+        .iter()
+        .map(|(listed, kept)| (pair(*listed), *kept));
+    assert_eq!(near.collect::<Vec<_>>(), step.near, "seed {seed}");
+}
+
 #[test]
 fn mesh_steps_store_positions_that_are_apart() {
     let (mut whole, mut part, mut touching, mut near) = (0, 0, 0, 0);
@@ -278,6 +322,9 @@ fn mesh_steps_store_positions_that_are_apart() {
                 .step_with_clearance(start, end, scene.thickness(), clearance)
                 .unwrap();
             judge(&scene, &step, clearance, seed);
+            for precision in [Precision::F64, Precision::F32] {
+                compare_with_pairs(&scene, clearance, precision, seed);
+            }
             near += step.near.len();
             match step.step {
                 0.0 => {

@@ -1,9 +1,14 @@
 //! Pairs by index: the answers of one by one, and what is refused.
 
+use std::fmt::Debug;
+
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tunnelproof::certified::Stage;
-use tunnelproof::{EdgeEdge, Kind, Pairs, PairsError, Point, Query, Radius, VertexFace, decide};
+use tunnelproof::{
+    Clearance, EdgeEdge, Hit, Kind, Pairs, PairsError, Point, Precision, Query, Radius, VertexFace,
+    advance_pairs, decide,
+};
 use tunnelproof_reference::generate::{FAMILIES, OTHER_KINDS};
 
 type Position = [f64; 3];
@@ -43,7 +48,13 @@ impl Set {
         let one_by_one = |pair: usize| decide(&query(self.points(pair), radii[pair]));
         let expected = (0..count).filter_map(|pair| Some((pair, one_by_one(pair)?)));
         let expected: Vec<_> = expected.collect();
-        assert_eq!(pairs.decide(), expected, "{count}");
+        assert_eq!(bits(&pairs.decide()), bits(&expected), "{count}");
+        let whole = |pair: &K| (*pair.start(), *pair.end(), pair.radius());
+        for (pair, &radius) in radii.iter().enumerate() {
+            let query = query(self.points(pair), radius);
+            assert_eq!(pairs.get(pair).as_ref().map(whole), Some(whole(&query)));
+        }
+        assert!(pairs.get(count).is_none());
         let (mut found, mut stages) = (Vec::new(), Vec::<Stage>::new());
         pairs.decide_observed(
             |pair, hit| found.push((pair, hit)),
@@ -54,6 +65,11 @@ impl Set {
         assert_eq!(pairs.par_decide(), pairs.decide());
         pairs.decide().len()
     }
+}
+
+/// Zeros of both signs differ in it, as they do not by `==`.
+fn bits<P: Debug>(hits: &[(usize, Hit<P>)]) -> String {
+    format!("{hits:?}")
 }
 
 fn edges([start, end]: [[Point; 4]; 2], radius: Radius) -> EdgeEdge {
@@ -85,6 +101,42 @@ fn pairs_of_every_family_are_decided_as_one_by_one() {
         }
     }
     assert!(hits[0] > 10_000 && hits[1] > 1000, "{hits:?}");
+}
+
+/// Runs that touch and runs that miss in turn, longer than what one thread takes and than what is
+/// decided one by one after a sample of those that touch.
+#[test]
+fn long_lists_of_pairs_are_decided_as_one_by_one() {
+    let rng = &mut ChaCha8Rng::seed_from_u64(23);
+    let mut set = Set::default();
+    while set.indices.len() < 20_000 {
+        let shift = if set.indices.len() % 10_000 < 5000 {
+            0.0
+        } else {
+            0.5
+        };
+        for _ in 0..rng.random_range(1..700) {
+            let mut point = |axis: usize, way: f64| {
+                let mut point = [0.0; 3];
+                point[axis] = way;
+                point.map(|x| x + rng.random_range(-0.01..0.01))
+            };
+            let mut start = [point(0, -1.0), point(0, 1.0), point(1, -1.0), point(1, 1.0)];
+            let mut end = start;
+            (start[2][2], start[3][2]) = (0.4, 0.4);
+            (end[2][2], end[3][2]) = (shift - 0.4, shift - 0.4);
+            let [start, end] = [start, end].map(|all| all.map(Point::from));
+            let query = EdgeEdge::new(start, end, 0.0).expect("finite");
+            set.push(&query);
+        }
+    }
+    let all = set.indices.len();
+    let hits = set.check(all, edges);
+    assert!(all / 4 < hits && hits < 3 * all / 4, "{hits} of {all}");
+    set.radii
+        .iter_mut()
+        .for_each(|radius| *radius = 0.01.into());
+    set.check(all, edges);
 }
 
 /// Points of a small cloud, which pairs share, and a pair may have twice.
@@ -136,7 +188,7 @@ fn what_is_no_pair_is_refused() {
     let error = |text: &str| Err(text.to_owned());
     assert_eq!(
         said(&points, &points[..3], &all, 0.0),
-        error("3 positions at the end, and 4 positions at the start")
+        error("end has 3 entries, and start has 4")
     );
     assert_eq!(
         said(&points, &not_finite, &all, 0.0),
@@ -144,7 +196,7 @@ fn what_is_no_pair_is_refused() {
     );
     assert_eq!(
         said(&points, &points, &[[0, 1, 2, 3], [0, 4, 1, 2]], 0.0),
-        error("pair 1: index 1 is 4, and there are 4 positions")
+        error("pair 1: point B is position 4, and there are 4, counted from 0")
     );
     assert_eq!(
         said(&points, &points, &all, -1.0),
@@ -157,9 +209,76 @@ fn what_is_no_pair_is_refused() {
             .map_err(|error| error.to_string())
     };
     assert_eq!(of_radii(&[Radius::ZERO]), Ok(1));
-    assert_eq!(of_radii(&[]), error("0 radii, and 1 pair"));
+    assert_eq!(
+        of_radii(&[]),
+        error("radii has 0 entries, and there is 1 pair")
+    );
     assert_eq!(
         of_radii(&[f64::INFINITY.into()]),
         error("pair 0: the radius is inf; it has to be finite, and 0 or more")
     );
+}
+
+#[test]
+fn steps_of_pairs_are_refused_with_other_positions_or_clearances() {
+    let points = [[0.0; 3], [1.0; 3], [2.0; 3], [3.0; 3]];
+    let mut other = points;
+    other[0][0] = 1.0;
+    let edges = Pairs::new(&points, &points, &[], 0.0).expect("none");
+    let copied = points;
+    let faces = |end| Pairs::new(&copied, end, &[], 0.0).expect("none");
+    let said = |end, clearance| {
+        let step = advance_pairs(&edges, &faces(end), clearance, Precision::F64);
+        step.map(|moved| moved.step)
+            .map_err(|error| error.to_string())
+    };
+    // A copy has the same positions.
+    assert_eq!(said(&copied, Clearance::None), Ok(1.0));
+    let error = |text: &str| Err(text.to_owned());
+    assert_eq!(
+        said(&other, Clearance::None),
+        error("edges and faces are lists of different positions")
+    );
+    assert_eq!(
+        said(&copied, Clearance::Share(1.0)),
+        error("the share is 1; it has to be 0 or more, and below 1")
+    );
+    let none = Pairs::<EdgeEdge>::new(&[], &[], &[], 0.0).expect("none");
+    let faces = Pairs::new(&[], &[], &[], 0.0).expect("none");
+    let moved = advance_pairs(&none, &faces, Clearance::None, Precision::F32).expect("none");
+    assert_eq!((moved.step, moved.positions.len()), (1.0, 0));
+}
+
+/// Parts are decided as the same pairs of the whole, and there is no part of what there is not.
+#[test]
+fn parts_of_pairs_are_decided_as_in_the_whole() {
+    let mut set = Set::default();
+    for index in 0..100 {
+        if let Query::EdgeEdge(query) = FAMILIES[0].query(7, index) {
+            set.push(&query);
+        }
+    }
+    set.radii
+        .iter_mut()
+        .step_by(2)
+        .for_each(|radius| *radius = 0.1.into());
+    let Set {
+        start,
+        end,
+        indices,
+        radii,
+    } = &set;
+    let each = Pairs::<EdgeEdge>::with_radii(start, end, indices, radii).expect("they are pairs");
+    let same = Pairs::<EdgeEdge>::new(start, end, indices, 0.1).expect("they are pairs");
+    for pairs in [each, same] {
+        let all = pairs.decide();
+        assert!(all.len() > 10);
+        let (first, rest) = (pairs.part(0..33), pairs.part(33..100));
+        let hits = first.expect("it is within").decide().into_iter();
+        let rest = rest.expect("it is within").decide().into_iter();
+        let hits = hits.chain(rest.map(|(pair, hit)| (pair + 33, hit)));
+        assert_eq!(hits.collect::<Vec<_>>(), all);
+        assert!(pairs.part(0..101).is_none());
+        assert!(pairs.part(100..100).is_some_and(|part| part.is_empty()));
+    }
 }

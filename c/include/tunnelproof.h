@@ -44,9 +44,10 @@ extern "C" {
 #define TUNNELPROOF_NULL (-1)
 #define TUNNELPROOF_NOT_FINITE (-2)
 #define TUNNELPROOF_RADIUS (-3)
-/* And of meshes and steps: a vertex or a group that there is not, more vertices, edges or faces
- * than indices of 32 bits, fewer thicknesses than groups, a clearance below 0 or not finite, a
- * share below 0 or not below 1, or both a clearance and a share. */
+/* And of pairs, meshes and steps: a point, a vertex or a group that there is not, more vertices,
+ * edges or faces than indices of 32 bits, fewer thicknesses than groups or radii than pairs, a
+ * clearance below 0 or not finite, a share below 0 or not below 1, or both a clearance and a
+ * share. */
 #define TUNNELPROOF_INDEX (-4)
 #define TUNNELPROOF_COUNT (-5)
 #define TUNNELPROOF_LENGTH (-6)
@@ -198,6 +199,59 @@ int64_t tunnelproof_decide_turning_vertex_turning_face_batch(const double *local
                                                              int32_t *verdicts,
                                                              tunnelproof_hit *hits);
 
+/* What is refused. A function that takes an error writes it if it returns a negative number, or no
+ * mesh. It may be NULL. */
+typedef struct tunnelproof_error {
+  /* The number that is returned. */
+  int32_t code;
+  /* The name of the array or argument: "edges", "faces", "groups", "start", "end", "thickness",
+   * "vertices", "clearance", "indices", "radii"; of a NULL that of the pointer. It lives as long as
+   * the library. */
+  const char *array;
+  /* The place in it, from 0: `array[index][corner]`. Of TUNNELPROOF_LENGTH, `index` is how many
+   * there should be. 0 where there is no place. */
+  size_t index, corner;
+  /* The value there, or how many there are; 0 where there is none. */
+  double value;
+} tunnelproof_error;
+
+/* Queries that share points: candidate pairs as the broad phase of a mesh or of wires delivers
+ * them. */
+typedef struct tunnelproof_pairs {
+  /* x, y, z of each point at the start of the step and at its end, in metres. */
+  const double *start, *end;
+  size_t point_count;
+  /* The indices of A, B, C and D of each pair, four numbers below point_count. */
+  const uint32_t *indices;
+  size_t pair_count;
+  /* Radii of two numbers each, in metres. The radius is 0 if radius_count is 0, the same for all if
+   * that is 1, else there is one for each pair. */
+  const double *radii;
+  size_t radius_count;
+} tunnelproof_pairs;
+
+/* A hit, and the pair whose it is: the place of its four indices, from 0. */
+typedef struct tunnelproof_pair_hit {
+  size_t pair;
+  tunnelproof_hit hit;
+} tunnelproof_pair_hit;
+
+/* Decides pairs, by all threads, and gives the same answers on any number of them: those of
+ * tunnelproof_decide_edge_edge and tunnelproof_decide_vertex_face, bit for bit. Writes at most `capacity` hits, in the order of the pairs, unless
+ * `hits` is NULL. Returns how many there are.
+ *
+ * Returns a negative number, and writes nothing but `error`, for what is NULL (TUNNELPROOF_NULL), a
+ * coordinate that is not finite (TUNNELPROOF_NOT_FINITE), a radius that is not a finite number of
+ * at least 0 (TUNNELPROOF_RADIUS), neither one radius nor as many as pairs (TUNNELPROOF_LENGTH), or
+ * an index that is not below `point_count` (TUNNELPROOF_INDEX). A pointer may be NULL if its count
+ * is 0. */
+int64_t tunnelproof_decide_edge_edge_pairs(const tunnelproof_pairs *pairs,
+                                           tunnelproof_pair_hit *hits, size_t capacity,
+                                           tunnelproof_error *error);
+int64_t tunnelproof_decide_vertex_face_pairs(const tunnelproof_pairs *pairs,
+                                             tunnelproof_pair_hit *hits, size_t capacity,
+                                             tunnelproof_error *error);
+
 /* Why a step is not a whole one. */
 enum tunnelproof_blocked {
   /* A larger step would bring the two sides nearer than is kept, or a rounding error of that. */
@@ -260,21 +314,6 @@ int32_t tunnelproof_advance_vertex_face_f32(const double *points, const double *
  * every edge, and every vertex every face. A vertex in no edge is a point, which may also meet
  * edges and points. Parts that share a vertex never meet. */
 typedef struct tunnelproof_mesh tunnelproof_mesh;
-
-/* What is refused. A function that takes an error writes it if it returns a negative number, or no
- * mesh. It may be NULL. */
-typedef struct tunnelproof_error {
-  /* The number that is returned. */
-  int32_t code;
-  /* The name of the array or argument: "edges", "faces", "groups", "start", "end", "thickness",
-   * "vertices", "clearance"; of a NULL that of the pointer. It lives as long as the library. */
-  const char *array;
-  /* The place in it, from 0: `array[index][corner]`. Of TUNNELPROOF_LENGTH, `index` is how many
-   * there should be. 0 where there is no place. */
-  size_t index, corner;
-  /* The value there, or how many there are; 0 where there is none. */
-  double value;
-} tunnelproof_error;
 
 /* A new mesh of `vertex_count` vertices. `edges` has two indices of vertices for each edge, `faces`
  * three for each face. Both are copied. The edges of faces need not be given: those that are

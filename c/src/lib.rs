@@ -19,7 +19,9 @@ use tunnelproof::{
 use tunnelproof_float_env::with_default;
 
 mod advance;
+mod arrays;
 mod mesh;
+mod pairs;
 mod subject;
 mod turning;
 
@@ -27,7 +29,9 @@ pub use advance::{
     Advance, tunnelproof_advance_edge_edge, tunnelproof_advance_edge_edge_f32,
     tunnelproof_advance_vertex_face, tunnelproof_advance_vertex_face_f32,
 };
+pub use arrays::Error;
 pub use mesh::*;
+pub use pairs::*;
 pub use subject::{tunnelproof_certified_edge_edge, tunnelproof_certified_vertex_face};
 pub use turning::*;
 

@@ -1,15 +1,14 @@
 //! Whole meshes.
 
-use std::ffi::{CStr, c_char};
 use std::mem::MaybeUninit;
 use std::ptr;
-use std::slice;
 
 use tunnelproof::mesh::{Feature, MeshContact, MeshError, Pair as EnginePair, Thickness};
 use tunnelproof::{Clearance, Precision};
 use tunnelproof_float_env::with_default;
 
 use crate::advance::{blocked, clearance};
+use crate::arrays::{Error, answered, name, read, write};
 use crate::{
     CLEARANCE, COUNT, ContactPoint, HIT, INDEX, LENGTH, MISS, NOT_FINITE, NULL, RADIUS, kind,
 };
@@ -26,33 +25,6 @@ pub struct Motion {
     end: *const f64,
     thickness: *const f64,
     thickness_count: usize,
-}
-
-/// `tunnelproof_error`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct Error {
-    code: i32,
-    array: *const c_char,
-    index: usize,
-    corner: usize,
-    value: f64,
-}
-
-impl Error {
-    fn new(code: i32, array: &'static CStr) -> Self {
-        Error {
-            code,
-            array: array.as_ptr(),
-            index: 0,
-            corner: 0,
-            value: 0.0,
-        }
-    }
-
-    fn null(array: &'static CStr) -> Self {
-        Error::new(NULL, array)
-    }
 }
 
 impl From<MeshError> for Error {
@@ -85,28 +57,12 @@ impl From<MeshError> for Error {
             _ => (CLEARANCE, "clearance", 0, 0, 0.0),
         };
         Error {
-            code,
-            array: name(array).as_ptr(),
             index,
             corner,
             value,
+            ..Error::new(code, name(array))
         }
     }
-}
-
-/// The name of an array as C has it.
-fn name(array: &str) -> &'static CStr {
-    const NAMES: [&CStr; 7] = [
-        c"clearance",
-        c"edges",
-        c"end",
-        c"faces",
-        c"groups",
-        c"start",
-        c"thickness",
-    ];
-    let is_it = |name: &&&CStr| name.to_bytes() == array.as_bytes();
-    NAMES.iter().find(is_it).unwrap_or(&c"vertices")
 }
 
 /// `tunnelproof_pair`.
@@ -203,55 +159,6 @@ pub struct Step {
     limit_count: MaybeUninit<usize>,
     near_count: MaybeUninit<usize>,
     candidates: MaybeUninit<[usize; 2]>,
-}
-
-/// Reads an array.
-///
-/// # Safety
-///
-/// The pointer is null or points to `count` items, of which nobody changes one during `'a`.
-unsafe fn read<'a, T>(
-    items: *const T,
-    count: usize,
-    array: &'static CStr,
-) -> Result<&'a [T], Error> {
-    if count == 0 {
-        return Ok(&[]);
-    }
-    if items.is_null() {
-        return Err(Error::null(array));
-    }
-    // SAFETY: it is not null, and the rest is the caller's promise.
-    Ok(unsafe { slice::from_raw_parts(items, count) })
-}
-
-/// Writes as many items as there is room for. Nothing is written to null.
-///
-/// # Safety
-///
-/// The pointer is null or points to memory for `capacity` items that nobody else uses during the
-/// call.
-unsafe fn write<T>(items: *mut T, capacity: usize, all: impl Iterator<Item = T>) {
-    if items.is_null() {
-        return;
-    }
-    for (index, item) in all.take(capacity).enumerate() {
-        // SAFETY: it is not null, and the index is below the capacity.
-        unsafe { items.add(index).write(item) };
-    }
-}
-
-/// The result of a function, or the code of its error, which is written unless the pointer is null.
-///
-/// # Safety
-///
-/// The pointer is null or points to memory for an error that nobody else uses during the call.
-unsafe fn answered<T: From<i32>>(result: Result<T, Error>, error: *mut Error) -> T {
-    result.unwrap_or_else(|refused| {
-        // SAFETY: it is the caller's promise, and the capacity is 1.
-        unsafe { write(error, 1, [refused].into_iter()) };
-        refused.code.into()
-    })
 }
 
 /// A mesh and a question about it, read from pointers.

@@ -71,6 +71,77 @@ static void one_by_one(void) {
   CHECK(tunnelproof_decide_edge_edge(points, NULL, &hit) == TUNNELPROOF_MISS);
 }
 
+/* Pairs by index: one falls through AB, of another AB is at rest beside it. */
+static void pairs_by_index(void) {
+  double start[18], end[18];
+  const uint32_t indices[12] = {0, 1, 2, 3, 4, 5, 2, 3, 2, 3, 1, 0};
+  const double radii[6] = {0, 0, 0.25, 0.25, 0, 0};
+  tunnelproof_pair_hit hits[3];
+  tunnelproof_hit hit;
+  tunnelproof_error error;
+  tunnelproof_pairs pairs = {start, end, 6, indices, 3, NULL, 0};
+  int i;
+
+  memcpy(start, falling, sizeof(double) * 12);
+  memcpy(end, falling + 12, sizeof(double) * 12);
+  for (i = 0; i < 6; i++) {
+    start[12 + i] = end[12 + i] = falling[i];
+  }
+  /* Half a metre before the end of CD. */
+  start[13] = end[13] = start[16] = end[16] = 1.5;
+  memset(hits, -1, sizeof hits);
+  CHECK(tunnelproof_decide_edge_edge_pairs(&pairs, hits, 3, &error) == 2);
+  CHECK(hits[0].pair == 0 && hits[1].pair == 2 && hits[2].pair == (size_t)-1);
+  CHECK(tunnelproof_decide_edge_edge(falling, NULL, &hit) == TUNNELPROOF_HIT);
+  CHECK(memcmp(&hits[0].hit, &hit, sizeof hit) == 0);
+  CHECK(hits[1].hit.toi == 0.25 && hits[1].hit.side == -1);
+  /* Room for one. */
+  memset(hits, -1, sizeof hits);
+  CHECK(tunnelproof_decide_edge_edge_pairs(&pairs, hits, 1, &error) == 2);
+  CHECK(hits[0].pair == 0 && hits[1].pair == (size_t)-1);
+  CHECK(tunnelproof_decide_edge_edge_pairs(&pairs, NULL, 0, NULL) == 2);
+  /* A radius for each, and one for all. */
+  pairs.radii = radii;
+  pairs.radius_count = 3;
+  CHECK(tunnelproof_decide_edge_edge_pairs(&pairs, hits, 3, &error) == 3);
+  CHECK(hits[1].pair == 1 && hits[1].hit.toi == 0.25);
+  pairs.radii = radii + 2;
+  pairs.radius_count = 1;
+  CHECK(tunnelproof_decide_edge_edge_pairs(&pairs, hits, 3, &error) == 3);
+  CHECK(hits[0].hit.toi == 0.125);
+  CHECK(tunnelproof_decide_vertex_face_pairs(&pairs, NULL, 0, &error) >= 0);
+  /* What is refused. */
+  pairs.radius_count = 2;
+  CHECK(tunnelproof_decide_edge_edge_pairs(&pairs, hits, 3, &error) == TUNNELPROOF_LENGTH);
+  CHECK(error.code == TUNNELPROOF_LENGTH && strcmp(error.array, "radii") == 0);
+  CHECK(error.index == 3 && error.value == 2);
+  pairs.radius_count = 0;
+  pairs.point_count = 5;
+  CHECK(tunnelproof_decide_edge_edge_pairs(&pairs, hits, 3, &error) == TUNNELPROOF_INDEX);
+  CHECK(strcmp(error.array, "indices") == 0 && error.index == 1 && error.corner == 1);
+  CHECK(error.value == 5);
+  pairs.point_count = 6;
+  end[16] = NAN;
+  CHECK(tunnelproof_decide_edge_edge_pairs(&pairs, hits, 3, NULL) == TUNNELPROOF_NOT_FINITE);
+  CHECK(tunnelproof_decide_edge_edge_pairs(&pairs, hits, 3, &error) == TUNNELPROOF_NOT_FINITE);
+  CHECK(strcmp(error.array, "end") == 0 && error.index == 5 && error.corner == 1);
+  CHECK(error.value != error.value);
+  end[16] = 1.5;
+  start[0] = -1;
+  pairs.radius_count = 3;
+  pairs.radii = start;
+  CHECK(tunnelproof_decide_edge_edge_pairs(&pairs, hits, 3, &error) == TUNNELPROOF_RADIUS);
+  CHECK(strcmp(error.array, "radii") == 0 && error.index == 0 && error.value == -1);
+  pairs.radii = NULL;
+  CHECK(tunnelproof_decide_edge_edge_pairs(&pairs, hits, 3, &error) == TUNNELPROOF_NULL);
+  CHECK(strcmp(error.array, "radii") == 0);
+  CHECK(tunnelproof_decide_edge_edge_pairs(NULL, hits, 3, &error) == TUNNELPROOF_NULL);
+  CHECK(strcmp(error.array, "pairs") == 0);
+  pairs.pair_count = pairs.radius_count = 0;
+  pairs.indices = NULL;
+  CHECK(tunnelproof_decide_edge_edge_pairs(&pairs, NULL, 0, &error) == 0);
+}
+
 /* CD falls onto AB, along which it lies: they overlap from x = 0 to 1. */
 static void overlap(void) {
   static const double points[24] = {
@@ -478,6 +549,7 @@ int main(void) {
   one_by_one();
   advanced();
   of_a_mesh();
+  pairs_by_index();
   overlap();
   at_start();
   refused();

@@ -26,7 +26,7 @@ mod _tunnelproof {
     #[pymodule_export]
     use crate::advance::advance;
     #[pymodule_export]
-    use crate::certified::decide;
+    use crate::certified::{decide, decide_pairs};
     #[pymodule_export]
     use crate::certify::{certify, merge};
     #[pymodule_export]

@@ -1,8 +1,6 @@
 //! Whole meshes on arrays.
 
-use numpy::{
-    PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods,
-};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -12,25 +10,11 @@ use tunnelproof_float_env::with_default;
 
 use crate::advance;
 use crate::columns::{self, Columns};
+use crate::queries::rows;
 
 /// Vertices, edges and faces by their indices, and what is asked about them.
 #[pyclass(frozen, module = "tunnelproof._tunnelproof")]
 pub(crate) struct Mesh(tunnelproof::Mesh);
-
-/// The rows of an array of shape `(n, N)`, where they are.
-fn rows<'a, T: numpy::Element, const N: usize>(
-    name: &str,
-    array: &'a PyReadonlyArray2<'_, T>,
-) -> PyResult<&'a [[T; N]]> {
-    let shape = array.shape();
-    let is_wide = shape[1] == N;
-    match array.as_slice() {
-        Ok(all) if is_wide && array.is_c_contiguous() => Ok(all.as_chunks().0),
-        _ => Err(PyValueError::new_err(format!(
-            "{name} has the shape {shape:?}, not (n, {N}) without gaps"
-        ))),
-    }
-}
 
 fn refused(error: MeshError) -> PyErr {
     PyValueError::new_err(error.to_string())

@@ -1,7 +1,7 @@
 //! Queries from arrays.
 
-use numpy::PyReadonlyArray3;
 use numpy::ndarray::ArrayView1;
+use numpy::{PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use tunnelproof::query::{Point, Query, QueryKind, Radius};
@@ -14,7 +14,7 @@ impl Rows {
     /// The rows of two arrays, whose shapes the Python side has made sure of.
     pub(crate) fn new(
         points: &PyReadonlyArray3<'_, f64>,
-        radii: &numpy::PyReadonlyArray2<'_, f64>,
+        radii: &PyReadonlyArray2<'_, f64>,
     ) -> PyResult<Self> {
         let (points, radii) = (points.as_array(), radii.as_array());
         if points.shape()[1..] != [8, 3] || radii.shape() != [points.shape()[0], 2] {
@@ -40,6 +40,21 @@ impl Rows {
                 .map_err(|error| Refused(format!("query {index}: {error}")))
         };
         self.0.into_iter().enumerate().map(query).collect()
+    }
+}
+
+/// The rows of an array of shape `(n, N)`, where they are.
+pub(crate) fn rows<'a, T: numpy::Element, const N: usize>(
+    name: &str,
+    array: &'a PyReadonlyArray2<'_, T>,
+) -> PyResult<&'a [[T; N]]> {
+    let shape = array.shape();
+    let is_wide = shape[1] == N;
+    match array.as_slice() {
+        Ok(all) if is_wide && array.is_c_contiguous() => Ok(all.as_chunks().0),
+        _ => Err(PyValueError::new_err(format!(
+            "{name} has the shape {shape:?}, not (n, {N}) without gaps"
+        ))),
     }
 }
 

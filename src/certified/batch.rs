@@ -6,7 +6,7 @@ use std::marker::PhantomData;
 use std::ops::Range;
 
 use super::block::{CHUNK, LANES, Source, Tile};
-use super::kind::Kind;
+use super::kind::{Kind, Stages};
 use super::motion::Positions;
 use super::queries;
 use super::stage::Stage;
@@ -137,6 +137,13 @@ impl<K: Kind> Batch<K> {
                 .map_err(|error| BatchError::Query { index, error })?;
         }
         Ok(batch)
+    }
+
+    /// A query, if there is one: a copy, for the [points](Hit::points) and the
+    /// [normal](Hit::normal) of a hit.
+    pub fn get(&self, index: usize) -> Option<K> {
+        let query = || K::Stages::query(&self.positions(index), self.radius(index));
+        (index < self.len()).then(query)
     }
 
     /// All hits with the places of their queries, in order.

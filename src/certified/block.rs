@@ -476,6 +476,7 @@ where
         let mut counts = [0; N];
         let is_aligned = open.count.is_multiple_of(LANES);
         let at = if is_aligned { open.count } else { MOST_OPEN };
+        debug_assert!(at <= MOST_OPEN && queries.len() <= CHUNK);
         if let Some(tiles) = open.tiles[at / LANES..].first_chunk_mut() {
             source.load(tiles, queries.clone());
             prepare(tiles, queries.clone());

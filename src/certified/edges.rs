@@ -39,6 +39,12 @@ impl HasNormal<EdgePlace> for EdgeEdge {
 
 impl Stages for EdgeEdge {
     type Place = EdgePlace;
+    type Query = Self;
+
+    fn query(positions: &Positions, radius: Radius) -> Self {
+        let Positions { start, end } = *positions;
+        EdgeEdge::of(start.map(Point::from), end.map(Point::from), radius)
+    }
 
     const FIRST: usize = 2;
 

@@ -18,7 +18,7 @@ use crate::query::{Point, Radius};
 /// A kind of query that the certified path decides: [`EdgeEdge`](crate::query::EdgeEdge) or
 /// [`VertexFace`](crate::query::VertexFace).
 ///
-/// The trait is sealed: no other type can be one. `decide(&query)` and `Batch` take either.
+/// The trait is sealed: no other type can be one. `decide`, `Pairs` and `Batch` take either.
 pub trait Kind: Sealed + HasNormal<<Self as Kind>::Place> + Copy + Send + Sync + 'static {
     /// Where the two sides touch: [`EdgePlace`](crate::contact::EdgePlace) or
     /// [`FacePlace`](crate::contact::FacePlace).
@@ -26,7 +26,7 @@ pub trait Kind: Sealed + HasNormal<<Self as Kind>::Place> + Copy + Send + Sync +
 
     #[doc(hidden)]
     #[allow(private_bounds, reason = "only the stages of this module use it")]
-    type Stages: Stages<Place = Self::Place>;
+    type Stages: Stages<Place = Self::Place, Query = Self>;
 
     /// The four points at `t = 0`.
     fn start(&self) -> &[Point; 4];
@@ -49,6 +49,12 @@ pub trait Sealed {}
 pub(super) trait Stages: 'static {
     /// Where the two sides touch.
     type Place: Copy + 'static;
+
+    /// The kind itself.
+    type Query;
+
+    /// The query of finite coordinates and a valid radius.
+    fn query(positions: &Positions, radius: Radius) -> Self::Query;
 
     /// How many of the four points are of the first side.
     const FIRST: usize;

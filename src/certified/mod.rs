@@ -53,6 +53,7 @@
     reason = "a comparison with NaN must mean: not proved"
 )]
 
+mod advance_pairs;
 mod batch;
 mod block;
 mod cascade;
@@ -82,8 +83,10 @@ mod step;
 #[cfg(test)]
 mod testing;
 mod thick;
+mod together;
 mod vector;
 
+pub use advance_pairs::{ListedPair, PairsLimit, PairsStep, advance_pairs};
 pub use batch::{Batch, BatchError};
 pub(crate) use block::CHUNK;
 pub use cascade::{classify, decide, decide_exactly, decide_observed};
@@ -101,4 +104,5 @@ pub use step::{
     Advance, Blocked, Clearance, ClearanceError, Precision, advance, advance_in, interpolate,
     interpolate_in,
 };
-pub(crate) use step::{Limit, first_toi, halved, is_apart_until, limit, rounding_of, stored};
+pub(crate) use step::{Limit, first_toi, rounding_of};
+pub(crate) use together::{Moved, PairMotion, Together, targets};

@@ -5,9 +5,11 @@ use std::marker::PhantomData;
 use std::ops::Range;
 
 use super::block::{CHUNK, LANES, Source, Tile};
-use super::kind::Kind;
+use super::kind::{Kind, Stages};
+use super::motion::Positions;
 use super::queries;
 use super::stage::Stage;
+use super::step::{Clearance, ClearanceError};
 use crate::contact::Hit;
 use crate::query::{Counted, QueryError, Radius, first_not_finite};
 
@@ -16,6 +18,9 @@ use crate::query::{Counted, QueryError, Radius, first_not_finite};
 /// of a mesh or of wires delivers them.
 ///
 /// Nothing is copied. The answers are those of [`decide`](super::decide), bit for bit.
+/// [`advance_pairs`](super::advance_pairs) gives positions to store.
+///
+/// Leave out pairs whose sides share a point, such as neighbouring edges: they touch at time 0.
 ///
 /// ```
 /// use tunnelproof::{EdgeEdge, Pairs};
@@ -29,11 +34,14 @@ use crate::query::{Counted, QueryError, Radius, first_not_finite};
 /// let [(index, hit)] = &hits[..] else { panic!("they cross") };
 /// assert_eq!(*index, 0);
 /// assert!(hit.toi <= 1.0 / 3.0 && 1.0 / 3.0 <= hit.toi_above);
+/// // The points and the normal of a contact are asked of its query.
+/// let query = pairs.get(*index).expect("it is one of them");
+/// assert!((hit.points(&query).0.point.x - 0.5).abs() < 1e-9);
 /// # Ok::<(), tunnelproof::PairsError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Pairs<'a, K> {
-    indexed: Indexed<'a>,
+    pub(super) indexed: Indexed<'a>,
     kind: PhantomData<fn() -> K>,
 }
 
@@ -58,6 +66,12 @@ impl<'a, K: Kind> Pairs<'a, K> {
     /// Pairs with the same radius: the indices of A, B, C and D of each, and the positions in metres
     /// at `t = 0` and at `t = 1`.
     ///
+    /// The radius is the distance at which two sides touch, such as the sum of the radii of two
+    /// wires. That is what [`Mesh`](crate::Mesh) calls the thickness.
+    ///
+    /// All positions are looked at, also those that no pair has: they have to be finite, and for a
+    /// few pairs of many positions this takes longest.
+    ///
     /// # Errors
     ///
     /// [`PairsError`] if the arrays of positions differ in length, a coordinate or the radius is not
@@ -71,7 +85,8 @@ impl<'a, K: Kind> Pairs<'a, K> {
         Self::checked(start, end, indices, Radii::Same(radius.into()))
     }
 
-    /// The same with a radius for each pair.
+    /// The same with a radius for each pair: `r.into()` of a number, `[r, s].into()` of the exact sum
+    /// of two.
     ///
     /// # Errors
     ///
@@ -162,6 +177,35 @@ impl<'a, K: Kind> Pairs<'a, K> {
         self.len() == 0
     }
 
+    /// The query of a pair, if there is one: a copy, for the [points](Hit::points) and the
+    /// [normal](Hit::normal) of a hit.
+    pub fn get(&self, pair: usize) -> Option<K> {
+        let query = || K::Stages::query(&self.indexed.positions(pair), self.indexed.radius(pair));
+        (pair < self.len()).then(query)
+    }
+
+    /// Some of the pairs, if there are all of these; their places are counted from the first of
+    /// them. Nothing is checked again: for an engine with threads of its own.
+    pub fn part(&self, pairs: Range<usize>) -> Option<Self> {
+        let Indexed {
+            start,
+            end,
+            indices,
+            radii,
+        } = self.indexed;
+        let indexed = Indexed {
+            start,
+            end,
+            indices: indices.get(pairs.clone())?,
+            radii: match radii {
+                Radii::Same(radius) => Radii::Same(radius),
+                Radii::Each(radii) => Radii::Each(radii.get(pairs)?),
+            },
+        };
+        let kind = PhantomData;
+        Some(Pairs { indexed, kind })
+    }
+
     /// All hits with the places of their pairs, in order.
     pub fn decide(&self) -> Vec<(usize, Hit<K::Place>)> {
         queries::decide::<K::Stages>(&self.indexed, self.len())
@@ -181,6 +225,17 @@ impl<'a, K: Kind> Pairs<'a, K> {
     #[cfg(feature = "rayon")]
     pub fn par_decide(&self) -> Vec<(usize, Hit<K::Place>)> {
         queries::par_decide::<K::Stages>(&self.indexed, self.len())
+    }
+}
+
+impl Indexed<'_> {
+    /// The motion of a pair.
+    pub(super) fn positions(&self, pair: usize) -> Positions {
+        let of = |all: &[[f64; 3]]| self.indices[pair].map(|index| all[index as usize]);
+        Positions {
+            start: of(self.start),
+            end: of(self.end),
+        }
     }
 }
 
@@ -259,6 +314,16 @@ pub enum PairsError {
         /// The radius.
         radius: Radius,
     },
+    /// The pairs of a step are not of the same positions.
+    Positions,
+    /// The clearance of a step has no meaning.
+    Clearance(Clearance),
+}
+
+impl From<ClearanceError> for PairsError {
+    fn from(ClearanceError(clearance): ClearanceError) -> Self {
+        PairsError::Clearance(clearance)
+    }
 }
 
 impl fmt::Display for PairsError {
@@ -269,17 +334,15 @@ impl fmt::Display for PairsError {
                 found,
                 expected,
             } => {
-                let (found, expected) = match array {
-                    "radii" => (
-                        Counted(found, "radius", "radii"),
-                        Counted(expected, "pair", "pairs"),
-                    ),
-                    _ => (
-                        Counted(found, "position at the end", "positions at the end"),
-                        Counted(expected, "position at the start", "positions at the start"),
-                    ),
-                };
-                write!(f, "{found}, and {expected}")
+                let entries = Counted(found, "entry", "entries");
+                write!(f, "{array} has {entries}, and ")?;
+                match array {
+                    "radii" => {
+                        let pairs = Counted(expected, "pair", "pairs");
+                        write!(f, "there {} {pairs}", pairs.verb())
+                    }
+                    _ => write!(f, "start has {expected}"),
+                }
             }
             PairsError::NotFinite {
                 array,
@@ -296,11 +359,12 @@ impl fmt::Display for PairsError {
                 index,
                 points,
             } => {
-                let points = Counted(points, "position", "positions");
-                let verb = points.verb();
+                let point = ['A', 'B', 'C', 'D'][corner];
+                let verb = Counted(points, "", "").verb();
                 write!(
                     f,
-                    "pair {pair}: index {corner} is {index}, and there {verb} {points}"
+                    "pair {pair}: point {point} is position {index}, and there {verb} {points}, \
+                     counted from 0"
                 )
             }
             PairsError::Radius { pair, radius } => {
@@ -309,6 +373,10 @@ impl fmt::Display for PairsError {
                 }
                 QueryError::Radius(radius).fmt(f)
             }
+            PairsError::Positions => {
+                f.write_str("edges and faces are lists of different positions")
+            }
+            PairsError::Clearance(clearance) => ClearanceError(clearance).fmt(f),
         }
     }
 }

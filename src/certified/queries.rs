@@ -149,7 +149,7 @@ impl MayTouch {
         MayTouch { open: Open::new() }
     }
 
-    /// Calls `each` for queries, of the first [`CHUNK`] or fewer of a source, in order: for all that
+    /// Calls `each` for queries, of a source of [`CHUNK`] or fewer, in order: for all that
     /// touch, and for some that do not.
     pub(crate) fn of<K: Kind>(
         &mut self,
@@ -157,7 +157,8 @@ impl MayTouch {
         count: usize,
         each: impl FnMut(usize),
     ) {
-        let all = 0..count.min(CHUNK);
+        debug_assert!(count <= CHUNK);
+        let all = 0..count;
         match source.are_thin(all.clone()) {
             Some(true) => {
                 self.open.add::<K::Stages>(source, all, &mut |_| {});
@@ -180,7 +181,8 @@ impl MayTouch {
         precision: Precision,
         each: impl FnMut(usize),
     ) {
-        let all = 0..count.min(CHUNK);
+        debug_assert!(count <= CHUNK);
+        let all = 0..count;
         self.open.add_with_room::<K::Stages>(source, all, precision);
         self.open.screen_thick::<K::Stages>(&mut |_| {});
         self.visit(each);

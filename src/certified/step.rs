@@ -265,7 +265,7 @@ pub fn interpolate_in(start: &Point, end: &Point, step: f64, precision: Precisio
 
 /// As [`interpolate_in`], with an end that is its own [target](Precision::target).
 #[inline(always)]
-pub(crate) fn stored(
+pub(super) fn stored(
     start: &[f64; 3],
     end: &[f64; 3],
     step: f64,
@@ -398,7 +398,7 @@ impl Limit {
 }
 
 /// The [`Limit`] of a motion; `None` if the two sides touch at the start.
-pub(crate) fn limit<K: Kind>(
+pub(super) fn limit<K: Kind>(
     positions: &Positions,
     radius: Radius,
     clearance: Clearance,
@@ -451,7 +451,7 @@ pub(crate) fn limit<K: Kind>(
 }
 
 /// Whether straight motion to the rounded positions at a step keeps a distance above this.
-pub(crate) fn is_apart_until<K: Kind>(
+pub(super) fn is_apart_until<K: Kind>(
     positions: &Positions,
     kept: Radius,
     step: f64,
@@ -465,7 +465,7 @@ pub(crate) fn is_apart_until<K: Kind>(
 }
 
 /// Steps to try where rounding is in the way: one, and halves of it.
-pub(crate) fn halved(step: f64) -> impl Iterator<Item = f64> {
+pub(super) fn halved(step: f64) -> impl Iterator<Item = f64> {
     (0..=HALVINGS).map(move |k| step * 0.5f64.powi(k))
 }
 

@@ -7,22 +7,15 @@ use super::tree::{Bounds, Grid, Lane, Meets, Task, Tree};
 use crate::certified::{Positions, Precision, rounding_of};
 use crate::environment;
 use crate::parallel::{both, mapped, mapped_with};
-use crate::query::{Radius, first_not_finite};
+use crate::query::{QueryKind, Radius, first_not_finite};
 
 /// A position as it is stored.
 pub(super) type Position = [f64; 3];
 
-/// Which of the two kinds of pairs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum PairKind {
-    Edges,
-    Face,
-}
-
 /// A pair of a mesh by its indices: of two segments, or of a vertex and a face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Candidate {
-    pub(super) kind: PairKind,
+    pub(super) kind: QueryKind,
     pub(super) first: u32,
     pub(super) second: u32,
 }
@@ -77,11 +70,11 @@ impl<'a> Question<'a> {
             second,
         } = *candidate;
         match kind {
-            PairKind::Edges => {
+            QueryKind::EdgeEdge => {
                 let ([a, b], [c, d]) = (self.mesh.segment(first), self.mesh.segment(second));
                 [a, b, c, d]
             }
-            PairKind::Face => {
+            QueryKind::VertexFace => {
                 let [b, c, d] = self.mesh.faces[second as usize];
                 [first, b, c, d]
             }
@@ -100,7 +93,7 @@ impl<'a> Question<'a> {
 
     /// The distance at which a pair touches.
     #[inline(always)]
-    pub(super) fn radius(&self, kind: PairKind, vertices: &[u32; 4]) -> Radius {
+    pub(super) fn radius(&self, kind: QueryKind, vertices: &[u32; 4]) -> Radius {
         let (first, second) = sides(kind, vertices);
         self.thickness.between(self.mesh, first, second)
     }
@@ -113,11 +106,11 @@ impl<'a> Question<'a> {
             second,
         } = *candidate;
         match kind {
-            PairKind::Edges => Pair {
+            QueryKind::EdgeEdge => Pair {
                 first: self.mesh.segment_feature(first),
                 second: self.mesh.segment_feature(second),
             },
-            PairKind::Face => Pair {
+            QueryKind::VertexFace => Pair {
                 first: Feature::Vertex(first),
                 second: Feature::Face(second),
             },
@@ -222,11 +215,11 @@ impl<'a> Candidates<'a> {
         let meets = self.meets.as_ref();
         let edges = self.segments.tasks_within(PARTS, meets);
         let faces = self.vertices.tasks_with(&self.faces, PARTS, meets);
-        let edges = edges.into_iter().map(|task| (PairKind::Edges, task));
-        let faces = faces.into_iter().map(|task| (PairKind::Face, task));
-        let tasks: Vec<(PairKind, Task)> = edges.chain(faces).collect();
+        let edges = edges.into_iter().map(|task| (QueryKind::EdgeEdge, task));
+        let faces = faces.into_iter().map(|task| (QueryKind::VertexFace, task));
+        let tasks: Vec<(QueryKind, Task)> = edges.chain(faces).collect();
         let share = tasks.len().div_ceil(PARTS).max(1);
-        let parts: Vec<&[(PairKind, Task)]> = tasks.chunks(share).collect();
+        let parts: Vec<&[(QueryKind, Task)]> = tasks.chunks(share).collect();
         mapped_with(parts.len(), Screen::default, |screen, part| {
             // By each thread that takes a part.
             debug_assert_eq!(environment::check(), Ok(()));
@@ -252,11 +245,11 @@ impl<'a> Candidates<'a> {
                     chunk.push(candidate, vertices);
                 };
                 match kind {
-                    PairKind::Edges => {
+                    QueryKind::EdgeEdge => {
                         self.segments
                             .pairs(&self.segments, task, meets, true, &mut found);
                     }
-                    PairKind::Face => {
+                    QueryKind::VertexFace => {
                         self.vertices
                             .pairs(&self.faces, task, meets, false, &mut found);
                     }
@@ -276,10 +269,10 @@ const SHARE: usize = 1024;
 
 /// The vertices of both sides.
 #[inline(always)]
-pub(super) fn sides(kind: PairKind, vertices: &[u32; 4]) -> (&[u32], &[u32]) {
+pub(super) fn sides(kind: QueryKind, vertices: &[u32; 4]) -> (&[u32], &[u32]) {
     vertices.split_at(match kind {
-        PairKind::Edges => 2,
-        PairKind::Face => 1,
+        QueryKind::EdgeEdge => 2,
+        QueryKind::VertexFace => 1,
     })
 }
 

@@ -1,12 +1,12 @@
 //! Pairs of a mesh that are asked together, as the first stages take several at once.
 
-use super::candidates::{Candidate, PairKind, Question};
+use super::candidates::{Candidate, Question};
 use crate::certified::{CHUNK, Indexed, MayTouch, Precision, Radii};
-use crate::query::{EdgeEdge, Radius, VertexFace};
+use crate::query::{EdgeEdge, QueryKind, Radius, VertexFace};
 
 /// Pairs of a kind.
 pub(super) struct Chunk {
-    pub(super) kind: PairKind,
+    pub(super) kind: QueryKind,
     candidates: [Candidate; CHUNK],
     vertices: [[u32; 4]; CHUNK],
     count: usize,
@@ -14,7 +14,7 @@ pub(super) struct Chunk {
 
 impl Default for Chunk {
     fn default() -> Self {
-        let kind = PairKind::Edges;
+        let kind = QueryKind::EdgeEdge;
         let none = Candidate {
             kind,
             first: 0,
@@ -32,7 +32,7 @@ impl Default for Chunk {
 impl Chunk {
     /// Whether there is room for a pair of this kind.
     #[inline(always)]
-    pub(super) fn takes(&self, kind: PairKind) -> bool {
+    pub(super) fn takes(&self, kind: QueryKind) -> bool {
         self.count == 0 || self.count < CHUNK && self.kind == kind
     }
 
@@ -115,12 +115,12 @@ impl Screen {
         };
         let open = |index: usize| each(&chunk.candidates[index], &chunk.vertices[index]);
         match (chunk.kind, rounded) {
-            (PairKind::Edges, None) => screen.of::<EdgeEdge>(&source, chunk.count, open),
-            (PairKind::Face, None) => screen.of::<VertexFace>(&source, chunk.count, open),
-            (PairKind::Edges, Some(precision)) => {
+            (QueryKind::EdgeEdge, None) => screen.of::<EdgeEdge>(&source, chunk.count, open),
+            (QueryKind::VertexFace, None) => screen.of::<VertexFace>(&source, chunk.count, open),
+            (QueryKind::EdgeEdge, Some(precision)) => {
                 screen.with_room::<EdgeEdge>(&source, chunk.count, precision, open);
             }
-            (PairKind::Face, Some(precision)) => {
+            (QueryKind::VertexFace, Some(precision)) => {
                 screen.with_room::<VertexFace>(&source, chunk.count, precision, open);
             }
         }

@@ -2,12 +2,12 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::candidates::{Candidate, Candidates, PairKind, Position, Question};
+use super::candidates::{Candidate, Candidates, Position, Question};
 use super::error::MeshError;
 use super::topology::{Mesh, Pair, Thickness};
 use crate::certified::first_toi;
 use crate::contact::{Contact, ContactKind};
-use crate::query::{EdgeEdge, Point, Query, Radius, VertexFace};
+use crate::query::{EdgeEdge, Point, Query, QueryKind, Radius, VertexFace};
 
 /// The first contact of a pair during a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -131,8 +131,8 @@ impl Mesh {
     ) -> Result<Option<Query>, MeshError> {
         let question = Question::new(self, start, end, thickness.into())?;
         let kind = match pair.second {
-            super::Feature::Face(_) => PairKind::Face,
-            _ => PairKind::Edges,
+            super::Feature::Face(_) => QueryKind::VertexFace,
+            _ => QueryKind::EdgeEdge,
         };
         Ok(self
             .vertices_of(pair)
@@ -143,23 +143,23 @@ impl Mesh {
 impl Question<'_> {
     /// When a pair touches first.
     #[inline]
-    fn toi(&self, kind: PairKind, vertices: &[u32; 4]) -> Option<f64> {
+    fn toi(&self, kind: QueryKind, vertices: &[u32; 4]) -> Option<f64> {
         let positions = self.positions(vertices);
         let radius = self.radius(kind, vertices);
         match kind {
-            PairKind::Edges => first_toi::<EdgeEdge>(&positions, radius),
-            PairKind::Face => first_toi::<VertexFace>(&positions, radius),
+            QueryKind::EdgeEdge => first_toi::<EdgeEdge>(&positions, radius),
+            QueryKind::VertexFace => first_toi::<VertexFace>(&positions, radius),
         }
     }
 
     /// The query of a pair. All its numbers are finite; so it is always one.
-    fn query(&self, kind: PairKind, vertices: &[u32; 4]) -> Option<Query> {
+    fn query(&self, kind: QueryKind, vertices: &[u32; 4]) -> Option<Query> {
         let of = |all: &[Position]| vertices.map(|vertex| Point::from(all[vertex as usize]));
         let (start, end): ([Point; 4], [Point; 4]) = (of(self.start), of(self.end));
         let radius: Radius = self.radius(kind, vertices);
         match kind {
-            PairKind::Edges => EdgeEdge::new(start, end, radius).map(Query::EdgeEdge).ok(),
-            PairKind::Face => VertexFace::new(start, end, radius)
+            QueryKind::EdgeEdge => EdgeEdge::new(start, end, radius).map(Query::EdgeEdge).ok(),
+            QueryKind::VertexFace => VertexFace::new(start, end, radius)
                 .map(Query::VertexFace)
                 .ok(),
         }

@@ -1,18 +1,12 @@
 //! The largest step of a mesh that is proved to touch nothing, and the positions to store.
-//!
-//! Each pair has a [`Limit`]: what it keeps of its distance, and up to which step rounded positions
-//! do. The step of the mesh is the least of these, unless all pairs keep what they should during the
-//! whole motion: then the positions are those asked for, without any rounding. A smaller step needs
-//! no second look at the pairs that have room for rounding. The others start so near to what they
-//! keep that the motion to the stored positions is decided itself.
 
-use super::candidates::{Candidate, Candidates, PairKind, Position, Question};
+use super::candidates::{Candidate, Candidates, Position, Question};
 use super::error::MeshError;
 use super::topology::{Mesh, Pair, Thickness};
 use crate::certified::{
-    Blocked, Clearance, Limit, Positions, Precision, halved, is_apart_until, limit, stored,
+    Blocked, Clearance, Limit, Moved, PairMotion, Precision, Together, targets,
 };
-use crate::query::{EdgeEdge, Radius, VertexFace};
+use crate::query::Radius;
 
 /// A step of a mesh that is proved.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,8 +80,9 @@ impl Mesh {
     /// however many steps follow. The preconditions are those of [`decide`](crate::decide).
     ///
     /// The step is 0 if a pair touches at the start, thickness or not, or if rounding leaves no room
-    /// to any step tried: [`MeshStep::limits`] names the pairs. Do not ask again with the same
-    /// motion. Part these pairs, let them move otherwise, or leave them out.
+    /// to any step tried: [`MeshStep::limits`] names the pairs. Where [`Blocked::Near`] ends a step,
+    /// it may be as small as some rounding errors, so do not wait for 0. Do not ask again with the
+    /// same motion. Part these pairs, let them move otherwise, or leave them out.
     ///
     /// # Errors
     ///
@@ -122,7 +117,7 @@ impl Mesh {
         precision: Precision,
     ) -> Result<MeshStep, MeshError> {
         let clearance = clearance.checked()?;
-        let targets = (precision != Precision::F64).then(|| targets(end, precision));
+        let targets = targets(end, precision);
         let end = targets.as_deref().unwrap_or(end);
         let question = Question::new(self, start, end, thickness.into())?;
         let beyond = match clearance {
@@ -148,176 +143,38 @@ impl Mesh {
             counts = [0, 1].map(|i| counts[i] + found.counts[i]);
             close.extend(found.close);
         }
-        close.sort_unstable_by_key(|(candidate, _)| *candidate);
-        let (step, limits) = question.furthest(&mut close, precision);
-        let shown = |(candidate, blocked): (Candidate, Blocked)| MeshLimit {
-            pair: question.pair(&candidate),
-            blocked,
+        let together = Together {
+            start,
+            end,
+            precision,
+            motion: &|candidate| question.motion(candidate),
         };
-        let near = close.iter().filter_map(|(candidate, limit)| {
-            let limit = limit.as_ref().filter(|limit| !limit.is_whole)?;
-            Some((question.pair(candidate), limit.kept))
-        });
-        let near = near.collect();
-        let positions = start.iter().zip(end);
+        let Moved {
+            step,
+            positions,
+            limits,
+            near,
+        } = together.moved(close);
+        let limit = |(candidate, blocked): &(Candidate, Blocked)| MeshLimit {
+            pair: question.pair(candidate),
+            blocked: *blocked,
+        };
+        let kept = |(candidate, kept): &(Candidate, Radius)| (question.pair(candidate), *kept);
         Ok(MeshStep {
             step,
-            positions: positions
-                .map(|(start, end)| stored(start, end, step, precision))
-                .collect(),
-            limits: limits.into_iter().map(shown).collect(),
-            near,
+            positions,
+            limits: limits.iter().map(limit).collect(),
+            near: near.iter().map(kept).collect(),
             candidates: counts,
         })
     }
 }
 
-/// What positions at the end of a motion become.
-fn targets(end: &[Position], precision: Precision) -> Vec<Position> {
-    let of = |position: &Position| position.map(|x| precision.target(x));
-    end.iter().map(of).collect()
-}
-
 impl Question<'_> {
-    /// The step of a mesh by the limits of its pairs, and those that end it.
-    fn furthest(
-        &self,
-        close: &mut [(Candidate, Option<Limit>)],
-        precision: Precision,
-    ) -> (f64, Vec<(Candidate, Blocked)>) {
-        let touching: Vec<_> = close
-            .iter()
-            .filter(|(_, limit)| limit.is_none())
-            .map(|(candidate, _)| (*candidate, Blocked::Touching))
-            .collect();
-        if !touching.is_empty() {
-            return (0.0, touching);
-        }
-        if close
-            .iter()
-            .flat_map(|(_, limit)| limit)
-            .all(|limit| limit.toi.is_none())
-        {
-            return (1.0, Vec::new());
-        }
-        self.decide_least(close, precision);
-        let limits = close.iter();
-        let limits =
-            limits.filter_map(|(candidate, limit)| limit.as_ref().map(|limit| (candidate, limit)));
-        // Those that have hardly room for rounding, or none for a part of the step, are decided at each
-        // step that is tried.
-        let is_tight = |limit: &Limit| limit.until == 0.0 || limit.toi.is_none() || limit.is_short;
-        let (tight, roomy): (Vec<_>, Vec<_>) = limits.partition(|(_, limit)| is_tight(limit));
-        let roomy_step = roomy.iter().map(|(_, limit)| limit.until);
-        let tight_step = tight.iter().filter_map(|(_, limit)| limit.toi);
-        let largest = roomy_step.chain(tight_step).fold(1.0, f64::min);
-        let ends = |step: f64| {
-            let ahead = roomy.iter().filter(move |(_, limit)| limit.until <= step);
-            let ahead = ahead.map(|(candidate, _)| (**candidate, Blocked::Ahead));
-            let near = tight
-                .iter()
-                .filter(move |(_, limit)| limit.toi.is_some_and(|toi| toi <= step));
-            ahead.chain(near.map(|(candidate, _)| (**candidate, Blocked::Near)))
-        };
-        // What those with hardly room prove at least.
-        let short = tight.iter().filter(|(_, limit)| limit.is_short);
-        let least = short.map(|(_, limit)| limit.until).reduce(f64::min);
-        let least = least.map(|least| least.min(largest));
-        let mut failing = Vec::new();
-        for step in halved(largest).chain(least) {
-            let fails = |(candidate, limit): &&(&Candidate, &Limit)| {
-                !self
-                    .motion(candidate)
-                    .is_apart_until(limit.kept, step, precision)
-            };
-            let now: Vec<_> = tight.iter().filter(fails).collect();
-            if now.is_empty() && self.moves(step, precision) {
-                let near = failing.iter().copied();
-                let mut all: Vec<_> = ends(step).chain(near).collect();
-                all.sort_unstable_by_key(|(candidate, _)| *candidate);
-                return (step, all);
-            }
-            if !now.is_empty() {
-                failing = now
-                    .into_iter()
-                    .map(|(candidate, _)| (**candidate, Blocked::Near))
-                    .collect();
-            }
-        }
-        // No position that is stored would be another one.
-        if failing.is_empty() {
-            failing = ends(largest)
-                .map(|(candidate, _)| (candidate, Blocked::Near))
-                .collect();
-        }
-        (0.0, failing)
-    }
-
-    /// Decides the limits that planes leave rough, as long as they are the least: the others do not
-    /// matter. Those of 0 are the least of all.
-    fn decide_least(&self, close: &mut [(Candidate, Option<Limit>)], precision: Precision) {
-        let mut order: Vec<usize> = (0..close.len()).collect();
-        let until =
-            |(_, limit): &(Candidate, Option<Limit>)| limit.map_or(1.0, |limit| limit.until);
-        order.sort_by(|&i, &j| until(&close[i]).total_cmp(&until(&close[j])));
-        let mut least = 1.0;
-        for index in order {
-            let (candidate, limit) = &mut close[index];
-            let Some(limit) = limit.as_mut().filter(|limit| limit.toi.is_some()) else {
-                continue;
-            };
-            if limit.until > least {
-                break;
-            }
-            if limit.is_rough() {
-                *limit = self.motion(candidate).decided(*limit, precision);
-            }
-            if limit.until > 0.0 && !limit.is_short {
-                least = limit.until.min(least);
-            }
-        }
-    }
-
-    fn motion(&self, candidate: &Candidate) -> PairOf {
-        PairOf {
+    fn motion(&self, candidate: &Candidate) -> PairMotion {
+        PairMotion {
             kind: candidate.kind,
             positions: self.positions(&self.vertices_of(candidate)),
-        }
-    }
-
-    /// Whether any position at a step is another one than at the start.
-    fn moves(&self, step: f64, precision: Precision) -> bool {
-        let mut both = self.start.iter().zip(self.end);
-        both.any(|(start, end)| stored(start, end, step, precision) != *start)
-    }
-}
-
-/// The motion of a pair, of either kind.
-struct PairOf {
-    kind: PairKind,
-    positions: Positions,
-}
-
-impl PairOf {
-    #[inline(never)]
-    fn limit(&self, radius: Radius, clearance: Clearance, precision: Precision) -> Option<Limit> {
-        match self.kind {
-            PairKind::Edges => limit::<EdgeEdge>(&self.positions, radius, clearance, precision),
-            PairKind::Face => limit::<VertexFace>(&self.positions, radius, clearance, precision),
-        }
-    }
-
-    fn decided(&self, limit: Limit, precision: Precision) -> Limit {
-        match self.kind {
-            PairKind::Edges => limit.decided::<EdgeEdge>(&self.positions, precision),
-            PairKind::Face => limit.decided::<VertexFace>(&self.positions, precision),
-        }
-    }
-
-    fn is_apart_until(&self, kept: Radius, step: f64, precision: Precision) -> bool {
-        match self.kind {
-            PairKind::Edges => is_apart_until::<EdgeEdge>(&self.positions, kept, step, precision),
-            PairKind::Face => is_apart_until::<VertexFace>(&self.positions, kept, step, precision),
         }
     }
 }

@@ -197,7 +197,7 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     },
     Mutant {
         culprit: Culprit::Step,
-        file: "src/mesh/step.rs",
+        file: "src/certified/together.rs",
         text: "let largest = roomy_step.chain(tight_step).fold(1.0, f64::min);",
         replacement: "let largest = tight_step.chain(roomy_step).fold(0.0, f64::max);",
         fault: "a mesh takes the largest step of its pairs",

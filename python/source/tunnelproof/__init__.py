@@ -14,7 +14,8 @@ wires. With 0 contact is a common point.
 :func:`decide` is the certified path, for simulators: it misses no contact and invents none, and its
 time of impact is the exact one rounded down. Positions at that time are rounded, and may already be
 past the contact. :func:`advance` gives positions to store instead: straight motion to them touches
-nothing. :class:`Mesh` does the same for whole meshes, whose pairs it finds itself.
+nothing. :func:`decide_pairs` takes queries that share points by their indices. :class:`Mesh` does the
+same for whole meshes, whose pairs it finds itself.
 :func:`decide_rigid` is the certified path for rigid bodies that turn within the step. :func:`exact`
 is the oracle in exact arithmetic, by another method. :func:`certify` judges a method of your own
 against it on :func:`families` of queries, each of which aims at a weakness. :func:`explain` says
@@ -23,10 +24,11 @@ wrong, and :func:`gap` says how near a miss was. :func:`simulate` runs scenes of
 queries and results, and ``plot()`` gives the picture of what has one.
 
 All functions release the global interpreter lock and use all cores. Ctrl-C ends a call on many
-queries soon. Arrays of other types are converted to ``float64``; complex numbers are refused. Arguments are copied, but for positions of meshes: these are read where
-they are, so no other thread may change them during a call. The proofs assume rounding to nearest
-and gradual underflow. Each function sets that for itself, on x86 with SSE2 and AArch64, and restores what
-the calling thread had: a library that switches on flush-to-zero changes no answer.
+queries soon. Arrays of other types are converted to ``float64``; complex numbers are refused.
+Arguments are copied, but for positions of meshes and of pairs by index: these are read where they
+are, so no other thread may change them during a call. The proofs assume rounding to nearest and
+gradual underflow. Each function sets that for itself, on x86 with SSE2 and AArch64, and restores
+what the calling thread had: a library that switches on flush-to-zero changes no answer.
 """
 
 from __future__ import annotations
@@ -40,7 +42,18 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _tunnelproof
-from ._arrays import Bools, Codes, Floats, Kind, query_arrays, whole
+from ._arrays import (
+    Bools,
+    Codes,
+    Floats,
+    Kind,
+    Places,
+    index_array,
+    position_array,
+    query_arrays,
+    radius_array,
+    whole,
+)
 from ._hits import Case, ContactPoints, Hits
 from ._html import Picture, frame
 from ._kinds import Blocked, ContactKind, Feature
@@ -75,6 +88,7 @@ __all__ = [
     "advance",
     "certify",
     "decide",
+    "decide_pairs",
     "decide_rigid",
     "exact",
     "explain",
@@ -143,6 +157,46 @@ def decide(kind: Kind, points: npt.ArrayLike, radius: npt.ArrayLike = 0.0) -> Hi
     array([[0., 0., 1.]])
     """
     return Hits._of(_tunnelproof.decide(kind, *query_arrays(points, radius)))
+
+
+def decide_pairs(
+    kind: Kind,
+    start: npt.ArrayLike,
+    end: npt.ArrayLike,
+    indices: npt.ArrayLike,
+    radius: npt.ArrayLike = 0.0,
+) -> tuple[Places, Hits]:
+    """Which pairs of points that are shared touch, and when: candidate pairs as a broad phase of
+    your own delivers them.
+
+    :param kind: ``"edge-edge"`` or ``"vertex-face"``.
+    :param start: the points at the start of the step, of shape ``(m, 3)``, in metres.
+    :param end: the same at its end.
+    :param indices: A, B, C and D of each pair, integers of shape ``(n, 4)``.
+    :param radius: a number, shape ``(n,)``, or shape ``(n, 2)`` for exact sums of two, in metres.
+    :returns: the places of the pairs that touch, intp of shape ``(k,)``, in order, and the hits of
+        these, which are those of :func:`decide`, to the last bit.
+    :raises ValueError: for other kinds and shapes, and for a number that is not finite, a radius
+        below 0 or an index that there is not, which is named.
+
+    Points are read where they are, so no other thread may change them during a call.
+
+    >>> start = [[-1, 0, 0], [1, 0, 0], [-1, 2, 0], [1, 2, 0], [0.5, -1, 1], [0.5, 1, 1]]
+    >>> end = np.array(start)
+    >>> end[4:, 2] -= 4
+    >>> pairs, hits = decide_pairs("edge-edge", start, end, [[2, 3, 4, 5], [0, 1, 4, 5]])
+    >>> pairs, hits.toi
+    (array([1]), array([0.25]))
+    """
+    of_indices = index_array("indices", indices, (-1, 4))
+    places, columns = _tunnelproof.decide_pairs(
+        kind,
+        position_array("start", start),
+        position_array("end", end),
+        of_indices,
+        radius_array(radius, len(of_indices), same=True),
+    )
+    return places, Hits._of(columns)
 
 
 def exact(kind: Kind, points: npt.ArrayLike, radius: npt.ArrayLike = 0.0) -> ExactHits:

@@ -20,6 +20,7 @@ Floats = npt.NDArray[np.float64]
 Bools = npt.NDArray[np.bool_]
 Codes = npt.NDArray[np.int8]
 Indices = npt.NDArray[np.uint32]
+Places = npt.NDArray[np.intp]
 
 
 def reals(name: str, values: npt.ArrayLike) -> Floats:
@@ -46,13 +47,16 @@ def query_arrays(points: npt.ArrayLike, radius: npt.ArrayLike) -> tuple[Floats, 
     return of_points, radius_array(radius, len(of_points))
 
 
-def radius_array(radius: npt.ArrayLike, count: int) -> Floats:
-    """Two numbers for each of so many queries, whose sum is their radius."""
+def radius_array(radius: npt.ArrayLike, count: int, same: bool = False) -> Floats:
+    """Two numbers for each of so many queries, whose sum is their radius. If one for all is taken
+    as well, these are only two if they are the ``same``."""
     of_radii = reals("radius", radius)
     if of_radii.shape not in [(), (count,), (count, 2)]:
         raise ValueError(
             f"radius has the shape {of_radii.shape}, not (), ({count},) or ({count}, 2)"
         )
+    if same and of_radii.ndim == 0:
+        count = 1
     if of_radii.ndim < 2:
         single = np.broadcast_to(of_radii, (count,))
         of_radii = np.stack([single, np.zeros(count)], axis=1)

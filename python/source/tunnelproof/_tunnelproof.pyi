@@ -1,7 +1,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from ._arrays import Floats, Indices, Kind, Precision, TurningKind
+from ._arrays import Floats, Indices, Kind, Places, Precision, TurningKind
 
 VERSION: str
 
@@ -51,6 +51,9 @@ def advance(
 def decide(
     kind: Kind, points: Floats, radii: Floats
 ) -> dict[str, Any]: ...
+def decide_pairs(
+    kind: Kind, start: Floats, end: Floats, indices: Indices, radii: Floats
+) -> tuple[Places, dict[str, Any]]: ...
 def exact(
     kind: Kind, points: Floats, radii: Floats
 ) -> dict[str, Any]: ...

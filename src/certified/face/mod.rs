@@ -52,6 +52,12 @@ impl HasNormal<FacePlace> for VertexFace {
 
 impl Stages for VertexFace {
     type Place = FacePlace;
+    type Query = Self;
+
+    fn query(positions: &Positions, radius: Radius) -> Self {
+        let Positions { start, end } = *positions;
+        VertexFace::of(start.map(Point::from), end.map(Point::from), radius)
+    }
 
     const FIRST: usize = 1;
 
