@@ -74,7 +74,7 @@ fn found<'py, K: Kind>(
     let hits = each(py, &firsts, |&first| {
         let part = pairs.part(first..pairs.len().min(first + PART));
         let hits = part.map_or(Vec::new(), |part| part.decide());
-        let whole = |(place, hit)| {
+        let whole = |(place, hit): (usize, Hit<K::Place>)| {
             let query = pairs.get(first + place)?;
             Some(((first + place).cast_signed(), Some(Row::new(&query, hit))))
         };
