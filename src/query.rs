@@ -345,7 +345,7 @@ mod tests {
         let error = VertexFace::new(zero, zero, [0.5, -1.0]).unwrap_err();
         assert_eq!(
             error.to_string(),
-            "the radius is 0.5 + -1; it has to be finite, and 0 or more"
+            "the radius is 0.5 + -1; both have to be finite, and 0 or more"
         );
         assert!(EdgeEdge::new(zero, zero, 0.0).is_ok());
         assert!(EdgeEdge::new(zero, zero, [f64::MAX; 2]).is_ok());

@@ -206,6 +206,7 @@ fn thin_and_thick_scenes_go_on_from_every_step() {
         (include_str!("../scenes/two-plates.toml"), 0.0),
         (include_str!("../scenes/propeller.toml"), 0.0),
         (include_str!("../scenes/plate-edge.toml"), 0.0),
+        (include_str!("../scenes/crane.toml"), 0.0),
         (include_str!("../scenes/basic-collision.toml"), 0.5),
     ] {
         let mut scene = Scene::from_toml(file).unwrap();

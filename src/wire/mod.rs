@@ -54,7 +54,7 @@ pub use energy::Energy;
 pub use error::{CollisionError, Reason, StepError};
 pub use model::{
     Body, BodyId, BodyPlan, Drive, MassProperties, Material, Mesh, ModelError, Node, NodeKind,
-    Phase, Resolution, RopePlan, Segment, Shape, Stop, Wire, WireId, WirePlan,
+    Phase, ReelPhase, Resolution, RopePlan, Segment, Shape, Stop, Wire, WireId, WirePlan,
 };
 pub use record::{
     AddedInertia, BodyCrossing, BodyCrossingOutcome, BodyRecord, CollisionRecord, ContactRecord,

@@ -211,21 +211,27 @@ pub(super) fn remesh(wire: usize, kind: RemeshKind, nodes: &[Node; 3]) -> Remesh
 }
 
 /// Takes a node out. Each neighbour takes over the mass of the segment beyond the node, half of it,
-/// and the momentum that comes with it, so linear momentum stays.
+/// and the momentum that comes with it, so linear momentum stays. The end at a reel takes none: the
+/// wire moves on over it.
 fn take_out(wire: &mut Wire, node: usize, remesh_from: u64) {
     let masses = [node - 1, node + 1].map(|neighbour| wire.node_mass(neighbour));
     let lengths = [wire.rest_length(node), wire.rest_length(node - 1)];
     let half = wire.material.mass_per_length() / 2.0;
     let taken = wire.nodes.remove(node);
+    let reel = (!wire.reel.is_empty()).then_some(wire.nodes.len() - 1);
     for (neighbour, (mass, length)) in [node - 1, node]
         .into_iter()
         .zip(masses.into_iter().zip(lengths))
     {
+        let is_reel = Some(neighbour) == reel;
         let neighbour = &mut wire.nodes[neighbour];
+        neighbour.remesh_from = remesh_from;
+        if is_reel {
+            continue;
+        }
         let added = half * length;
         let momentum = neighbour.velocity * mass + taken.velocity * added;
         neighbour.velocity = momentum / (mass + added);
-        neighbour.remesh_from = remesh_from;
     }
     let after = wire.segments.remove(node);
     wire.segments[node - 1] = Segment::larger(&wire.segments[node - 1], &after);

@@ -1,6 +1,8 @@
 //! A world, and how it is put together.
 
-use super::model::{Body, BodyId, BodyPlan, ModelError, Resolution, Wire, WireId, WirePlan};
+use super::model::{
+    Body, BodyId, BodyPlan, ModelError, ReelPhase, Resolution, Wire, WireId, WirePlan,
+};
 use super::settings::Settings;
 use super::solver_cache::SolverCache;
 
@@ -135,6 +137,21 @@ impl World {
     pub fn set_resolution(&mut self, id: WireId, resolution: Resolution) -> Result<(), ModelError> {
         resolution.check(self.wire(id)?.length())?;
         self.wires[id.0].resolution = resolution;
+        Ok(())
+    }
+
+    /// Lets a wire out, and hauls it in, at its last end from now on: in these phases, in order of
+    /// time. None stops it.
+    ///
+    /// # Errors
+    ///
+    /// A wire that is not there, or a reel that [`add_wire`](Self::add_wire) would refuse; the world is
+    /// as before.
+    pub fn set_reel(&mut self, id: WireId, phases: Vec<ReelPhase>) -> Result<(), ModelError> {
+        let mut wire = self.wire(id)?.clone();
+        wire.reel = phases;
+        wire.check(&self.bodies).map_err(|(_, error)| error)?;
+        self.wires[id.0] = wire;
         Ok(())
     }
 

@@ -12,6 +12,7 @@ mod motion;
 mod statics;
 mod swing;
 mod torsion;
+mod winch;
 
 use std::error::Error;
 
@@ -64,7 +65,7 @@ impl Comparison {
 }
 
 /// All cases.
-pub(crate) const CASES: [Case; 29] = [
+pub(crate) const CASES: [Case; 31] = [
     motion::FREE_FALL,
     statics::STRETCH,
     motion::PENDULUM,
@@ -77,6 +78,8 @@ pub(crate) const CASES: [Case; 29] = [
     drum::CAPSTAN,
     drum::HOIST,
     drum::ATWOOD,
+    winch::WINCH,
+    winch::HAULED_PENDULUM,
     contact::INCLINE,
     contact::CROSSING,
     motion::TWIST,

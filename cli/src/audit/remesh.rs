@@ -40,8 +40,9 @@ impl Wires {
         for slide in &record.slides {
             let wire = nodes.get_mut(slide.wire.0);
             let node = wire.and_then(|wire| wire.get_mut(slide.node));
-            let is_contact = |node: &&mut Node| matches!(node.kind, NodeKind::Contact { .. });
-            if let Some(node) = node.filter(is_contact) {
+            // A contact node, or the last one at a reel.
+            let is_fixed = |node: &&mut Node| node.kind != NodeKind::Free;
+            if let Some(node) = node.filter(is_fixed) {
                 node.arc += slide.distance;
                 if slide.left {
                     node.kind = NodeKind::Free;

@@ -6,7 +6,7 @@ use nalgebra::{Quaternion, UnitQuaternion};
 
 use super::check;
 use super::error::{Reason, SceneError};
-use super::file::{Body, Drive, Material, Scene, Shape, Stop, Turn, Wire};
+use super::file::{Body, Drive, Material, ReelPhase, Scene, Shape, Stop, Turn, Wire};
 use super::hang::hang;
 use tunnelproof::broad::Method;
 use tunnelproof::narrow::NarrowPhase;
@@ -106,6 +106,11 @@ impl Scene {
         plan.length = wire.length;
         plan.velocity = wire.velocity.into();
         plan.twist = wire.twist;
+        let phase = |phase: &ReelPhase| wire::ReelPhase {
+            from: phase.from,
+            speed: phase.speed,
+        };
+        plan.reel = wire.reel.iter().map(phase).collect();
         Ok((plan, entries))
     }
 

@@ -177,6 +177,20 @@ pub struct Wire {
     /// that resists twist and is clamped at both ends.
     #[serde(default)]
     pub twist: f64,
+    /// What is let out at its last stop, a fixed point or an eye, by phases in order of time. Before
+    /// the first it is nothing.
+    #[serde(default)]
+    pub reel: Vec<ReelPhase>,
+}
+
+/// From a time on, wire is let out, as by a winch.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ReelPhase {
+    /// The time in s.
+    pub from: f64,
+    /// How much unstretched wire is let out, in m/s; below 0 it is hauled in.
+    pub speed: f64,
 }
 
 fn yes() -> bool {

@@ -43,7 +43,7 @@ mod tests;
 
 pub use continued::Difference;
 pub use error::{Reason, SceneError};
-pub use file::{Body, Drive, Dynamic, Material, Phase, Scene, Shape, Stop, Turn, Wire};
+pub use file::{Body, Drive, Dynamic, Material, Phase, ReelPhase, Scene, Shape, Stop, Turn, Wire};
 
 use tunnelproof::wire::World;
 

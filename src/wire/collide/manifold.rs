@@ -6,9 +6,9 @@ use super::collision_shape::ManifoldPoint;
 use crate::query::Point;
 use crate::wire::Vector;
 use crate::wire::contact::{ContactConstraint, ContactSite};
+use crate::wire::model::wire::LEAST;
 use crate::wire::model::{BodyId, NodeKind, WireId};
 use crate::wire::site::SegmentId;
-use crate::wire::step::capstan::LEAST;
 use crate::wire::world::World;
 
 /// What has a box.

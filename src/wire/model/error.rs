@@ -68,6 +68,15 @@ pub enum ModelError {
         /// The phase that does not start after the one before, from 0.
         phase: usize,
     },
+    /// Phases of a reel that do not follow each other in time.
+    ReelOrder {
+        /// The phase that does not start after the one before, from 0.
+        phase: usize,
+    },
+    /// A reel at an end that is free.
+    ReelAtFreeEnd,
+    /// A reel of a wire that holds twist.
+    ReelOfTwist,
 }
 
 impl ModelError {
@@ -134,6 +143,19 @@ impl fmt::Display for ModelError {
             ModelError::PhaseOrder { phase } => write!(
                 f,
                 "phase {phase} of the kinematic body must start after the phase before it"
+            ),
+            ModelError::ReelOrder { phase } => {
+                write!(
+                    f,
+                    "phase {phase} of the reel must start after the phase before it"
+                )
+            }
+            ModelError::ReelAtFreeEnd => {
+                f.write_str("the wire ends free, a reel must be at a fixed point or an eye")
+            }
+            ModelError::ReelOfTwist => f.write_str(
+                "the wire holds twist, a reel must be at a wire without twist_modulus or with an \
+                end that is not clamped",
             ),
         }
     }

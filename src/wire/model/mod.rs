@@ -7,6 +7,7 @@ mod error;
 mod material;
 mod mesh;
 mod plan;
+mod reel;
 mod shape;
 pub(in crate::wire) mod wire;
 
@@ -19,5 +20,6 @@ pub(in crate::wire) use mesh::Parts as MeshParts;
 #[cfg(test)]
 pub(in crate::wire) use mesh::tests::box_mesh;
 pub use plan::{Stop, WirePlan};
+pub use reel::ReelPhase;
 pub use shape::{MassProperties, Shape};
 pub use wire::{Node, NodeKind, Resolution, Segment, Wire, WireId};

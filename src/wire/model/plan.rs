@@ -2,7 +2,7 @@
 
 use super::check::{direction, finite_point, finite_vector, not_negative, positive};
 use super::wire::{Clamp, Segment};
-use super::{BodyId, Material, ModelError, Node, NodeKind, Resolution, Wire};
+use super::{BodyId, Material, ModelError, Node, NodeKind, ReelPhase, Resolution, Wire};
 use crate::query::Point;
 use crate::wire::Vector;
 
@@ -53,6 +53,9 @@ pub struct WirePlan {
     /// How far its last end is twisted against its first one at the start, in rad, as
     /// [`Wire::twist`]. Other than 0 only for a wire that [holds twist](Wire::holds_twist).
     pub twist: f64,
+    /// What is let out at the last stop, in order of time; nothing if there is no phase. The last stop
+    /// must be a fixed point or an eye then.
+    pub reel: Vec<ReelPhase>,
 }
 
 impl WirePlan {
@@ -68,7 +71,15 @@ impl WirePlan {
             length: None,
             velocity: Vector::zeros(),
             twist: 0.0,
+            reel: Vec::new(),
         }
+    }
+
+    /// The same wire, let out and hauled in at its last stop in these phases.
+    #[must_use]
+    pub fn reeled(mut self, phases: Vec<ReelPhase>) -> Self {
+        self.reel = phases;
+        self
     }
 
     /// The same wire, twisted at the start, in rad.
@@ -101,6 +112,7 @@ impl WirePlan {
             nodes,
             segments,
             twist: self.twist,
+            reel: self.reel.clone(),
         };
         wire.check(bodies).map_err(|(_, error)| error)?;
         Ok(wire)

@@ -2,6 +2,7 @@
 
 use super::body::Body;
 use super::check::{finite, finite_point, finite_vector, not_negative, positive, zero};
+use super::reel::{self, ReelPhase};
 use super::{BodyId, Material, ModelError};
 use crate::query::Point;
 use crate::wire::Vector;
@@ -14,6 +15,10 @@ pub struct WireId(pub usize);
 /// How many steps the largest tension is remembered for, and how many lie between two changes of
 /// resolution at one node.
 pub(in crate::wire) const TENSION_HISTORY: usize = 10;
+
+/// What is left of a segment that wire slides out of, as a fraction of the resolution, and of what
+/// it was before the step.
+pub(in crate::wire) const LEAST: f64 = 1.0 / 16.0;
 
 /// What carries a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,7 +86,7 @@ pub struct Node {
     /// What carries it.
     pub kind: NodeKind,
     /// How fast its arc length grows because wire slides over it, in m/s; 0 unless it is a contact
-    /// node.
+    /// node, or the last one of a wire that is [let out](Wire::reel) there.
     pub slide: f64,
     /// The step before which the resolution is not changed here.
     pub(in crate::wire) remesh_from: u64,
@@ -159,10 +164,12 @@ pub struct Wire {
     pub(in crate::wire) segments: Vec<Segment>,
     /// How far its last end is twisted against its first one, in rad; 0 unless it holds twist.
     pub(in crate::wire) twist: f64,
+    /// What is let out at its last node, in order of time.
+    pub(in crate::wire) reel: Vec<ReelPhase>,
 }
 
 /// The most segments that a resolution may ask for, so that a slip does not take all memory.
-const MOST_SEGMENTS: f64 = 1e6;
+pub(super) const MOST_SEGMENTS: f64 = 1e6;
 
 impl Resolution {
     /// Of a wire so long in m.
@@ -177,14 +184,18 @@ impl Resolution {
 }
 
 impl Node {
-    fn check(&self, bodies: &[Body]) -> Result<(), ModelError> {
+    fn check(&self, bodies: &[Body], is_last: bool) -> Result<(), ModelError> {
         finite_point("position", &self.position)?;
         finite_vector("velocity", &self.velocity)?;
         finite("arc", self.arc)?;
+        finite("slide", self.slide)?;
+        if !is_last && !matches!(self.kind, NodeKind::Contact { .. }) {
+            zero("slide", self.slide)?;
+        }
         match self.kind {
-            NodeKind::Free | NodeKind::Pinned => zero("slide", self.slide),
+            NodeKind::Free => zero("slide", self.slide),
+            NodeKind::Pinned => Ok(()),
             NodeKind::Eye { body, local } => {
-                zero("slide", self.slide)?;
                 finite_vector("local", &local)?;
                 self.is_at(&body.of(bodies)?.point(&local), 0.0)
             }
@@ -195,7 +206,6 @@ impl Node {
                 friction,
                 aside,
             } => {
-                finite("slide", self.slide)?;
                 finite_vector("local", &local)?;
                 finite_vector("normal", &normal)?;
                 positive("length of the normal", normal.norm())?;
@@ -244,7 +254,7 @@ impl Wire {
         }
         for (at, node) in self.nodes.iter().enumerate() {
             let wrong = |error| (Some(at), error);
-            node.check(bodies).map_err(wrong)?;
+            node.check(bodies, at == count - 1).map_err(wrong)?;
             let is_end = at == 0 || at == count - 1;
             if is_end && matches!(node.kind, NodeKind::Contact { .. }) {
                 return Err(wrong(ModelError::ContactAtEnd { stop: at }));
@@ -274,6 +284,7 @@ impl Wire {
                 positive("length of a clamp", self.span(clamp).norm()).map_err(whole)?;
             }
         }
+        reel::check(self).map_err(whole)?;
         self.resolution.check(self.length()).map_err(whole)
     }
 

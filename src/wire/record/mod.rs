@@ -132,7 +132,7 @@ impl ContactRecord {
     }
 }
 
-/// A wire that slid over a contact node.
+/// A wire that slid over a contact node, or was let out at its last node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Slide {

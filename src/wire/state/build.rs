@@ -173,6 +173,7 @@ impl From<WireContent> for Wire {
             nodes: wire.nodes.into_iter().map(node).collect(),
             segments: wire.segments.into_iter().map(segment).collect(),
             twist: wire.twist,
+            reel: wire.reel,
         }
     }
 }

@@ -9,7 +9,7 @@ use super::State;
 use crate::broad::Placed;
 use crate::query::Point;
 use crate::wire::collide::{KnownContacts, Side, WireContact, WireContacts};
-use crate::wire::model::{Body, MeshParts, Node, NodeKind, Phase, Segment, Wire};
+use crate::wire::model::{Body, MeshParts, Node, NodeKind, Phase, ReelPhase, Segment, Wire};
 use crate::wire::site::WireSite;
 use crate::wire::solver_cache::SolverCache;
 use crate::wire::world::{Epoch, World};
@@ -70,6 +70,7 @@ pub(super) struct WireContent {
     pub(super) nodes: Vec<NodeContent>,
     pub(super) segments: Vec<SegmentContent>,
     pub(super) twist: f64,
+    pub(super) reel: Vec<ReelPhase>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -236,6 +237,7 @@ impl From<&Wire> for WireContent {
             nodes,
             segments,
             twist,
+            reel,
         } = wire;
         WireContent {
             material: *material,
@@ -243,6 +245,7 @@ impl From<&Wire> for WireContent {
             nodes: nodes.iter().map(NodeContent::from).collect(),
             segments: segments.iter().map(SegmentContent::from).collect(),
             twist: *twist,
+            reel: reel.clone(),
         }
     }
 }

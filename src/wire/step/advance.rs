@@ -6,6 +6,7 @@ use super::capstan;
 use super::carrier::work_of_contacts;
 use super::contact_nodes;
 use super::motion::{MotionScales, ProposedMotion, SlideRate};
+use super::reels;
 use super::solution::{SOLVE, Solution, Solved};
 use super::start::Start;
 use crate::wire::clock::Clock;
@@ -67,7 +68,8 @@ impl World {
         record.turns(&motion);
         let keys = watch.contacts().iter().map(|contact| contact.key);
         self.cache.warm_start = WarmStart::new(keys.zip(impulses));
-        let slid = self.commit(&solution, motion);
+        let (slid, work_of_reels) = self.commit(&solution, motion);
+        record.work += work_of_reels;
         record.after(self);
         for (wire, impulse) in solution.islands().iter().flat_map(Solved::torques) {
             record.wires[wire].torque = impulse / self.settings.step;
@@ -143,7 +145,8 @@ impl World {
         }
     }
 
-    fn commit(&mut self, solution: &Solution, motion: ProposedMotion) -> Vec<SlideRate> {
+    /// Moves the world. Returns how wires slid, and what reels did beside pulling, in J.
+    fn commit(&mut self, solution: &Solution, motion: ProposedMotion) -> (Vec<SlideRate>, f64) {
         let torsions = torsions(self);
         let slid = motion.apply(self);
         torsion::follow_motion(self, &torsions);
@@ -158,8 +161,9 @@ impl World {
                 }
             }
         }
+        let work = reels::let_out(self, &slid);
         self.steps += 1;
-        slid
+        (slid, work)
     }
 }
 

@@ -24,14 +24,11 @@ use super::carrier::Layout;
 use super::constitutive::{ConstitutiveLaw, friction_bound};
 use super::motion::{ProposedMotion, SlideRate};
 use super::rows::Row;
+use crate::wire::model::wire::LEAST;
 use crate::wire::model::{NodeKind, Wire, WireId};
 use crate::wire::record::Slide;
 use crate::wire::vector::{Vector, unit};
 use crate::wire::world::World;
-
-/// What is left of a segment that wire slides out of, as a fraction of the resolution, and of what
-/// it was before the step.
-pub(in crate::wire) const LEAST: f64 = 1.0 / 16.0;
 
 /// Slip of a wire that sticks, which the regularisation allows, as a fraction of the speed that its
 /// friction could take from the node in one step. The motion leaves it out.
@@ -69,6 +66,7 @@ pub(super) fn friction_rows(world: &World, layout: &Layout) -> Vec<Row> {
                 multiplier: column + 1,
                 terms: SmallVec::new(),
                 slides: smallvec![(column, 1.0)],
+                fed: 0.0,
                 compliance: 0.0,
                 damping: 0.0,
                 sigma,
@@ -227,7 +225,9 @@ pub(super) fn shorten(world: &World, motion: &mut ProposedMotion) {
     let mut scales = vec![1.0_f64; world.wires.len()];
     for slid in &motion.slides {
         let wire = &world.wires[slid.wire];
-        for segment in [slid.node - 1, slid.node] {
+        let both = [slid.node - 1, slid.node];
+        // Beside a reel there is only the one before.
+        for segment in both.into_iter().filter(|&at| at < wire.segments.len()) {
             let rest = wire.rest_length(segment);
             let speeds = [segment, segment + 1].map(|node| motion.speed(slid.wire, node));
             let taken = (speeds[0] - speeds[1]) * world.settings.step;

@@ -1,6 +1,7 @@
 //! Attaches nodes to bodies as contact nodes, and releases them.
 
-use super::capstan::{LEAST, contact_nodes, directions, half_turn_between};
+use super::capstan::{contact_nodes, directions, half_turn_between};
+use crate::wire::model::wire::LEAST;
 use crate::wire::model::wire::TENSION_HISTORY;
 use crate::wire::model::{BodyId, Node, NodeKind, Wire, WireId};
 use crate::wire::record::Slide;

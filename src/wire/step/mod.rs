@@ -25,6 +25,7 @@ pub(super) mod motion;
 mod multipliers;
 mod order;
 mod predictions;
+mod reels;
 mod rows;
 mod softness;
 mod solution;

@@ -18,7 +18,7 @@ pub(super) struct Velocities {
     wires: Vec<Vec<Vector>>,
     /// Velocity and angular velocity of each body.
     bodies: Vec<[Vector; 2]>,
-    /// Every contact node.
+    /// Every contact node, and every reel.
     slides: Vec<SlideRate>,
 }
 
@@ -27,11 +27,11 @@ pub(in crate::wire) struct ProposedMotion {
     bodies: Vec<BodyMotion>,
     /// Position and velocity of each node, by wire.
     pub(in crate::wire) wires: Vec<Vec<(Point, Vector)>>,
-    /// Every contact node, by wire and node.
+    /// Every contact node and every reel, by wire and node.
     pub(super) slides: Vec<SlideRate>,
 }
 
-/// How fast a wire slides over a contact node.
+/// How fast a wire slides over a contact node, or is let out at its last one.
 pub(super) struct SlideRate {
     pub(super) wire: usize,
     pub(super) node: usize,
@@ -85,6 +85,20 @@ impl MotionScales {
     }
 }
 
+impl SlideRate {
+    /// Whether wire is let out at the node, which is the last one then.
+    pub(super) fn is_reel(&self, world: &World) -> bool {
+        self.node + 1 == world.wires[self.wire].nodes.len()
+    }
+
+    /// Moves arc length over the node.
+    pub(super) fn apply(&self, world: &mut World) {
+        let node = &mut world.wires[self.wire].nodes[self.node];
+        node.slide = self.speed;
+        node.arc += self.speed * world.settings.step;
+    }
+}
+
 impl Velocities {
     /// Those that are prescribed; of wires none yet.
     pub(super) fn prescribed(world: &World) -> Self {
@@ -111,6 +125,15 @@ impl Velocities {
             let nodes = first..first + world.wires[wire].nodes.len();
             let carriers = layout.nodes[nodes.clone()].iter();
             self.wires[wire] = carriers.map(|carrier| carrier.velocity(x)).collect();
+            let (reeled, last) = (&world.wires[wire], nodes.len() - 1);
+            if !reeled.reel.is_empty() || reeled.nodes[last].slide != 0.0 {
+                let speed = reeled.reel_speed(world.time(), world.settings.step);
+                self.slides.push(SlideRate {
+                    wire,
+                    node: last,
+                    speed,
+                });
+            }
             for (node, column) in layout.slides[nodes].iter().enumerate() {
                 if let Some(column) = *column {
                     let speed = x[column];
@@ -262,7 +285,7 @@ impl ProposedMotion {
         slid.map_or(0.0, |at| self.slides[at].speed)
     }
 
-    /// Moves a world. Returns how wires slid.
+    /// Moves a world, but for what reels let out. Returns how wires slid.
     pub(super) fn apply(self, world: &mut World) -> Vec<SlideRate> {
         for (body, to) in world.bodies.iter_mut().zip(self.bodies) {
             (body.position, body.orientation) = (to.position, to.orientation);
@@ -273,10 +296,10 @@ impl ProposedMotion {
                 (node.position, node.velocity) = to;
             }
         }
-        for SlideRate { wire, node, speed } in &self.slides {
-            let node = &mut world.wires[*wire].nodes[*node];
-            node.slide = *speed;
-            node.arc += speed * world.settings.step;
+        for slid in &self.slides {
+            if !slid.is_reel(world) {
+                slid.apply(world);
+            }
         }
         self.slides
     }

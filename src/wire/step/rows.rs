@@ -23,6 +23,8 @@ pub(super) struct Row {
     pub(super) terms: SmallVec<[(Carrier, Vector); 3]>,
     /// Unknown speeds of sliding, and what they count.
     pub(super) slides: SmallVec<[(usize, f64); 2]>,
+    /// What the row's velocity is less by, in m/s: what is let out of a segment.
+    pub(super) fed: f64,
     /// What it gives way to a force, in m/N, or to a moment, in 1/(N m); 0 for friction.
     pub(super) compliance: f64,
     /// The damping time in s.
@@ -61,7 +63,7 @@ impl Row {
     /// `G v` of the velocities that are prescribed.
     pub(super) fn given(&self) -> f64 {
         let terms = self.terms.iter();
-        terms.fold(0.0, |sum, (carrier, direction)| {
+        terms.fold(0.0 - self.fed, |sum, (carrier, direction)| {
             sum + carrier.prescribed_velocity().dot(direction)
         })
     }
@@ -69,7 +71,7 @@ impl Row {
     /// `G v` for a solution.
     pub(super) fn velocity(&self, x: &[f64]) -> f64 {
         let terms = self.terms.iter();
-        let of_points = terms.fold(0.0, |sum, (carrier, direction)| {
+        let of_points = terms.fold(0.0 - self.fed, |sum, (carrier, direction)| {
             sum + carrier.velocity(x).dot(direction)
         });
         let slides = self.slides.iter();
@@ -111,7 +113,7 @@ impl Row {
     /// What the velocities that are prescribed do by the multiplier of a solution, in J.
     pub(super) fn work(&self, x: &[f64]) -> f64 {
         let is_given = |(carrier, _): &(Carrier, Vector)| matches!(carrier, Carrier::Prescribed(_));
-        if !self.terms.iter().any(is_given) {
+        if self.fed == 0.0 && !self.terms.iter().any(is_given) {
             return 0.0;
         }
         self.given() * (x[self.multiplier] + self.branch.offset)
@@ -313,6 +315,9 @@ pub(super) fn rows(world: &World, linearisation: &Linearisation, layout: &Layout
             row.slides = slides
                 .filter_map(|(node, value)| layout.slides[node].map(|column| (column, value)))
                 .collect();
+            if segment + 1 == wire.segments.len() {
+                row.fed = wire.reel_speed(world.time(), world.settings.step);
+            }
             rows.push(row);
         }
     }
@@ -354,6 +359,7 @@ fn stretch(
         multiplier,
         terms: smallvec![(start, -along), (end, along)],
         slides: SmallVec::new(),
+        fed: 0.0,
         compliance,
         damping: material.stretch_damping,
         sigma: spook.sigma,
@@ -403,6 +409,7 @@ fn bend(
             multiplier: multiplier + axis,
             terms: smallvec![term(0), term(1), term(2)],
             slides: SmallVec::new(),
+            fed: 0.0,
             compliance,
             damping: wire.material.bend_damping,
             sigma: spook.sigma,
@@ -434,6 +441,7 @@ fn twist(world: &World, layout: &Layout, at: usize) -> Option<Row> {
         multiplier,
         terms: nodes.chain(ends).collect(),
         slides: SmallVec::new(),
+        fed: 0.0,
         compliance,
         damping,
         sigma: spook.sigma,

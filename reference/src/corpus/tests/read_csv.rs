@@ -188,6 +188,6 @@ fn csv_radius_option_is_checked() {
     };
     assert_eq!(
         read_text("a.csv", csv_with(ROW), options),
-        ["a.csv:1: the radius is 0.5 + -1; it has to be finite, and 0 or more"]
+        ["a.csv:1: the radius is 0.5 + -1; both have to be finite, and 0 or more"]
     );
 }

@@ -177,7 +177,7 @@ fn jsonl_errors_name_the_value() {
         ),
         (
             field(r#""radius": [1, -2]"#),
-            "the radius is 1 + -2; it has to be finite, and 0 or more",
+            "the radius is 1 + -2; both have to be finite, and 0 or more",
         ),
         (
             field(r#""kind": "edge""#),

@@ -14,7 +14,7 @@ use crate::wire::state::State;
 use crate::wire::world::{Epoch, World};
 use crate::wire::{
     BodyId, CollisionMemory, CollisionSettings, ContactConstraint, ContactSite, Material, Mesh,
-    Mode, Phase, Resolution, Settings, Shape, Vector, WireId,
+    Mode, Phase, ReelPhase, Resolution, Settings, Shape, Vector, WireId,
 };
 
 /// Numbers of which no two are the same, in order of use.
@@ -138,6 +138,16 @@ pub(super) fn every_field() -> State {
         nodes,
         segments,
         twist: 0.0,
+        reel: vec![
+            ReelPhase {
+                from: -n.next(),
+                speed: n.next(),
+            },
+            ReelPhase {
+                from: n.next(),
+                speed: -n.next(),
+            },
+        ],
     };
     // One that is clamped by the world and by a body, and so may be twisted.
     let kinds = [local, local * 2.0].map(|local| NodeKind::Eye { body, local });
@@ -156,6 +166,7 @@ pub(super) fn every_field() -> State {
     let twisted = Wire {
         nodes: nodes.collect(),
         twist: -n.next(),
+        reel: Vec::new(),
         ..wire.clone()
     };
     let impulses = [(3, n.vector()), (8, n.vector())];

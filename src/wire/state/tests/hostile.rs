@@ -110,6 +110,9 @@ fn values_that_no_world_has_are_refused_by_their_place() {
             }
         }),
         refusal(|c| c.world.wires[0].twist = 1.0),
+        refusal(|c| c.world.wires[0].reel.swap(0, 1)),
+        refusal(|c| c.world.wires[0].reel[1].speed = f64::NAN),
+        refusal(|c| c.world.wires[1].reel = c.world.wires[0].reel.clone()),
         refusal(|c| c.world.wires[1].twist = f64::NEG_INFINITY),
         refusal(|c| c.world.wires[1].material.twist_modulus = 0.0),
         refusal(|c| c.world.wires[1].material.twist_modulus = -1.0),
