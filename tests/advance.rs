@@ -420,3 +420,20 @@ fn walk(number: u64, steps: u64) -> Tally {
     }
     tally
 }
+
+/// A vertex beside a thin triangle: the nearest point that is computed in floating point is another one, and the distance
+/// is a third of what it seems.
+#[test]
+fn what_starts_too_near_a_thin_face_keeps_nine_tenths_of_its_distance() {
+    let points = [
+        [0.47638255552785147, -0.9234973286299054, 0.7071589933150213],
+        [0.447528201212287, -0.8792571325394025, 0.7278100755116355],
+        [0.21247338536115068, -0.5188648679341976, 0.8960400809713431],
+        [0.5834258705350636, -1.0876190355586097, 0.6305473772043766],
+    ];
+    let distance = 1.12e-7;
+    let query = VertexFace::at_rest(points.map(Point::from), 3.0 * distance).unwrap();
+    let moved = advance_in(&query, Clearance::None, Precision::F64).unwrap();
+    let kept = moved.kept.unwrap().rounded();
+    assert!(kept > 0.89 * distance && kept < 0.91 * distance, "{kept:e}");
+}

@@ -8,8 +8,8 @@
  * and gradual underflow. On x86 with SSE2 and on AArch64 each function sees to it: it sets that
  * environment and restores the caller's before it returns, so that fesetround, FTZ and DAZ (which
  * -ffast-math may set for a program) and exceptions that are not masked do not change any answer.
- * Exception flags that a function raises stay raised. Threads that the library starts for meshes
- * have the default environment. On other processors it is up to the caller.
+ * Exception flags that a function raises stay raised. Threads that the library starts have
+ * the default environment. On other processors it is up to the caller.
  *
  * The points of a query are 24 numbers in metres: x, y, z of A, B, C, D at the start of the step,
  * then of A, B, C, D at its end. In between they move on straight lines. Edge-edge: the edges AB
@@ -236,9 +236,10 @@ typedef struct tunnelproof_pair_hit {
   tunnelproof_hit hit;
 } tunnelproof_pair_hit;
 
-/* Decides pairs, by all threads, and gives the same answers on any number of them: those of
- * tunnelproof_decide_edge_edge and tunnelproof_decide_vertex_face, bit for bit. Writes at most `capacity` hits, in the order of the pairs, unless
- * `hits` is NULL. Returns how many there are.
+/* Decides pairs, by all threads if the library was built with them, and gives the same answers on
+ * any number of them: those of tunnelproof_decide_edge_edge and tunnelproof_decide_vertex_face, bit
+ * for bit. Writes at most `capacity` hits, in the order of the pairs, unless `hits` is NULL. Returns
+ * how many there are.
  *
  * Returns a negative number, and writes nothing but `error`, for what is NULL (TUNNELPROOF_NULL), a
  * coordinate that is not finite (TUNNELPROOF_NOT_FINITE), a radius that is not a finite number of

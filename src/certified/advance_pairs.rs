@@ -20,12 +20,13 @@ pub struct PairsStep {
     /// How much of the step is made, from 0 to 1.
     pub step: f64,
     /// The positions to store, of all points: those of [`interpolate_in`](super::interpolate_in) at
-    /// this step, so the end itself at 1 and the start at 0.
+    /// this step, so the end itself at 1, or the nearest `f32` of it where that is asked, and the start
+    /// at 0.
     pub positions: Vec<[f64; 3]>,
     /// The pairs for which the step is no larger, edges first, in order; none if it is a whole one.
     pub limits: Vec<PairsLimit>,
-    /// The pairs that keep less than their radius and the clearance, as they start nearer than that,
-    /// in order, with what they keep.
+    /// The pairs that keep less than they should, as they start nearer than that or as rounding leaves
+    /// no room for more, in order, with what they keep.
     pub near: Vec<(ListedPair, Radius)>,
 }
 
@@ -55,19 +56,21 @@ pub struct ListedPair {
 ///
 /// # Guarantee
 ///
-/// Straight motion of all points from the start to [`PairsStep::positions`] keeps each pair farther
-/// apart than its radius and the clearance, exactly, in real arithmetic. A pair that starts nearer
+/// Straight motion of all points from the start to [`PairsStep::positions`] keeps each pair that does
+/// not touch at the start farther apart than its radius and the clearance, exactly, in real
+/// arithmetic. A pair that starts nearer
 /// than that keeps nine tenths of what it has beyond the radius, or of its distance if it starts
 /// within the radius; where rounding leaves no room even for that, it keeps the radius, or does not
 /// touch. [`PairsStep::near`] names such pairs. They are free to part. With [`Clearance::Share`] a
 /// pair that would come within the radius keeps that share of what it has beyond it.
 ///
-/// The stored positions are between those at the start and those at the end, axis by axis. So a pair
-/// that is in neither list stays apart as well, if the boxes around its two sides at both ends are
-/// farther apart than that along an axis: that is what the broad phase has to see to, with the
-/// radius and the clearance, in exact arithmetic or with its rounding outward. The next step starts
-/// at the stored positions, with new lists: then nothing ever passes through anything, however many
-/// steps follow. The preconditions are those of [`decide`](super::decide).
+/// A pair that is in neither list stays apart as well, if the boxes around its two sides are farther
+/// apart, along an axis, than its radius and a [`Clearance::Distance`]. The box of a side is that
+/// around all its points both at the start and at the end, and with [`Precision::F32`] at what the end
+/// is rounded to: `interpolate_in` with a step of 1. Stored positions are in these boxes. That is what
+/// the broad phase has to see to, with its rounding outward. The next step starts at the stored
+/// positions, with new lists: then nothing passes through anything in these pairs, however many steps
+/// follow. The preconditions are those of [`decide`](super::decide).
 ///
 /// The step is 0 if a pair touches at the start, radius or not, or if rounding leaves no room to any
 /// step tried: [`PairsStep::limits`] names the pairs. Two sides that share a point touch always:

@@ -185,7 +185,8 @@ impl<'a, K: Kind> Pairs<'a, K> {
     }
 
     /// Some of the pairs, if there are all of these; their places are counted from the first of
-    /// them. Nothing is checked again: for an engine with threads of its own.
+    /// them. Nothing is checked again: for an engine with threads of its own. Steps of parts are no step
+    /// of the whole.
     pub fn part(&self, pairs: Range<usize>) -> Option<Self> {
         let Indexed {
             start,

@@ -38,6 +38,7 @@
 //! where it underflows. The factor on `v` covers what the roundings of the bound lose, less than
 //! `2^-50 v X`, and `2^-149`, twice what is needed, what they lose where it underflows.
 
+use std::cmp::Ordering;
 use std::fmt;
 
 use super::cascade::decide_motion;
@@ -407,20 +408,32 @@ pub(super) fn limit<K: Kind>(
     let starts_within =
         |kept: Radius| !kept.is_zero() && starts_within::<K::Stages>(positions, kept);
     let touches = |kept| starts_within(kept) || first_toi::<K>(positions, kept).is_some();
-    // About. What is kept is decided for what it is.
+    // About. What is kept is decided for what it is. Where a side is thin, another point may be taken
+    // for the nearest, and the distance is less: that is found out where what follows fails.
     let distance = || start_distance::<K::Stages>(positions);
-    let beyond = |share: f64| with(radius, share * (distance() - radius.rounded()));
+    let decided = || decided_distance::<K::Stages>(positions, distance());
+    let beyond_of = |share: f64, distance: f64| with(radius, share * (distance - radius.rounded()));
+    let beyond = |share: f64| beyond_of(share, distance());
+    let beyond_decided = |share: f64| beyond(share).and_then(|_| beyond_of(share, decided()));
     let wanted = || match clearance {
         Clearance::None => Some(radius),
         Clearance::Distance(distance) => with(radius, distance),
         Clearance::Share(_) if !touches(radius) => Some(radius),
         Clearance::Share(share) => beyond(share),
     };
-    let candidates: [&dyn Fn() -> Option<Radius>; 5] = [
+    let share_decided = || match clearance {
+        Clearance::Share(share) => beyond_decided(share),
+        _ => None,
+    };
+    // The first two are all that they should keep.
+    let candidates: [&dyn Fn() -> Option<Radius>; 8] = [
         &wanted,
+        &share_decided,
         &|| beyond(NEAR),
+        &|| beyond_decided(NEAR),
         &|| Some(radius),
         &|| with(Radius::ZERO, NEAR * distance()),
+        &|| with(Radius::ZERO, NEAR * decided()),
         &|| Some(Radius::ZERO),
     ];
     for (rank, candidate) in candidates.into_iter().enumerate() {
@@ -441,13 +454,29 @@ pub(super) fn limit<K: Kind>(
         });
         return Some(Limit {
             kept,
-            is_whole: rank == 0,
+            is_whole: rank < 2,
             toi,
             until,
             is_short: false,
         });
     }
     None
+}
+
+/// The distance of the two sides at the start, at most a part in 2^20 less than it is, or below the
+/// least number; `most` if that is less.
+fn decided_distance<K: Stages>(positions: &Positions, most: f64) -> f64 {
+    // Numbers above 0 are ordered as their bits are.
+    let (mut low, mut high) = (0, most.max(0.0).to_bits());
+    while high - low > 1 << 32 {
+        let middle = low + (high - low) / 2;
+        let distance = f64::from_bits(middle);
+        match K::compare_distance(positions, distance.into(), 0.0) {
+            Ordering::Greater => low = middle,
+            _ => high = middle,
+        }
+    }
+    f64::from_bits(low)
 }
 
 /// Whether straight motion to the rounded positions at a step keeps a distance above this.

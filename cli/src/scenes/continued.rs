@@ -6,7 +6,7 @@ use serde::Serialize;
 use tunnelproof::query::Point;
 use tunnelproof::wire::state::State;
 use tunnelproof::wire::{
-    Body, CollisionSettings, Collisions, NodeKind, Settings, Wire, WireId, World,
+    Body, CollisionSettings, Collisions, NodeKind, ReelPhase, Settings, Wire, WireId, World,
 };
 
 use super::error::{Reason, SceneError};
@@ -57,7 +57,13 @@ impl Scene {
             let refused = |error| SceneError::new(&[&"wires", &k], Reason::Model(error));
             world.set_resolution(WireId(k), is).map_err(refused)?;
             let [was, is] = [&state.world, &start].map(|world| world.wires()[k].reel());
-            differences.extend(difference(format!("wires[{k}].reel"), &was, &is));
+            if was != is {
+                differences.push(Difference {
+                    what: format!("wires[{k}].reel"),
+                    was: phases(was),
+                    is: phases(is),
+                });
+            }
             world.set_reel(WireId(k), is.to_vec()).map_err(refused)?;
         }
         Ok((world, differences))
@@ -89,6 +95,15 @@ impl Difference {
 impl Display for Difference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} is {}, it was {}", self.what, self.is, self.was)
+    }
+}
+
+/// The phases of a reel.
+fn phases(reel: &[ReelPhase]) -> String {
+    let phase = |phase: &ReelPhase| format!("{} m/s from {} s", phase.speed, phase.from);
+    match reel {
+        [] => "none".to_owned(),
+        _ => reel.iter().map(phase).collect::<Vec<_>>().join(", "),
     }
 }
 

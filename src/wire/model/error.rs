@@ -75,8 +75,8 @@ pub enum ModelError {
     },
     /// A reel at an end that is free.
     ReelAtFreeEnd,
-    /// A reel of a wire that holds twist.
-    ReelOfTwist,
+    /// A reel at an end that is clamped.
+    ReelAtClamp,
 }
 
 impl ModelError {
@@ -153,9 +153,9 @@ impl fmt::Display for ModelError {
             ModelError::ReelAtFreeEnd => {
                 f.write_str("the wire ends free, a reel must be at a fixed point or an eye")
             }
-            ModelError::ReelOfTwist => f.write_str(
-                "the wire holds twist, a reel must be at a wire without twist_modulus or with an \
-                end that is not clamped",
+            ModelError::ReelAtClamp => f.write_str(
+                "the last two nodes are fixed to the same thing, which clamps the wire: a reel must \
+                be at an end that is not clamped",
             ),
         }
     }

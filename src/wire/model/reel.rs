@@ -1,7 +1,7 @@
 //! Wire that is let out and hauled in at the last end of a wire, as by a winch.
 
 use super::check::finite;
-use super::wire::{LEAST, MOST_SEGMENTS, Wire};
+use super::wire::{Clamp, LEAST, MOST_SEGMENTS, Wire};
 use super::{ModelError, NodeKind};
 
 /// From a time on, wire is let out at its last end.
@@ -10,7 +10,8 @@ use super::{ModelError, NodeKind};
 pub struct ReelPhase {
     /// Start in s. The phase takes effect with the step that starts nearest to it.
     pub from: f64,
-    /// How much unstretched wire is let out, in m/s; below 0 it is hauled in.
+    /// How much unstretched wire is let out, in m/s, at most 1000; below 0 it is hauled in, in a step
+    /// at most half of the last segment. Whatever force that takes: a reel has no limit.
     pub speed: f64,
 }
 
@@ -19,17 +20,24 @@ pub(super) fn check(wire: &Wire) -> Result<(), ModelError> {
     for phase in &wire.reel {
         finite("from", phase.from)?;
         finite("speed", phase.speed)?;
+        if phase.speed.abs() > FASTEST {
+            let accepted = "at most 1000 m/s either way";
+            return Err(ModelError::value("speed", phase.speed, accepted));
+        }
     }
     if let Some(before) = (wire.reel.windows(2)).position(|two| two[1].from <= two[0].from) {
         return Err(ModelError::ReelOrder { phase: before + 1 });
     }
-    let last = wire.nodes.last().map(|node| node.kind);
-    match wire.reel.is_empty() {
-        false if last == Some(NodeKind::Free) => Err(ModelError::ReelAtFreeEnd),
-        false if wire.holds_twist() => Err(ModelError::ReelOfTwist),
+    match wire.nodes.as_slice() {
+        _ if wire.reel.is_empty() => Ok(()),
+        [.., last] if last.kind == NodeKind::Free => Err(ModelError::ReelAtFreeEnd),
+        [.., before, last] if Clamp::of([before, last]).is_some() => Err(ModelError::ReelAtClamp),
         _ => Ok(()),
     }
 }
+
+/// The fastest reel in m/s: faster ones are slips.
+const FASTEST: f64 = 1000.0;
 
 impl Wire {
     /// What is let out of a wire and hauled in, in order of time. Before the first phase it is nothing.

@@ -46,8 +46,8 @@ pub struct StepRecord {
     pub energy: Energy,
     /// Energies as everything lies and moves at the end, as of [`World::energy`].
     pub energy_at_end: Energy,
-    /// What scripted bodies did on what forces move, in J, by wires and contacts, as the step was solved: where its
-    /// motion was held they did less. So `energy` grows by at most this from step to step, but for what the scheme
+    /// What scripted bodies and reels did on what forces move, in J, by wires and contacts, as the step was solved: where
+    /// its motion was held they did less. So `energy` grows by at most this from step to step, but for what the scheme
     /// and contacts that are pushed out of bodies add.
     pub work: f64,
     /// What acted beside forces and masses.

@@ -142,11 +142,11 @@ fn reels_are_refused_that_mean_nothing() {
     let free = vec![Stop::Pinned(at(0.0)), Stop::Free(at(1.0))];
     let plan = WirePlan::new(Material::steel(0.002), 0.25, free).reeled(always(1.0));
     assert_eq!(world.add_wire(&plan), Err(ModelError::ReelAtFreeEnd));
-    let clamped = [0.0, 0.25, 1.0, 1.25].map(|x| Stop::Pinned(at(x)));
-    let material = Material {
-        twist_modulus: 8e10,
-        ..Material::steel(0.002)
-    };
-    let plan = WirePlan::new(material, 0.25, clamped.to_vec()).reeled(always(1.0));
-    assert_eq!(world.add_wire(&plan), Err(ModelError::ReelOfTwist));
+    assert_eq!(
+        said(always(-1001.0)),
+        "speed is -1001, it must be at most 1000 m/s either way"
+    );
+    let clamped = [0.0, 1.0, 1.25].map(|x| Stop::Pinned(at(x)));
+    let plan = WirePlan::new(Material::steel(0.002), 0.25, clamped.to_vec()).reeled(always(1.0));
+    assert_eq!(world.add_wire(&plan), Err(ModelError::ReelAtClamp));
 }
