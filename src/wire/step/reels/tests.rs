@@ -136,16 +136,16 @@ fn reels_are_refused_that_mean_nothing() {
         said(vec![phase(f64::INFINITY, 0.0)]),
         "from is inf, it must be finite"
     );
+    assert_eq!(
+        said(always(-1001.0)),
+        "speed is -1001, it must be at most 1000 m/s either way"
+    );
     let missing = world.set_reel(WireId(1), always(1.0));
     assert_eq!(missing, Err(ModelError::Wire { index: 1, count: 1 }));
     let at = |x: f64| Point::new(x, 0.0, 0.0);
     let free = vec![Stop::Pinned(at(0.0)), Stop::Free(at(1.0))];
     let plan = WirePlan::new(Material::steel(0.002), 0.25, free).reeled(always(1.0));
     assert_eq!(world.add_wire(&plan), Err(ModelError::ReelAtFreeEnd));
-    assert_eq!(
-        said(always(-1001.0)),
-        "speed is -1001, it must be at most 1000 m/s either way"
-    );
     let clamped = [0.0, 1.0, 1.25].map(|x| Stop::Pinned(at(x)));
     let plan = WirePlan::new(Material::steel(0.002), 0.25, clamped.to_vec()).reeled(always(1.0));
     assert_eq!(world.add_wire(&plan), Err(ModelError::ReelAtClamp));
