@@ -1,7 +1,7 @@
 //! A world, and how it is put together.
 
 use super::model::{
-    Body, BodyId, BodyPlan, ModelError, ReelPhase, Resolution, Wire, WireId, WirePlan,
+    Body, BodyId, BodyPlan, ModelError, ReelPhase, Resolution, Wire, WireId, WirePlan, reel,
 };
 use super::settings::Settings;
 use super::solver_cache::SolverCache;
@@ -148,10 +148,8 @@ impl World {
     /// A wire that is not there, or a reel that [`add_wire`](Self::add_wire) would refuse; the world is
     /// as before.
     pub fn set_reel(&mut self, id: WireId, phases: Vec<ReelPhase>) -> Result<(), ModelError> {
-        let mut wire = self.wire(id)?.clone();
-        wire.reel = phases;
-        wire.check(&self.bodies).map_err(|(_, error)| error)?;
-        self.wires[id.0] = wire;
+        reel::check(self.wire(id)?.nodes(), &phases)?;
+        self.wires[id.0].reel = phases;
         Ok(())
     }
 

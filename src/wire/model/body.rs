@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, UnitQuaternion};
 
 use super::check::{finite, finite_point, finite_vector, positive, positive_definite, unit, zero};
+use super::phases::{out_of_order, phase_at};
 use super::shape::PLANE_IS_MASSLESS;
 use super::{ModelError, Shape};
 use crate::query::Point;
@@ -125,8 +126,8 @@ fn check_phases(phases: &[Phase]) -> Result<(), ModelError> {
         finite_vector("velocity", &phase.velocity)?;
         finite_vector("angular_velocity", &phase.angular_velocity)?;
     }
-    match phases.windows(2).position(|two| two[1].from <= two[0].from) {
-        Some(before) => Err(ModelError::PhaseOrder { phase: before + 1 }),
+    match out_of_order(phases, |phase| phase.from) {
+        Some(phase) => Err(ModelError::PhaseOrder { phase }),
         None => Ok(()),
     }
 }
@@ -237,8 +238,7 @@ impl Body {
 
     /// The prescribed velocity and angular velocity in the step that starts at a time.
     pub(in crate::wire) fn prescribed(&self, time: f64, step: f64) -> (Vector, Vector) {
-        let started = |phase: &&Phase| phase.from <= time + 0.5 * step;
-        match self.phases.iter().rev().find(started) {
+        match phase_at(&self.phases, |phase| phase.from, time, step) {
             Some(phase) => (phase.velocity, phase.angular_velocity),
             None => (Vector::zeros(), Vector::zeros()),
         }

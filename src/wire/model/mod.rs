@@ -6,8 +6,9 @@ pub(super) mod core;
 mod error;
 mod material;
 mod mesh;
+mod phases;
 mod plan;
-mod reel;
+pub(in crate::wire) mod reel;
 mod shape;
 pub(in crate::wire) mod wire;
 

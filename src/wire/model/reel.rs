@@ -1,8 +1,9 @@
 //! Wire that is let out and hauled in at the last end of a wire, as by a winch.
 
 use super::check::finite;
+use super::phases::{out_of_order, phase_at};
 use super::wire::{Clamp, LEAST, MOST_SEGMENTS, Wire};
-use super::{ModelError, NodeKind};
+use super::{ModelError, Node, NodeKind};
 
 /// From a time on, wire is let out at its last end.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,9 +16,9 @@ pub struct ReelPhase {
     pub speed: f64,
 }
 
-/// Whether there may be such a reel at the last end of a wire.
-pub(super) fn check(wire: &Wire) -> Result<(), ModelError> {
-    for phase in &wire.reel {
+/// Whether there may be such a reel at the last of these nodes.
+pub(in crate::wire) fn check(nodes: &[Node], reel: &[ReelPhase]) -> Result<(), ModelError> {
+    for phase in reel {
         finite("from", phase.from)?;
         finite("speed", phase.speed)?;
         if phase.speed.abs() > FASTEST {
@@ -25,11 +26,11 @@ pub(super) fn check(wire: &Wire) -> Result<(), ModelError> {
             return Err(ModelError::value("speed", phase.speed, accepted));
         }
     }
-    if let Some(before) = (wire.reel.windows(2)).position(|two| two[1].from <= two[0].from) {
-        return Err(ModelError::ReelOrder { phase: before + 1 });
+    if let Some(phase) = out_of_order(reel, |phase| phase.from) {
+        return Err(ModelError::ReelOrder { phase });
     }
-    match wire.nodes.as_slice() {
-        _ if wire.reel.is_empty() => Ok(()),
+    match nodes {
+        _ if reel.is_empty() => Ok(()),
         [.., last] if last.kind == NodeKind::Free => Err(ModelError::ReelAtFreeEnd),
         [.., before, last] if Clamp::of([before, last]).is_some() => Err(ModelError::ReelAtClamp),
         _ => Ok(()),
@@ -49,8 +50,7 @@ impl Wire {
     /// What is hauled in leaves some of the last segment: it waits until the node before can be taken
     /// out.
     pub(in crate::wire) fn reel_speed(&self, time: f64, step: f64) -> f64 {
-        let started = |phase: &&ReelPhase| phase.from <= time + 0.5 * step;
-        let Some(phase) = self.reel.iter().rev().find(started) else {
+        let Some(phase) = phase_at(&self.reel, |phase| phase.from, time, step) else {
             return 0.0;
         };
         let rest = self.rest_length(self.segments.len() - 1);

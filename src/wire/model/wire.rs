@@ -284,7 +284,7 @@ impl Wire {
                 positive("length of a clamp", self.span(clamp).norm()).map_err(whole)?;
             }
         }
-        reel::check(self).map_err(whole)?;
+        reel::check(&self.nodes, &self.reel).map_err(whole)?;
         self.resolution.check(self.length()).map_err(whole)
     }
 
