@@ -463,20 +463,30 @@ pub(super) fn limit<K: Kind>(
     None
 }
 
-/// The distance of the two sides at the start, at most a part in 2^20 less than it is, or below the
-/// least number; `most` if that is less.
+/// The distance of the two sides at the start, or `most` if that is less: at most a part in 2^20 less
+/// than it is, and 0 where it is hardly a number.
 fn decided_distance<K: Stages>(positions: &Positions, most: f64) -> f64 {
+    /// The bits of some 2^-1042, and of a part in 2^20.
+    const LEAST: u64 = 1 << 32;
+    let is_above = |bits: u64| {
+        let distance = f64::from_bits(bits);
+        K::compare_distance(positions, distance.into(), 0.0) == Ordering::Greater
+    };
+    // Most of those that are asked about touch.
+    if !is_above(LEAST) {
+        return 0.0;
+    }
     // Numbers above 0 are ordered as their bits are.
-    let (mut low, mut high) = (0, most.max(0.0).to_bits());
-    while high - low > 1 << 32 {
+    let (mut low, mut high) = (LEAST, most.max(0.0).to_bits());
+    while high.saturating_sub(low) > LEAST {
         let middle = low + (high - low) / 2;
-        let distance = f64::from_bits(middle);
-        match K::compare_distance(positions, distance.into(), 0.0) {
-            Ordering::Greater => low = middle,
-            _ => high = middle,
+        if is_above(middle) {
+            low = middle;
+        } else {
+            high = middle;
         }
     }
-    f64::from_bits(low)
+    f64::from_bits(low.min(high))
 }
 
 /// Whether straight motion to the rounded positions at a step keeps a distance above this.
