@@ -79,7 +79,7 @@ pub(super) fn distance_above(p: &Point, q: &Point) -> f64 {
     if p == q {
         return 0.0;
     }
-    norm_above(&[0, 1, 2].map(|axis| q[axis] - p[axis]))
+    norm_above(&(q - p).into())
 }
 
 /// An upper bound on the length of a vector of which each component is given rounded, none NaN.
