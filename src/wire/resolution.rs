@@ -13,7 +13,8 @@
 //! (`step/transverse.rs`).
 
 use super::model::wire::{Clamp, TENSION_HISTORY};
-use super::model::{Node, NodeKind, Segment, Wire, WireId};
+use super::model::{Body, BodyId, Node, NodeKind, Segment, Wire, WireId};
+use super::vector::{Vector, unit};
 use super::world::World;
 use crate::query::Point;
 
@@ -122,7 +123,7 @@ fn merge(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
             let change = remesh(at, RemeshKind::Merge, &nodes);
             if guard.permits(world, &change) {
                 let remesh_from = world.steps + TENSION_HISTORY as u64;
-                take_out(&mut world.wires[at], node, remesh_from);
+                take_out(world, at, node, remesh_from);
                 changes.push(change);
                 if is_used_up {
                     // The next node may have to follow, on either side.
@@ -189,7 +190,7 @@ fn split(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
         };
         if may_change && wire.rest_length(segment) > long && !wire.is_clamp(segment) {
             let until = world.steps + TENSION_HISTORY as u64;
-            let middle = between(&ends, until);
+            let middle = halfway(wire, segment, until);
             let change = remesh(at, RemeshKind::Split, &[ends[0], middle, ends[1]]);
             if guard.permits(world, &change) {
                 put_in(&mut world.wires[at], segment, middle);
@@ -211,38 +212,76 @@ pub(super) fn remesh(wire: usize, kind: RemeshKind, nodes: &[Node; 3]) -> Remesh
 }
 
 /// Takes a node out. Each neighbour takes over the mass of the segment beyond the node, half of it,
-/// and the momentum that comes with it, so linear momentum stays. The end at a reel takes none: the
-/// wire moves on over it.
-fn take_out(wire: &mut Wire, node: usize, remesh_from: u64) {
-    let masses = [node - 1, node + 1].map(|neighbour| wire.node_mass(neighbour));
-    let lengths = [wire.rest_length(node), wire.rest_length(node - 1)];
+/// and the momentum that comes with it, so linear momentum stays. Where a dynamic body carries a
+/// neighbour, it takes that; what moves as it is prescribed takes none. Along a wire that slides
+/// over a neighbour momentum stays in the wire. The end at a reel takes none: the wire moves on over
+/// it.
+fn take_out(world: &mut World, at: usize, node: usize, remesh_from: u64) {
+    let wire = &mut world.wires[at];
     let half = wire.material.mass_per_length() / 2.0;
-    let taken = wire.nodes.remove(node);
+    let sides = [(node - 1, node - 1, node), (node + 1, node, node - 1)].map(
+        |(neighbour, segment, beyond)| Joined {
+            mass: wire.node_mass(neighbour),
+            added: half * wire.rest_length(beyond),
+            relative: wire.nodes[node].velocity - wire.velocity_at(neighbour, segment),
+            along: unit(&wire.span(segment)).0,
+        },
+    );
+    wire.nodes.remove(node);
+    let after = wire.segments.remove(node);
+    wire.segments[node - 1] = Segment::larger(&wire.segments[node - 1], &after);
     let reel = (!wire.reel.is_empty()).then_some(wire.nodes.len() - 1);
-    for (neighbour, (mass, length)) in [node - 1, node]
-        .into_iter()
-        .zip(masses.into_iter().zip(lengths))
-    {
+    for (neighbour, joined) in [node - 1, node].into_iter().zip(sides) {
         let is_reel = Some(neighbour) == reel;
         let neighbour = &mut wire.nodes[neighbour];
         neighbour.remesh_from = remesh_from;
-        if is_reel {
-            continue;
+        if !is_reel {
+            joined.bring_momentum(neighbour, &mut world.bodies);
         }
-        let added = half * length;
-        let momentum = neighbour.velocity * mass + taken.velocity * added;
-        neighbour.velocity = momentum / (mass + added);
     }
-    let after = wire.segments.remove(node);
-    wire.segments[node - 1] = Segment::larger(&wire.segments[node - 1], &after);
 }
 
-/// The node halfway between two others. Its velocity is the mean, so linear momentum stays: it
-/// takes a quarter of the segment's mass from each.
-fn between(ends: &[Node; 2], remesh_from: u64) -> Node {
+/// What comes to a node from beside it.
+struct Joined {
+    /// The mass of the node before, in kg.
+    mass: f64,
+    /// The mass that comes, in kg.
+    added: f64,
+    /// Its velocity against that of the wire at the node, in m/s.
+    relative: Vector,
+    /// Unit vector along the wire.
+    along: Vector,
+}
+
+impl Joined {
+    fn bring_momentum(&self, node: &mut Node, bodies: &mut [Body]) {
+        let mass = self.mass + self.added;
+        let mut brought = self.relative * self.added;
+        if node.slide != 0.0 {
+            let along = brought.dot(&self.along);
+            node.slide -= along / mass;
+            brought -= self.along * along;
+        }
+        if let Some((BodyId(body), local)) = node.kind.carrier()
+            && bodies[body].dynamic
+        {
+            let momentum = node.velocity * mass + brought;
+            node.velocity = bodies[body].take_up(&local, mass, &momentum);
+        } else if node.kind == NodeKind::Free {
+            node.velocity += brought / mass;
+        }
+    }
+}
+
+/// The node halfway between the ends of a segment. Its velocity is the mean of those that the wire
+/// has there, so linear momentum stays: it takes a quarter of the segment's mass from each.
+fn halfway(wire: &Wire, segment: usize, remesh_from: u64) -> Node {
+    let ends = [segment, segment + 1];
+    let [first, last] = ends.map(|node| wire.velocity_at(node, segment));
+    let ends = ends.map(|node| wire.nodes[node]);
     Node {
         position: nalgebra::center(&ends[0].position, &ends[1].position),
-        velocity: (ends[0].velocity + ends[1].velocity) / 2.0,
+        velocity: (first + last) / 2.0,
         arc: (ends[0].arc + ends[1].arc) / 2.0,
         kind: NodeKind::Free,
         slide: 0.0,

@@ -231,6 +231,32 @@ impl Body {
         self.orientation * local
     }
 
+    /// A mass in kg that is fixed to a point from now on brings its momentum. Returns the velocity of
+    /// the two in m/s; that of the mass alone if nothing is known of how the body turns.
+    pub(in crate::wire) fn take_up(
+        &mut self,
+        local: &Vector,
+        mass: f64,
+        momentum: &Vector,
+    ) -> Vector {
+        let arm = self.arm(local);
+        let cross = arm.cross_matrix();
+        let turn = self.world_inertia().try_inverse();
+        let together = turn.and_then(|turn| {
+            // What an impulse at the point changes of its velocity.
+            let mobility = Matrix3::identity() / self.mass - cross * turn * cross;
+            let share = (Matrix3::identity() + mobility * mass).try_inverse()?;
+            let impulse = share * (momentum - self.velocity_at(local) * mass);
+            Some((impulse, turn * arm.cross(&impulse)))
+        });
+        let Some((impulse, turned)) = together else {
+            return momentum / mass;
+        };
+        self.velocity += impulse / self.mass;
+        self.angular_velocity += turned;
+        self.velocity_at(local)
+    }
+
     pub(in crate::wire) fn world_inertia(&self) -> Matrix3<f64> {
         let rotation = self.orientation.to_rotation_matrix();
         rotation * self.inertia * rotation.transpose()

@@ -5,7 +5,7 @@ use super::check::{finite, finite_point, finite_vector, not_negative, positive, 
 use super::reel::{self, ReelPhase};
 use super::{BodyId, Material, ModelError};
 use crate::query::Point;
-use crate::wire::Vector;
+use crate::wire::vector::{Vector, unit};
 
 /// A wire of a world, by the order in which wires were added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -370,6 +370,17 @@ impl Wire {
     /// From the start of a segment to its end, in m.
     pub fn span(&self, segment: usize) -> Vector {
         self.nodes[segment + 1].position - self.nodes[segment].position
+    }
+
+    /// The velocity in m/s of the wire itself where a segment begins or ends at a node: that of the
+    /// node, less what slides over it.
+    pub(in crate::wire) fn velocity_at(&self, node: usize, segment: usize) -> Vector {
+        let node = &self.nodes[node];
+        if node.slide == 0.0 {
+            return node.velocity;
+        }
+        let (along, _) = unit(&self.span(segment));
+        node.velocity - along * node.slide
     }
 
     /// The segment at an arc length and where in it, from 0 to 1; the nearest end outside of the

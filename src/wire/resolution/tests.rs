@@ -189,3 +189,104 @@ fn a_wire_that_does_not_adapt_keeps_its_resolution_as_it_slides() {
     }
     assert!(world.time() < 1.0, "{}", world.time());
 }
+
+/// A chain on a body that turns, and one from a point of the world; every node moves in its own way.
+#[test]
+fn what_carries_a_node_takes_up_the_momentum_of_its_neighbour() {
+    const LOCAL: Vector = Vector::new(0.3, 0.1, -0.2);
+    let mut world = World::new(Settings::default()).unwrap();
+    let shape = Shape::Capsule {
+        radius: 0.1,
+        half_height: 0.4,
+    };
+    let body = world
+        .add_body(BodyPlan::dynamic(shape, 800.0, Point::origin()))
+        .unwrap();
+    let end = Point::new(8.3, 0.1, -0.2);
+    let eye = Stop::Eye { body, local: LOCAL };
+    for first in [eye, Stop::Pinned(Point::origin())] {
+        let plan = WirePlan::new(
+            Material::steel(0.02).chain(),
+            1.0,
+            vec![first, Stop::Free(end)],
+        );
+        world.add_wire(&plan).unwrap();
+    }
+    let body = &mut world.bodies[body.0];
+    body.velocity = Vector::new(1.0, -2.0, 3.0);
+    body.angular_velocity = Vector::new(-3.0, 1.0, 2.0);
+    let at_eye = body.velocity_at(&LOCAL);
+    for wire in &mut world.wires {
+        for (i, node) in wire.nodes.iter_mut().enumerate() {
+            node.velocity = Vector::new(i as f64, 2.0 - i as f64, 1.0);
+        }
+    }
+    world.wires[0].nodes[0].velocity = at_eye;
+    world.wires[1].nodes[0].velocity = Vector::zeros();
+    let momenta = |world: &World| [world.momentum(), world.angular_momentum()];
+    let before = momenta(&world);
+    take_out(&mut world, 0, 1, 10);
+    take_out(&mut world, 1, 1, 10);
+    // The point of the world, at the origin, takes its half away.
+    let given = Vector::new(1.0, 1.0, 1.0) * world.wires[1].node_mass(0) / 2.0;
+    let left = [before[0] - given, before[1]];
+    for (after, left) in momenta(&world).into_iter().zip(left) {
+        assert!((after - left).norm() < 1e-13 * left.norm(), "{after}");
+    }
+    let eye = &world.wires[0].nodes[0];
+    let carried = world.bodies[0].velocity_at(&LOCAL);
+    assert!((eye.velocity - carried).norm() < 1e-14 * carried.norm());
+    assert!((carried - at_eye).norm() > 1e-3, "{carried}");
+    assert_eq!(world.wires[1].nodes[0].velocity, Vector::zeros());
+}
+
+#[test]
+fn wire_that_slides_over_a_node_keeps_its_speed_as_nodes_come_and_go() {
+    // A straight chain that is drawn over a contact node of a fixed body at 3 m/s.
+    const SPEED: f64 = 3.0;
+    let mut world = World::new(Settings::default()).unwrap();
+    let plane = BodyPlan::fixed(Shape::Plane, Point::origin());
+    let contact = Stop::Contact {
+        body: world.add_body(plane).unwrap(),
+        local: Vector::zeros(),
+        normal: Vector::z(),
+        friction: 0.0,
+    };
+    let ends = [-2.0, 2.0].map(|x| Stop::Free(Point::new(x, 0.0, 0.0)));
+    let plan = WirePlan::new(
+        Material::steel(0.02).chain(),
+        1.0,
+        vec![ends[0], contact, ends[1]],
+    );
+    world.add_wire(&plan).unwrap();
+    for (i, node) in world.wires[0].nodes.iter_mut().enumerate() {
+        match i {
+            2 => node.slide = -SPEED,
+            _ => node.velocity = Vector::x() * SPEED,
+        }
+    }
+    let energy = world.kinetic_energy();
+    for segment in [2, 1] {
+        let middle = halfway(&world.wires[0], segment, 0);
+        assert_eq!(middle.velocity, Vector::x() * SPEED);
+        put_in(&mut world.wires[0], segment, middle);
+    }
+    assert!((world.kinetic_energy() / energy - 1.0).abs() < 1e-14);
+    for node in [2, 3] {
+        take_out(&mut world, 0, node, 0);
+    }
+    let nodes = world.wires[0].nodes();
+    assert_eq!(
+        (nodes[2].velocity, nodes[2].slide),
+        (Vector::zeros(), -SPEED)
+    );
+    // A node that is slower slows the sliding down, by the momentum it lacks.
+    let (mass, added) = (
+        world.wires[0].node_mass(2),
+        world.wires[0].node_mass(3) / 2.0,
+    );
+    world.wires[0].nodes[3].velocity = Vector::x();
+    take_out(&mut world, 0, 3, 0);
+    let slide = (mass * -SPEED - added) / (mass + added);
+    assert!((world.wires[0].nodes[2].slide - slide).abs() < 1e-14);
+}

@@ -47,10 +47,12 @@ pub(super) fn insert(
         if wire.is_clamp(segment) {
             continue;
         }
-        let [start, end] = [wire.nodes[segment], wire.nodes[segment + 1]];
+        let ends = [segment, segment + 1];
+        let [first, last] = ends.map(|node| wire.velocity_at(node, segment));
+        let [start, end] = ends.map(|node| wire.nodes[node]);
         let node = Node {
             position: start.position + wire.span(segment) * parameter,
-            velocity: start.velocity.lerp(&end.velocity, parameter),
+            velocity: first.lerp(&last, parameter),
             arc: insertion.arc,
             kind: NodeKind::Free,
             slide: 0.0,
