@@ -55,6 +55,8 @@ extern "C" {
 /* And of bodies that turn: a quaternion is 0, or the body turns by more than 90 degrees. */
 #define TUNNELPROOF_NO_ORIENTATION (-8)
 #define TUNNELPROOF_TURNS_TOO_FAR (-9)
+/* And of a step of pairs: the two lists do not have the same positions. */
+#define TUNNELPROOF_POSITIONS (-10)
 
 /* Whether the two sides pass through each other at the first contact (a crossing) or not (a graze).
  * With a radius: whether they do so within the step. After a graze they may cross later in the
@@ -205,8 +207,9 @@ typedef struct tunnelproof_error {
   /* The number that is returned. */
   int32_t code;
   /* The name of the array or argument: "edges", "faces", "groups", "start", "end", "thickness",
-   * "vertices", "clearance", "indices", "radii"; of a NULL that of the pointer. It lives as long as
-   * the library. */
+   * "vertices", "clearance", "indices", "radii"; of a NULL that of the pointer. Where there are two
+   * lists, their arrays are "edges.indices", "faces.radii" and so on. It lives as long as the
+   * library. */
   const char *array;
   /* The place in it, from 0: `array[index][corner]`. Of TUNNELPROOF_LENGTH, `index` is how many
    * there should be. 0 where there is no place. */
@@ -310,6 +313,85 @@ int32_t tunnelproof_advance_edge_edge_f32(const double *points, const double *ra
 int32_t tunnelproof_advance_vertex_face_f32(const double *points, const double *radii,
                                             double clearance, double share,
                                             tunnelproof_advance *advance);
+
+/* The kind of a query, and of a list of pairs. */
+enum tunnelproof_query_kind {
+  TUNNELPROOF_EDGE_EDGE = 1,
+  TUNNELPROOF_VERTEX_FACE = 2
+};
+
+/* A pair by its place in the list of its kind. */
+typedef struct tunnelproof_listed_pair {
+  /* Which list: a value of tunnelproof_query_kind. */
+  int32_t kind;
+  /* The place of its four indices, from 0. */
+  size_t index;
+} tunnelproof_listed_pair;
+
+/* A pair that ends a step, and why: a value of tunnelproof_blocked. */
+typedef struct tunnelproof_pairs_limit {
+  tunnelproof_listed_pair pair;
+  int32_t blocked;
+} tunnelproof_pairs_limit;
+
+/* A pair that keeps less than it should, as it starts nearer than that or as rounding leaves no room
+ * for more. It keeps a distance above the exact sum of the two numbers, in metres. */
+typedef struct tunnelproof_near_listed_pair {
+  tunnelproof_listed_pair pair;
+  double kept[2];
+} tunnelproof_near_listed_pair;
+
+/* A step of all points of pairs that is proved. */
+typedef struct tunnelproof_pairs_step {
+  /* Set before the call: where to write x, y, z of each point to store, in metres. It may be the
+   * `start` or the `end` of the pairs. */
+  double *positions;
+  /* Set before the call: room for this many pairs that end the step, and that are near. A pointer may
+   * be NULL: nothing is written there. The pairs are in order, edges first. */
+  tunnelproof_pairs_limit *limits;
+  size_t limit_capacity;
+  tunnelproof_near_listed_pair *near_pairs;
+  size_t near_capacity;
+  /* How much of the step is made, from 0 to 1. At 1 the positions are those of the end, at 0 those
+   * of the start, bit for bit. */
+  double step;
+  /* How many pairs end the step, 0 if it is a whole one, and how many are near. */
+  size_t limit_count, near_count;
+} tunnelproof_pairs_step;
+
+/* The largest step, within rounding, that keeps all pairs apart by more than their radius and a
+ * clearance, and the positions to store, of all points. `edges` are pairs of edges, `faces` pairs of a
+ * vertex and a face. Both are of the same points: their positions are equal, or the same arrays. A
+ * list may be empty, with a `pair_count` of 0. `clearance` and `share`, and what pairs keep that start
+ * too near, are as in tunnelproof_advance_edge_edge.
+ *
+ * Straight motion of all points from the start to `step->positions` keeps each pair that does not
+ * touch at the start farther apart than that, exactly, in real arithmetic. A pair that is in neither
+ * list stays apart as well, if the boxes around its two sides are farther apart, along an axis, than
+ * its radius and the clearance. The box of a side is around all its points, at the start and at the
+ * end together. The broad phase has to see to that, with its rounding outward. The next step starts
+ * at the stored positions, with new lists. So nothing passes through anything in these pairs, however
+ * many steps follow. Steps of parts of the lists are no step of the whole.
+ *
+ * The step is 0 if a pair touches at the start, radius or not, or if rounding leaves no room to any
+ * step tried. `limits` names the pairs. Two sides that share a point touch always: leave them out.
+ * Where TUNNELPROOF_NEAR ends a step, it may be as small as some rounding errors, so do not wait for
+ * 0. Part these pairs, or let them move otherwise.
+ *
+ * Uses all threads if the library was built with them, and gives the same answers on any number of
+ * them. Returns 0, or a negative number as tunnelproof_decide_edge_edge_pairs, also
+ * TUNNELPROOF_CLEARANCE and TUNNELPROOF_POSITIONS. Nothing but `error` is written then. */
+int32_t tunnelproof_advance_pairs(const tunnelproof_pairs *edges, const tunnelproof_pairs *faces,
+                                  double clearance, double share, tunnelproof_pairs_step *step,
+                                  tunnelproof_error *error);
+
+/* The same for engines that store float: if the positions at the start are floats, so are those of
+ * the step, as tunnelproof_advance_edge_edge_f32 says. The boxes of what is in neither list are around
+ * what the end is rounded to. */
+int32_t tunnelproof_advance_pairs_f32(const tunnelproof_pairs *edges,
+                                      const tunnelproof_pairs *faces, double clearance,
+                                      double share, tunnelproof_pairs_step *step,
+                                      tunnelproof_error *error);
 
 /* Vertices, edges and faces by their indices: cloth, bodies, wires and points. Every edge may meet
  * every edge, and every vertex every face. A vertex in no edge is a point, which may also meet

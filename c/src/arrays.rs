@@ -32,16 +32,14 @@ impl Error {
     }
 }
 
-/// The name of an array as C has it.
+/// The name of an array of a mesh as C has it.
 pub(crate) fn name(array: &str) -> &'static CStr {
-    const NAMES: [&CStr; 9] = [
+    const NAMES: [&CStr; 7] = [
         c"clearance",
         c"edges",
         c"end",
         c"faces",
         c"groups",
-        c"indices",
-        c"radii",
         c"start",
         c"thickness",
     ];

@@ -4,7 +4,7 @@
 //! next to the header's promise that makes it sound, and works on those. All of it happens in the
 //! default floating-point environment ([`with_default`]), also the comparison of an argument with 0,
 //! which a host that flushes subnormal numbers to zero would answer otherwise; so do the threads of
-//! the pool for meshes, which is started there and runs nothing else.
+//! the pool for meshes and pairs, which is started there and runs nothing else.
 
 use std::ffi::{CStr, c_char};
 use std::mem::MaybeUninit;
@@ -22,6 +22,7 @@ mod advance;
 mod arrays;
 mod mesh;
 mod pairs;
+mod step;
 mod subject;
 mod turning;
 
@@ -32,6 +33,7 @@ pub use advance::{
 pub use arrays::Error;
 pub use mesh::*;
 pub use pairs::*;
+pub use step::*;
 pub use subject::{tunnelproof_certified_edge_edge, tunnelproof_certified_vertex_face};
 pub use turning::*;
 
@@ -46,6 +48,7 @@ const LENGTH: i32 = -6;
 const CLEARANCE: i32 = -7;
 const NO_ORIENTATION: i32 = -8;
 const TURNS_TOO_FAR: i32 = -9;
+const POSITIONS: i32 = -10;
 
 /// `tunnelproof_contact_point`.
 #[repr(C)]

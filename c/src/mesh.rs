@@ -1,14 +1,15 @@
 //! Whole meshes.
 
-use std::mem::MaybeUninit;
+use std::mem::{MaybeUninit, offset_of};
 use std::ptr;
 
 use tunnelproof::mesh::{Feature, MeshContact, MeshError, Pair as EnginePair, Thickness};
 use tunnelproof::{Clearance, Precision};
 use tunnelproof_float_env::with_default;
 
-use crate::advance::{blocked, clearance};
+use crate::advance::clearance;
 use crate::arrays::{Error, answered, name, read, write};
+use crate::step::Step;
 use crate::{
     CLEARANCE, COUNT, ContactPoint, HIT, INDEX, LENGTH, MISS, NOT_FINITE, NULL, RADIUS, kind,
 };
@@ -130,36 +131,16 @@ impl Contact {
     }
 }
 
-/// `tunnelproof_limit`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct Limit {
-    pair: Pair,
-    blocked: i32,
-}
-
-/// `tunnelproof_near_pair`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct NearPair {
-    pair: Pair,
-    kept: [f64; 2],
-}
-
 /// `tunnelproof_step`.
 #[repr(C)]
 #[derive(Debug)]
-pub struct Step {
-    positions: *mut f64,
-    limits: *mut Limit,
-    limit_capacity: usize,
-    near_pairs: *mut NearPair,
-    near_capacity: usize,
-    step: MaybeUninit<f64>,
-    limit_count: MaybeUninit<usize>,
-    near_count: MaybeUninit<usize>,
+pub struct MeshStep {
+    step: Step<Pair>,
     candidates: MaybeUninit<[usize; 2]>,
 }
+
+// In the header its fields follow one another: nothing is between those of the two.
+const _: () = assert!(offset_of!(MeshStep, candidates) == Step::<Pair>::END);
 
 /// A mesh and a question about it, read from pointers.
 struct Question<'a> {
@@ -439,7 +420,7 @@ pub unsafe extern "C" fn tunnelproof_mesh_step(
     motion: *const Motion,
     distance: f64,
     share: f64,
-    out: *mut Step,
+    out: *mut MeshStep,
     error: *mut Error,
 ) -> i32 {
     let clearance = || clearance(distance, share);
@@ -460,7 +441,7 @@ pub unsafe extern "C" fn tunnelproof_mesh_step_f32(
     motion: *const Motion,
     distance: f64,
     share: f64,
-    out: *mut Step,
+    out: *mut MeshStep,
     error: *mut Error,
 ) -> i32 {
     let clearance = || clearance(distance, share);
@@ -480,42 +461,21 @@ unsafe fn step(
     motion: *const Motion,
     clearance: Option<Clearance>,
     precision: Precision,
-    out: *mut Step,
+    out: *mut MeshStep,
 ) -> Result<i32, Error> {
     // SAFETY: not null, it points to a step that nobody else uses, with its buffers set.
     let out = unsafe { out.as_mut() }.ok_or(Error::null(c"step"))?;
     // SAFETY: the caller's promise is the same.
     let question = unsafe { Question::read(mesh, motion) }?;
     let mesh = question.mesh;
-    if out.positions.is_null() && mesh.0.vertex_count() > 0 {
-        return Err(Error::null(c"positions"));
-    }
+    out.step.check(mesh.0.vertex_count())?;
     let step = question.step(clearance, precision)?;
-    out.step.write(step.step);
-    out.limit_count.write(step.limits.len());
-    out.near_count.write(step.near.len());
     out.candidates.write(step.candidates);
-    let limits = step.limits.iter().map(|limit| Limit {
-        pair: Pair::new(mesh, limit.pair),
-        blocked: blocked(limit.blocked),
-    });
-    let near_pairs = step.near.iter().map(|(pair, kept)| NearPair {
-        pair: Pair::new(mesh, *pair),
-        kept: kept.parts(),
-    });
-    // SAFETY: not null, it points to memory for so many limits that nobody else uses.
-    unsafe { write(out.limits, out.limit_capacity, limits) };
-    // SAFETY: as above, of pairs.
-    unsafe { write(out.near_pairs, out.near_capacity, near_pairs) };
-    let positions = out.positions.cast::<[f64; 3]>();
-    // SAFETY: not null, it points to three numbers for each vertex that nobody else uses. They may
-    // be those of the start or the end of the motion, which are not read any more.
-    unsafe {
-        write(
-            positions,
-            step.positions.len(),
-            step.positions.iter().copied(),
-        )
-    };
+    let limits = step.limits.iter();
+    let limits = limits.map(|limit| (Pair::new(mesh, limit.pair), limit.blocked));
+    let near = step.near.iter();
+    let near = near.map(|&(pair, kept)| (Pair::new(mesh, pair), kept));
+    // SAFETY: the caller's promise is the same.
+    unsafe { out.step.write(step.step, &step.positions, limits, near) };
     Ok(0)
 }

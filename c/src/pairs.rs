@@ -1,10 +1,17 @@
 //! Pairs by the indices of their points.
 
-use tunnelproof::{EdgeEdge, Pairs as EnginePairs, PairsError, Radius, VertexFace};
+use std::ffi::CStr;
+
+use tunnelproof::{
+    Clearance, EdgeEdge, ListedPair as EngineListedPair, Pairs as EnginePairs, PairsError,
+    Precision, QueryKind, Radius, VertexFace, advance_pairs,
+};
 use tunnelproof_float_env::with_default;
 
-use crate::arrays::{Error, answered, name, read, write};
-use crate::{COUNT, Hit, INDEX, LENGTH, NOT_FINITE, Query, RADIUS};
+use crate::advance::clearance;
+use crate::arrays::{Error, answered, read, write};
+use crate::step::Step;
+use crate::{CLEARANCE, COUNT, Hit, INDEX, LENGTH, NOT_FINITE, POSITIONS, Query, RADIUS};
 
 /// `tunnelproof_pairs`.
 #[repr(C)]
@@ -27,71 +34,151 @@ pub struct PairHit {
     hit: Hit,
 }
 
-impl From<PairsError> for Error {
-    fn from(error: PairsError) -> Self {
+/// `tunnelproof_listed_pair`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct ListedPair {
+    kind: i32,
+    index: usize,
+}
+
+impl From<EngineListedPair> for ListedPair {
+    fn from(EngineListedPair { kind, index }: EngineListedPair) -> Self {
+        let kind = match kind {
+            QueryKind::EdgeEdge => 1,
+            QueryKind::VertexFace => 2,
+        };
+        ListedPair { kind, index }
+    }
+}
+
+/// What a list and its arrays are called where they are refused.
+struct Names {
+    list: &'static CStr,
+    start: &'static CStr,
+    end: &'static CStr,
+    indices: &'static CStr,
+    radii: &'static CStr,
+}
+
+const PAIRS: Names = Names {
+    list: c"pairs",
+    start: c"start",
+    end: c"end",
+    indices: c"indices",
+    radii: c"radii",
+};
+
+const EDGES: Names = Names {
+    list: c"edges",
+    start: c"edges.start",
+    end: c"edges.end",
+    indices: c"edges.indices",
+    radii: c"edges.radii",
+};
+
+const FACES: Names = Names {
+    list: c"faces",
+    start: c"faces.start",
+    end: c"faces.end",
+    indices: c"faces.indices",
+    radii: c"faces.radii",
+};
+
+impl Names {
+    fn of(&self, array: &str) -> &'static CStr {
+        match array {
+            "start" => self.start,
+            "end" => self.end,
+            "radii" => self.radii,
+            _ => self.indices,
+        }
+    }
+
+    fn error(&self, error: PairsError) -> Error {
         let (code, array, index, corner, value) = match error {
             PairsError::Length {
                 array,
                 found,
                 expected,
-            } => (LENGTH, array, expected, 0, found as f64),
+            } => (LENGTH, self.of(array), expected, 0, found as f64),
             PairsError::NotFinite {
                 array,
                 point,
                 axis,
                 value,
-            } => (NOT_FINITE, array, point, axis, value),
+            } => (NOT_FINITE, self.of(array), point, axis, value),
             PairsError::Index {
                 pair,
                 corner,
                 index,
                 ..
-            } => (INDEX, "indices", pair, corner, index.into()),
+            } => (INDEX, self.indices, pair, corner, index.into()),
             PairsError::Radius { pair, radius } => {
                 let [first, second] = radius.parts();
                 let is_first = !(first >= 0.0 && first.is_finite());
                 let (corner, value) = if is_first { (0, first) } else { (1, second) };
-                (RADIUS, "radii", pair.unwrap_or(0), corner, value)
+                (RADIUS, self.radii, pair.unwrap_or(0), corner, value)
             }
+            PairsError::Positions => (POSITIONS, self.list, 0, 0, 0.0),
+            PairsError::Clearance(_) => (CLEARANCE, c"clearance", 0, 0, 0.0),
             // What the engine may come to refuse.
-            _ => (COUNT, "indices", 0, 0, 0.0),
+            _ => (COUNT, self.indices, 0, 0, 0.0),
         };
         Error {
             index,
             corner,
             value,
-            ..Error::new(code, name(array))
+            ..Error::new(code, array)
         }
     }
 }
 
-/// Reads pairs and decides them.
-///
-/// # Safety
-///
-/// Each pointer, also in the pairs, is null or points to what the header says, and nobody changes
-/// that during the call.
-unsafe fn decided<Q: Query>(pairs: *const Pairs) -> Result<Vec<PairHit>, Error> {
-    // SAFETY: not null, it points to pairs that nobody changes.
-    let pairs = unsafe { pairs.as_ref() }.ok_or(Error::null(c"pairs"))?;
-    let (points, count) = (pairs.point_count, pairs.pair_count);
-    // SAFETY: not null, it points to three numbers for each point that nobody changes.
-    let start = unsafe { read(pairs.start.cast::<[f64; 3]>(), points, c"start") }?;
-    // SAFETY: as above.
-    let end = unsafe { read(pairs.end.cast::<[f64; 3]>(), points, c"end") }?;
-    // SAFETY: not null, it points to four indices for each pair that nobody changes.
-    let indices = unsafe { read(pairs.indices.cast::<[u32; 4]>(), count, c"indices") }?;
-    // SAFETY: not null, it points to two numbers for each radius that nobody changes.
-    let radii = unsafe { read(pairs.radii.cast::<[f64; 2]>(), pairs.radius_count, c"radii") }?;
-    let same = |radius: Radius| EnginePairs::<Q>::new(start, end, indices, radius);
-    Ok(match *radii {
-        [] => answers(&same(Radius::ZERO)?),
-        [radius] => answers(&same(radius.into())?),
-        _ => {
-            let radii: Vec<_> = radii.iter().map(|&radius| radius.into()).collect();
-            answers(&EnginePairs::<Q>::with_radii(start, end, indices, &radii)?)
-        }
-    })
+/// A list of pairs, read from pointers.
+struct List<'a> {
+    names: &'static Names,
+    start: &'a [[f64; 3]],
+    end: &'a [[f64; 3]],
+    indices: &'a [[u32; 4]],
+    radii: Vec<Radius>,
+}
+
+impl List<'_> {
+    /// # Safety
+    ///
+    /// Each pointer, also in the pairs, is null or points to what the header says, and nobody
+    /// changes that during `'_`.
+    unsafe fn read(pairs: *const Pairs, names: &'static Names) -> Result<Self, Error> {
+        // SAFETY: not null, it points to pairs that nobody changes.
+        let pairs = unsafe { pairs.as_ref() }.ok_or(Error::null(names.list))?;
+        let (points, count) = (pairs.point_count, pairs.pair_count);
+        // SAFETY: not null, it points to three numbers for each point that nobody changes.
+        let start = unsafe { read(pairs.start.cast::<[f64; 3]>(), points, names.start) }?;
+        // SAFETY: as above.
+        let end = unsafe { read(pairs.end.cast::<[f64; 3]>(), points, names.end) }?;
+        // SAFETY: not null, it points to four indices for each pair that nobody changes.
+        let indices = unsafe { read(pairs.indices.cast::<[u32; 4]>(), count, names.indices) }?;
+        let (radii, count) = (pairs.radii.cast::<[f64; 2]>(), pairs.radius_count);
+        // SAFETY: not null, it points to two numbers for each radius that nobody changes.
+        let radii = unsafe { read(radii, count, names.radii) }?;
+        Ok(List {
+            names,
+            start,
+            end,
+            indices,
+            radii: radii.iter().map(|&radius| radius.into()).collect(),
+        })
+    }
+
+    fn pairs<Q: Query>(&self) -> Result<EnginePairs<'_, Q>, Error> {
+        let (start, end, indices) = (self.start, self.end, self.indices);
+        let pairs = match *self.radii {
+            [] => EnginePairs::new(start, end, indices, Radius::ZERO),
+            [radius] => EnginePairs::new(start, end, indices, radius),
+            _ => EnginePairs::with_radii(start, end, indices, &self.radii),
+        };
+        pairs.map_err(|error| self.names.error(error))
+    }
 }
 
 /// The hits, by all threads where the pool of threads is built in.
@@ -121,11 +208,13 @@ unsafe fn decide<Q: Query>(
     error: *mut Error,
 ) -> i64 {
     // SAFETY: the caller's promise is the same.
-    let found = unsafe { decided::<Q>(pairs) }.map(|found| {
+    let list = unsafe { List::read(pairs, &PAIRS) };
+    let found = list.and_then(|list| {
+        let found = answers(&list.pairs::<Q>()?);
         let count = found.len() as i64;
         // SAFETY: not null, it points to memory for so many hits that nobody else uses.
         unsafe { write(hits, capacity, found.into_iter()) };
-        count
+        Ok(count)
     });
     // SAFETY: the caller's promise is the same.
     unsafe { answered(found, error) }
@@ -161,4 +250,76 @@ pub unsafe extern "C" fn tunnelproof_decide_vertex_face_pairs(
 ) -> i64 {
     // SAFETY: the caller's promise is the same.
     with_default(|| unsafe { decide::<VertexFace>(pairs, hits, capacity, error) })
+}
+
+/// `tunnelproof_advance_pairs`.
+///
+/// # Safety
+///
+/// As the header says of its pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tunnelproof_advance_pairs(
+    edges: *const Pairs,
+    faces: *const Pairs,
+    distance: f64,
+    share: f64,
+    out: *mut Step<ListedPair>,
+    error: *mut Error,
+) -> i32 {
+    let clearance = || clearance(distance, share);
+    // SAFETY: the caller's promise is the same.
+    let step = || unsafe { step(edges, faces, clearance(), Precision::F64, out) };
+    // SAFETY: the caller's promise is the same.
+    with_default(|| unsafe { answered(step(), error) })
+}
+
+/// `tunnelproof_advance_pairs_f32`.
+///
+/// # Safety
+///
+/// As the header says of its pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tunnelproof_advance_pairs_f32(
+    edges: *const Pairs,
+    faces: *const Pairs,
+    distance: f64,
+    share: f64,
+    out: *mut Step<ListedPair>,
+    error: *mut Error,
+) -> i32 {
+    let clearance = || clearance(distance, share);
+    // SAFETY: the caller's promise is the same.
+    let step = || unsafe { step(edges, faces, clearance(), Precision::F32, out) };
+    // SAFETY: the caller's promise is the same.
+    with_default(|| unsafe { answered(step(), error) })
+}
+
+/// Reads the arguments of a step, and writes what is answered.
+///
+/// # Safety
+///
+/// As the header says of the pointers of `tunnelproof_advance_pairs`.
+unsafe fn step(
+    edges: *const Pairs,
+    faces: *const Pairs,
+    clearance: Option<Clearance>,
+    precision: Precision,
+    out: *mut Step<ListedPair>,
+) -> Result<i32, Error> {
+    // SAFETY: not null, it points to a step that nobody else uses, with its buffers set.
+    let out = unsafe { out.as_mut() }.ok_or(Error::null(c"step"))?;
+    // SAFETY: the caller's promise is the same.
+    let edges = unsafe { List::read(edges, &EDGES) }?;
+    // SAFETY: as above.
+    let faces = unsafe { List::read(faces, &FACES) }?;
+    out.check(edges.start.len())?;
+    let clearance = clearance.ok_or(Error::new(CLEARANCE, c"clearance"))?;
+    let step = advance_pairs(&edges.pairs()?, &faces.pairs()?, clearance, precision);
+    let step = step.map_err(|error| FACES.error(error))?;
+    let limits = step.limits.iter();
+    let limits = limits.map(|limit| (limit.pair.into(), limit.blocked));
+    let near = step.near.iter().map(|&(pair, kept)| (pair.into(), kept));
+    // SAFETY: the caller's promise is the same.
+    unsafe { out.write(step.step, &step.positions, limits, near) };
+    Ok(0)
 }

@@ -103,6 +103,8 @@ typedef struct {
   int32_t is_free[2];
   double positions[2][3 * VERTICES], steps[2];
   size_t counts[2][4];
+  double pair_positions[2][3 * VERTICES], pair_steps[2];
+  size_t pair_counts[2][2];
   int32_t turning_verdicts[2][TURNING];
   tunnelproof_hit turning_hits[2][TURNING];
   int64_t turning_count;
@@ -222,6 +224,28 @@ static void ask_of_mesh(answers *out, int i) {
   memcpy(out->counts[i] + 2, step.candidates, sizeof step.candidates);
 }
 
+/* Edges and faces of four vertices, and of the next four. */
+static void ask_of_pairs(answers *out, int i) {
+  static const double radii[2][2] = {{0.001, 0}, {0, 0}}, clearances[2] = {0.001, 1e-316};
+  uint32_t edge_pairs[4 * PAIRS], face_pairs[4 * PAIRS], q, k;
+  const tunnelproof_pairs edges = {asked.start[i], asked.end[i], VERTICES, edge_pairs, PAIRS,
+                                   radii[i], 1};
+  const tunnelproof_pairs faces = {asked.start[i], asked.end[i], VERTICES, face_pairs, PAIRS,
+                                   radii[i], 1};
+  tunnelproof_pairs_step step;
+  for (q = 0; q < PAIRS; q++)
+    for (k = 0; k < 4; k++) {
+      edge_pairs[4 * q + k] = (4 * q + 2 + k) % VERTICES;
+      face_pairs[4 * q + k] = (4 * q + 3 + k) % VERTICES;
+    }
+  memset(&step, 0, sizeof step);
+  step.positions = out->pair_positions[i];
+  tunnelproof_advance_pairs(&edges, &faces, clearances[i], 0, &step, NULL);
+  memcpy(&out->pair_steps[i], &step.step, sizeof step.step);
+  out->pair_counts[i][0] = step.limit_count;
+  out->pair_counts[i][1] = step.near_count;
+}
+
 /* Points in space and of the body are those of the other queries. */
 static void ask_of_bodies(answers *out) {
   const double *points = asked.points, *poses = asked.poses, *radii = asked.radii;
@@ -247,6 +271,8 @@ static void ask(answers *out, int of_mesh) {
   memset(out, 0, sizeof *out);
   for (i = 0; of_mesh && i < 2; i++) {
     ask_of_mesh(out, (int)i);
+    out->changed += control() != own;
+    ask_of_pairs(out, (int)i);
     out->changed += control() != own;
   }
   for (i = 0; i < BLOCK; i++) {
@@ -308,7 +334,7 @@ static int compare(const environment *which, size_t count) {
             memcmp(&there.hits[i - 1], &here.hits[i - 1], sizeof *here.hits) != 0)
           one = (int)i - 1;
       printf("%s: block %zu: other answers, ", which->name, block);
-      if (one < 0) printf("of a batch, a step, a mesh or a body that turns\n");
+      if (one < 0) printf("of a batch, a step, a mesh, pairs or a body that turns\n");
       else printf("at first to query %d\n", one);
       failures += 1;
     }

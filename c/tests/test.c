@@ -532,6 +532,200 @@ static void refused_of_a_mesh(tunnelproof_mesh *mesh) {
   CHECK(tunnelproof_mesh_is_free(mesh, &motion, NULL) == 1);
 }
 
+/* All pairs of that mesh, in its order: of edges and of the point, which is both ends of its edge, and
+ * of a vertex and the face. */
+enum { EDGE_PAIRS = 7, FACE_PAIRS = 3 };
+static const uint32_t edge_pairs[4 * EDGE_PAIRS] = {
+    3, 4, 0, 1, 3, 4, 1, 2, 3, 4, 2, 0, 3, 4, 5, 5, 0, 1, 5, 5, 1, 2, 5, 5, 2, 0, 5, 5,
+};
+static const uint32_t face_pairs[4 * FACE_PAIRS] = {3, 0, 1, 2, 4, 0, 1, 2, 5, 0, 1, 2};
+
+/* The indices of a pair. */
+static const uint32_t *listed(tunnelproof_listed_pair pair) {
+  return (pair.kind == TUNNELPROOF_EDGE_EDGE ? edge_pairs : face_pairs) + 4 * pair.index;
+}
+
+/* The step of pairs is that of the mesh whose pairs they are, bit for bit. */
+static void steps_as_of_a_mesh(const tunnelproof_mesh *mesh) {
+  static const double settings[5][2] = {{0, 0}, {0.25, 0}, {2, 0}, {0, 0.3}, {0, 0.9}};
+  const double thickness = 0.01;
+  const double radius[2] = {0.01, 0};
+  const tunnelproof_motion motion = {at_first, at_last, &thickness, 1};
+  double of_mesh[18], of_pairs[18];
+  tunnelproof_limit limits[10];
+  tunnelproof_near_pair near_pairs[10];
+  tunnelproof_pairs_limit listed_limits[10];
+  tunnelproof_near_listed_pair near_listed[10];
+  tunnelproof_step step = {of_mesh, limits, 10, near_pairs, 10, 0, 0, 0, {0, 0}};
+  tunnelproof_pairs_step moved = {of_pairs, listed_limits, 10, near_listed, 10, 0, 0, 0};
+  const tunnelproof_pairs edges = {at_first, at_last, 6, edge_pairs, EDGE_PAIRS, radius, 1};
+  const tunnelproof_pairs faces = {at_first, at_last, 6, face_pairs, FACE_PAIRS, radius, 1};
+  size_t limit_count = 0, near_count = 0, k;
+  int i;
+
+  for (i = 0; i < 10; i++) {
+    const double clearance = settings[i / 2][0], share = settings[i / 2][1];
+    if (i % 2) {
+      CHECK(tunnelproof_mesh_step_f32(mesh, &motion, clearance, share, &step, NULL) == 0);
+      CHECK(tunnelproof_advance_pairs_f32(&edges, &faces, clearance, share, &moved, NULL) == 0);
+      for (k = 0; k < 18; k++) CHECK((double)(float)of_pairs[k] == of_pairs[k]);
+    } else {
+      CHECK(tunnelproof_mesh_step(mesh, &motion, clearance, share, &step, NULL) == 0);
+      CHECK(tunnelproof_advance_pairs(&edges, &faces, clearance, share, &moved, NULL) == 0);
+    }
+    CHECK(moved.step == step.step && memcmp(of_pairs, of_mesh, sizeof of_mesh) == 0);
+    CHECK(moved.limit_count == step.limit_count && moved.near_count == step.near_count);
+    for (k = 0; k < step.limit_count; k++) {
+      const uint32_t *indices = listed(listed_limits[k].pair);
+      CHECK(memcmp(indices, limits[k].pair.vertices, 4 * sizeof *indices) == 0);
+      CHECK(listed_limits[k].blocked == limits[k].blocked);
+    }
+    for (k = 0; k < step.near_count; k++) {
+      const uint32_t *indices = listed(near_listed[k].pair);
+      CHECK(memcmp(indices, near_pairs[k].pair.vertices, 4 * sizeof *indices) == 0);
+      CHECK(memcmp(near_listed[k].kept, near_pairs[k].kept, sizeof near_pairs[k].kept) == 0);
+    }
+    limit_count += step.limit_count;
+    near_count += step.near_count;
+  }
+  CHECK(limit_count > 5 && near_count > 1);
+}
+
+/* The edge and the point fall on the face in small steps, whose positions replace the start. Each of
+ * the pairs of edges has a radius of its own; one edge never meets another one. */
+static void steps_of_pairs(void) {
+  double x[18], wanted[18];
+  const double radius[2] = {0.01, 0}, radii[4] = {0.25, 0.125, 0, 0};
+  tunnelproof_pairs_limit limits[2];
+  tunnelproof_near_listed_pair near_pairs[1];
+  tunnelproof_pairs_step step = {x, limits, 2, near_pairs, 1, 0, 0, 0};
+  tunnelproof_pairs edges = {x, wanted, 6, edge_pairs, 2, radii, 2};
+  tunnelproof_pairs faces = {x, wanted, 6, face_pairs, FACE_PAIRS, radius, 1};
+  int i, k;
+
+  memcpy(x, at_first, sizeof x);
+  for (i = 0; i < 4; i++) {
+    memcpy(wanted, x, sizeof x);
+    for (k = 3; k < 6; k++) wanted[3 * k + 2] -= 0.3;
+    CHECK(tunnelproof_advance_pairs(&edges, &faces, 0, 0, &step, NULL) == 0);
+    CHECK((step.step == 1) == (step.limit_count == 0) && (i > 2) == (step.limit_count > 0));
+    CHECK(i > 2 || memcmp(x, wanted, sizeof x) == 0);
+  }
+  CHECK(step.limit_count == 1 && limits[0].pair.kind == TUNNELPROOF_VERTEX_FACE);
+  CHECK(limits[0].pair.index == 0 && limits[0].blocked == TUNNELPROOF_AHEAD);
+  CHECK(x[11] > 0.01 && x[11] < 0.01 + 1e-9);
+
+  /* A list may be empty. The edge 3, 4 meets 1, 2 first. */
+  faces.pair_count = faces.radius_count = 0;
+  faces.indices = NULL;
+  memcpy(x, at_first, sizeof x);
+  memcpy(wanted, at_last, sizeof x);
+  CHECK(tunnelproof_advance_pairs(&edges, &faces, 0, 0, &step, NULL) == 0);
+  CHECK(step.limit_count == 1 && limits[0].pair.kind == TUNNELPROOF_EDGE_EDGE);
+  CHECK(limits[0].pair.index == 1 && step.near_count == 0);
+
+  /* Room for one, and for none. */
+  faces.pair_count = FACE_PAIRS;
+  faces.indices = face_pairs;
+  memset(near_pairs, -1, sizeof near_pairs);
+  memset(limits, -1, sizeof limits);
+  memcpy(x, at_first, sizeof x);
+  step.limit_capacity = step.near_capacity = 0;
+  CHECK(tunnelproof_advance_pairs(&edges, &faces, 2, 0, &step, NULL) == 0);
+  CHECK(step.limit_count > 0 && step.near_count > 1);
+  CHECK(limits[0].blocked == -1 && near_pairs[0].pair.kind == -1);
+  memcpy(x, at_first, sizeof x);
+  step.near_capacity = 1;
+  step.limits = NULL;
+  step.limit_capacity = 2;
+  CHECK(tunnelproof_advance_pairs(&edges, &faces, 2, 0, &step, NULL) == 0);
+  CHECK(near_pairs[0].pair.kind == TUNNELPROOF_EDGE_EDGE && near_pairs[0].pair.index == 0);
+  CHECK(near_pairs[0].kept[0] + near_pairs[0].kept[1] > 1.29);
+  CHECK(limits[0].blocked == -1 && limits[1].blocked == -1);
+
+  /* Two that touch at the start do not move. */
+  memcpy(x, at_first, sizeof x);
+  x[11] = x[14] = 0;
+  step.limits = limits;
+  CHECK(tunnelproof_advance_pairs(&edges, &faces, 0, 0, &step, NULL) == 0);
+  CHECK(step.step == 0 && step.limit_count > 0 && x[17] == 3);
+  CHECK(limits[0].blocked == TUNNELPROOF_TOUCHING);
+
+  /* No points, and no pairs. */
+  edges.point_count = edges.pair_count = edges.radius_count = 0;
+  edges.start = edges.end = NULL;
+  step.positions = NULL;
+  CHECK(tunnelproof_advance_pairs(&edges, &edges, 0, 0, &step, NULL) == 0);
+  CHECK(step.step == 1 && step.limit_count == 0 && step.near_count == 0);
+}
+
+/* What a step of pairs refuses, and of which list. */
+static void refused_of_pairs(void) {
+  double x[18], bad[18];
+  const double negative[2] = {0, -1};
+  const uint32_t beyond[4] = {0, 6, 1, 2};
+  const tunnelproof_pairs edges = {at_first, at_last, 6, edge_pairs, EDGE_PAIRS, NULL, 0};
+  tunnelproof_pairs faces = {at_first, at_last, 6, face_pairs, FACE_PAIRS, NULL, 0};
+  tunnelproof_pairs_step step = {NULL, NULL, 0, NULL, 0, -1, 0, 0};
+  tunnelproof_error error;
+
+#define REFUSED(edges, faces, clearance, share, expected, name)                                 \
+  do {                                                                                          \
+    CHECK(tunnelproof_advance_pairs(edges, faces, clearance, share, &step, NULL) == (expected)); \
+    CHECK(tunnelproof_advance_pairs_f32(edges, faces, clearance, share, &step, &error) ==       \
+          (expected));                                                                          \
+    CHECK(error.code == (expected) && strcmp(error.array, name) == 0);                          \
+  } while (0)
+
+  REFUSED(&edges, &faces, 0, 0, TUNNELPROOF_NULL, "positions");
+  CHECK(tunnelproof_advance_pairs(&edges, &faces, 0, 0, NULL, &error) == TUNNELPROOF_NULL);
+  CHECK(strcmp(error.array, "step") == 0);
+  step.positions = x;
+  REFUSED(NULL, &faces, 0, 0, TUNNELPROOF_NULL, "edges");
+  REFUSED(&edges, NULL, 0, 0, TUNNELPROOF_NULL, "faces");
+  REFUSED(&edges, &faces, -1, 0, TUNNELPROOF_CLEARANCE, "clearance");
+  REFUSED(&edges, &faces, NAN, 0, TUNNELPROOF_CLEARANCE, "clearance");
+  REFUSED(&edges, &faces, 0, 1, TUNNELPROOF_CLEARANCE, "clearance");
+  REFUSED(&edges, &faces, 1, 0.5, TUNNELPROOF_CLEARANCE, "clearance");
+  faces.indices = NULL;
+  REFUSED(&edges, &faces, 0, 0, TUNNELPROOF_NULL, "faces.indices");
+  faces.indices = beyond;
+  faces.pair_count = 1;
+  REFUSED(&edges, &faces, 0, 0, TUNNELPROOF_INDEX, "faces.indices");
+  CHECK(error.index == 0 && error.corner == 1 && error.value == 6);
+  REFUSED(&faces, &edges, 0, 0, TUNNELPROOF_INDEX, "edges.indices");
+  faces.indices = face_pairs;
+  faces.radius_count = 1;
+  REFUSED(&edges, &faces, 0, 0, TUNNELPROOF_NULL, "faces.radii");
+  faces.radii = negative;
+  REFUSED(&edges, &faces, 0, 0, TUNNELPROOF_RADIUS, "faces.radii");
+  CHECK(error.index == 0 && error.corner == 1 && error.value == -1);
+  faces.radii = at_first;
+  faces.radius_count = 3;
+  REFUSED(&edges, &faces, 0, 0, TUNNELPROOF_LENGTH, "faces.radii");
+  CHECK(error.index == 1 && error.value == 3);
+  faces.radius_count = 0;
+  faces.end = NULL;
+  REFUSED(&faces, &edges, 0, 0, TUNNELPROOF_NULL, "edges.end");
+  memcpy(bad, at_last, sizeof bad);
+  faces.end = bad;
+  bad[7] = NAN;
+  REFUSED(&edges, &faces, 0, 0, TUNNELPROOF_NOT_FINITE, "faces.end");
+  CHECK(error.index == 2 && error.corner == 1 && error.value != error.value);
+  /* Other positions, and as many as there should not be. Those that are equal may be elsewhere. */
+  bad[7] = 1;
+  REFUSED(&edges, &faces, 0, 0, TUNNELPROOF_POSITIONS, "faces");
+  faces.end = at_last;
+  faces.point_count = 5;
+  REFUSED(&edges, &faces, 0, 0, TUNNELPROOF_POSITIONS, "faces");
+  CHECK(step.step == -1);
+  memcpy(bad, at_last, sizeof bad);
+  faces.end = bad;
+  faces.point_count = 6;
+  CHECK(tunnelproof_advance_pairs(&edges, &faces, 0, 0, &step, &error) == 0);
+#undef REFUSED
+}
+
 static void of_a_mesh(void) {
   tunnelproof_mesh *mesh = tunnelproof_mesh_new(6, edges, 1, faces, 1, NULL);
   uint32_t all[8];
@@ -540,6 +734,7 @@ static void of_a_mesh(void) {
   CHECK(tunnelproof_mesh_edges(NULL, all, 4) == TUNNELPROOF_NULL);
   contacts_of_a_mesh(mesh);
   steps_of_a_mesh(mesh);
+  steps_as_of_a_mesh(mesh);
   refused_of_a_mesh(mesh);
   tunnelproof_mesh_free(mesh);
 }
@@ -550,6 +745,8 @@ int main(void) {
   advanced();
   of_a_mesh();
   pairs_by_index();
+  steps_of_pairs();
+  refused_of_pairs();
   overlap();
   at_start();
   refused();

@@ -1,10 +1,10 @@
-//! The certified step of pairs on arrays.
+//! Certified steps on arrays.
 
-use numpy::{PyReadonlyArray2, PyReadonlyArray3};
+use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use tunnelproof::{Advance, Blocked, Clearance, Precision, Query, QueryKind, advance_in};
+use tunnelproof::{Advance, Blocked, Clearance, Precision, Query, QueryKind, Radius, advance_in};
 use tunnelproof_float_env::with_default;
 
 use crate::columns::Columns;
@@ -56,6 +56,42 @@ fn advanced<'py>(
     })?;
     columns.codes("blocked", |advance| blocked(advance.blocked))?;
     Ok(columns.dict)
+}
+
+/// The fields of a step of all points: its size, the positions, the pairs that end it, and those that
+/// are near. `pair` writes the columns of pairs.
+pub(crate) fn together<'py, P>(
+    py: Python<'py>,
+    step: f64,
+    positions: Vec<[f64; 3]>,
+    limits: impl IntoIterator<Item = (P, Blocked)>,
+    near: impl IntoIterator<Item = (P, Radius)>,
+    pair: impl Fn(&mut Columns<'_, 'py, P>) -> PyResult<()>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let (limits, why): (Vec<_>, Vec<_>) = limits
+        .into_iter()
+        .map(|(pair, why)| (Some(pair), Some(why)))
+        .unzip();
+    let (near, kept): (Vec<_>, Vec<_>) = near
+        .into_iter()
+        .map(|(pair, kept)| (Some(pair), Some(kept)))
+        .unzip();
+    let mut of_limits = Columns::new(py, &limits);
+    pair(&mut of_limits)?;
+    let mut of_limits = of_limits.of(&why);
+    of_limits.codes("blocked", |why| blocked(Some(*why)))?;
+    let mut of_near = Columns::new(py, &near);
+    pair(&mut of_near)?;
+    let mut of_near = of_near.of(&kept);
+    of_near.numbers("kept", Radius::parts)?;
+    let fields = PyDict::new(py);
+    fields.set_item("step", step)?;
+    let count = positions.len();
+    let positions = PyArray1::from_vec(py, positions.into_flattened());
+    fields.set_item("positions", positions.reshape([count, 3])?)?;
+    fields.set_item("limits", of_limits.dict)?;
+    fields.set_item("near", of_near.dict)?;
+    Ok(fields)
 }
 
 /// A clearance from the arguments of Python.

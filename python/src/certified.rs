@@ -1,18 +1,18 @@
 //! The certified path on arrays.
 
-use numpy::{PyArray1, PyReadonlyArray2, PyReadonlyArray3};
+use numpy::{PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use tunnelproof::certified::Kind;
 use tunnelproof::contact::Place;
 use tunnelproof::{
-    Batch, ContactPoint, EdgeEdge, Hit, Normal, Pairs, Point, Query, QueryKind, Radius, VertexFace,
+    Batch, ContactPoint, EdgeEdge, Hit, Normal, Point, Query, QueryKind, VertexFace,
 };
 use tunnelproof_float_env::with_default;
 
 use crate::columns::{self, Columns};
 use crate::interrupt::each;
-use crate::queries::{self, Refused, Rows, rows};
+use crate::queries::{self, Rows};
 
 /// The columns of `Hits`.
 #[pyfunction]
@@ -29,63 +29,6 @@ pub(crate) fn decide<'py>(
         QueryKind::VertexFace => written::<VertexFace>(py, rows),
     })
 }
-
-/// Which of the pairs touch, and the columns of `Hits` for these.
-#[pyfunction]
-pub(crate) fn decide_pairs<'py>(
-    py: Python<'py>,
-    kind: &str,
-    start: PyReadonlyArray2<'py, f64>,
-    end: PyReadonlyArray2<'py, f64>,
-    indices: PyReadonlyArray2<'py, u32>,
-    radii: PyReadonlyArray2<'py, f64>,
-) -> PyResult<Found<'py>> {
-    let kind = queries::kind(kind)?;
-    let (start, end) = (rows("start", &start)?, rows("end", &end)?);
-    let indices = rows("indices", &indices)?;
-    let radii: Vec<_> = rows("radii", &radii)?.iter().map(radius).collect();
-    with_default(|| match kind {
-        QueryKind::EdgeEdge => found::<EdgeEdge>(py, start, end, indices, &radii),
-        QueryKind::VertexFace => found::<VertexFace>(py, start, end, indices, &radii),
-    })
-}
-
-/// Pairs by their places, and the columns of `Hits`.
-type Found<'py> = (Bound<'py, PyArray1<isize>>, Bound<'py, PyDict>);
-
-fn radius(parts: &[f64; 2]) -> Radius {
-    (*parts).into()
-}
-
-fn found<'py, K: Kind>(
-    py: Python<'py>,
-    start: &[[f64; 3]],
-    end: &[[f64; 3]],
-    indices: &[[u32; 4]],
-    radii: &[Radius],
-) -> PyResult<Found<'py>> {
-    // One radius for all saves to look at those of each.
-    let pairs = match radii {
-        [radius] => Pairs::<K>::new(start, end, indices, *radius),
-        _ => Pairs::with_radii(start, end, indices, radii),
-    };
-    let pairs = pairs.map_err(|error| Refused::new(&error))?;
-    let firsts: Vec<usize> = (0..pairs.len()).step_by(PART).collect();
-    let hits = each(py, &firsts, |&first| {
-        let part = pairs.part(first..pairs.len().min(first + PART));
-        let hits = part.map_or(Vec::new(), |part| part.decide());
-        let whole = |(place, hit): (usize, Hit<K::Place>)| {
-            let query = pairs.get(first + place)?;
-            Some(((first + place).cast_signed(), Some(Row::new(&query, hit))))
-        };
-        hits.into_iter().filter_map(whole).collect::<Vec<_>>()
-    })?;
-    let (places, rows): (Vec<_>, Vec<_>) = hits.into_iter().flatten().unzip();
-    Ok((PyArray1::from_vec(py, places), columns(py, &rows)?))
-}
-
-/// How many pairs a thread takes at a time.
-const PART: usize = 4096;
 
 /// A kind of query.
 trait Side: Kind {
@@ -123,7 +66,7 @@ pub(crate) struct Row {
 }
 
 impl Row {
-    fn new<K: Kind>(query: &K, hit: Hit<K::Place>) -> Self {
+    pub(crate) fn new<K: Kind>(query: &K, hit: Hit<K::Place>) -> Self {
         let (first, second) = hit.points(query);
         let contact = |contact: ContactPoint| (contact.weights, contact.point);
         Row {

@@ -18,6 +18,12 @@ impl<'a, 'py, H> Columns<'a, 'py, H> {
         Columns { hits, dict, py }
     }
 
+    /// More columns of the same rows.
+    pub(crate) fn of<G>(self, hits: &'a [Option<G>]) -> Columns<'a, 'py, G> {
+        let Columns { dict, py, .. } = self;
+        Columns { hits, dict, py }
+    }
+
     /// `N` numbers of each hit: an array of shape `(n,)` if `N` is 1, else `(n, N)`.
     pub(crate) fn numbers<const N: usize>(
         &mut self,
@@ -25,6 +31,11 @@ impl<'a, 'py, H> Columns<'a, 'py, H> {
         of: impl Fn(&H) -> [f64; N],
     ) -> PyResult<()> {
         self.rows(name, [f64::NAN; N], of)
+    }
+
+    /// A place in a list of each hit, 0 where there is none.
+    pub(crate) fn places(&mut self, name: &str, of: impl Fn(&H) -> usize) -> PyResult<()> {
+        self.rows(name, [0], |hit| [of(hit).cast_signed()])
     }
 
     /// `N` indices of each hit, 0 where there is none; shaped as numbers are.

@@ -15,6 +15,7 @@ mod families;
 mod interrupt;
 mod mesh;
 mod method;
+mod pairs;
 mod queries;
 mod query;
 mod simulate;
@@ -26,7 +27,7 @@ mod _tunnelproof {
     #[pymodule_export]
     use crate::advance::advance;
     #[pymodule_export]
-    use crate::certified::{decide, decide_pairs};
+    use crate::certified::decide;
     #[pymodule_export]
     use crate::certify::{certify, merge};
     #[pymodule_export]
@@ -35,6 +36,8 @@ mod _tunnelproof {
     use crate::families::{families, family};
     #[pymodule_export]
     use crate::mesh::Mesh;
+    #[pymodule_export]
+    use crate::pairs::{advance_pairs, decide_pairs};
     #[pymodule_export]
     use crate::query::{draw, explain, gap, locate, shrink};
     #[pymodule_export]

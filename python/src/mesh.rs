@@ -179,21 +179,9 @@ impl Mesh {
             candidates,
             ..
         } = step.map_err(refused)?;
-        let limits: Vec<_> = limits.into_iter().map(Some).collect();
-        let near: Vec<_> = near.into_iter().map(Some).collect();
-        let mut of_limits = Columns::new(py, &limits);
-        self.pairs(&mut of_limits, |limit| limit.pair)?;
-        of_limits.codes("blocked", |limit| advance::blocked(Some(limit.blocked)))?;
-        let mut of_near = Columns::new(py, &near);
-        self.pairs(&mut of_near, |(pair, _)| *pair)?;
-        of_near.numbers("kept", |(_, kept)| kept.parts())?;
-        let fields = PyDict::new(py);
-        fields.set_item("step", step)?;
-        let count = positions.len();
-        let positions = PyArray1::from_vec(py, positions.into_flattened());
-        fields.set_item("positions", positions.reshape([count, 3])?)?;
-        fields.set_item("limits", of_limits.dict)?;
-        fields.set_item("near", of_near.dict)?;
+        let limits = limits.iter().map(|limit| (limit.pair, limit.blocked));
+        let pair = |columns: &mut Columns<'_, 'py, Pair>| self.pairs(columns, |pair| *pair);
+        let fields = advance::together(py, step, positions, limits, near, pair)?;
         fields.set_item("candidates", (candidates[0], candidates[1]))?;
         Ok(fields)
     }

@@ -24,11 +24,13 @@ def mesh_questions():
     start = rng.uniform(-1, 1, (64, 3))
     end = start + rng.uniform(-0.5, 0.5, start.shape)
     mesh = tunnelproof.Mesh(edges=np.arange(64).reshape(-1, 2), faces=np.arange(63).reshape(-1, 3))
+    pairs = rng.permuted(np.tile(np.arange(64), (200, 1)), axis=1)[:, :4]
     return lambda: (
         mesh.step(start, end, 1e-3).positions,
         mesh.all_contacts(start, end).toi,
         mesh.first_contact(start, end).toi,
         mesh.is_free(start, end),
+        tunnelproof.advance_pairs(start, end, pairs[:100], pairs[100:], share=0.5).positions,
     )
 
 

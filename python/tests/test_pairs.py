@@ -1,4 +1,4 @@
-"""Pairs by index: the answers of one by one, and what is refused."""
+"""Pairs by index: the answers of one by one, steps as those of a mesh, and what is refused."""
 
 import dataclasses
 
@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import tunnelproof
+from test_mesh import all_pairs, is_single, soup
+from tunnelproof import Blocked
 
 RANDOM = np.random.default_rng(3)
 START = RANDOM.uniform(-1, 1, (60, 3))
@@ -74,3 +76,99 @@ def test_what_is_no_pair_is_named(change, message):
     asked = {"kind": "edge-edge", "start": START, "end": END, "indices": INDICES[:2], "radius": 0.0}
     with pytest.raises(ValueError, match=message):
         tunnelproof.decide_pairs(**asked | change)
+
+
+@pytest.mark.parametrize("precision", ["f64", "f32"])
+@pytest.mark.parametrize("settings", [{}, {"clearance": 0.01}, {"clearance": 0.5}, {"share": 0.2}])
+@pytest.mark.parametrize("seed", range(10))
+def test_a_step_of_all_pairs_of_a_mesh_is_that_of_the_mesh(seed, settings, precision):
+    mesh, start, end = soup(seed, integers=seed == 9)
+    start = start.astype(np.float32).astype(np.float64)
+    listed = all_pairs(mesh)
+    radius = 0.0 if seed % 2 else 0.02
+    of_mesh = mesh.step(start, end, radius, **settings, precision=precision)
+    moved = tunnelproof.advance_pairs(
+        start,
+        end,
+        listed["edge-edge"],
+        listed["vertex-face"],
+        edge_radius=radius,
+        face_radius=np.full(len(listed["vertex-face"]), radius),
+        **settings,
+        precision=precision,
+    )
+    assert moved.step == of_mesh.step and np.array_equal(moved.positions, of_mesh.positions)
+    assert precision == "f64" or is_single(moved.positions).all()
+    for found, expected in [(moved.limits, of_mesh.limits), (moved.near, of_mesh.near)]:
+        vertices = [listed[kind][index] for kind, index in zip(found.kind, found.index)]
+        assert vertices == expected.vertices.tolist() and len(found) == len(expected)
+    assert np.array_equal(moved.limits.blocked, of_mesh.limits.blocked)
+    assert np.array_equal(moved.near.kept, of_mesh.near.kept)
+    assert (moved.step == 1) == (len(moved.limits) == 0)
+
+
+@pytest.mark.parametrize("precision", ["f64", "f32"])
+@pytest.mark.parametrize("settings", [{}, {"clearance": 0.01}, {"share": 0.5}])
+@pytest.mark.parametrize("kind", ["edge-edge", "vertex-face"])
+def test_a_step_of_one_pair_is_that_of_the_query(kind, settings, precision):
+    family = "thick_uniform" if kind == "edge-edge" else "thick_face_uniform"
+    points, radii = tunnelproof.queries(family, 200, seed=7)
+    points[:, :4] = points[:, :4].astype(np.float32)
+    expected = tunnelproof.advance(kind, points, radii, **settings, precision=precision)
+    name, other = ("edge", "face") if kind == "edge-edge" else ("face", "edge")
+    for i in range(200):
+        lists = {f"{name}s": [[0, 1, 2, 3]], f"{other}s": [], f"{name}_radius": radii[i : i + 1]}
+        moved = tunnelproof.advance_pairs(
+            points[i, :4], points[i, 4:], **lists, **settings, precision=precision
+        )
+        assert moved.step == expected.step[i]
+        assert np.array_equal(moved.positions, expected.points[i])
+        assert moved.limits.blocked.tolist() == [code for code in expected.blocked[i : i + 1] if code]
+        assert moved.limits.kind.tolist() == [kind] * len(moved.limits)
+
+
+def test_a_step_names_what_ends_it_and_what_is_near():
+    start = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.2, 0.2, 0.5], [0, 5, 0], [1, 5, 0]])
+    end = start.copy()
+    end[3, 2] = -0.5
+    ask = lambda **settings: tunnelproof.advance_pairs(start, end, [[0, 1, 4, 5]], [[3, 0, 1, 2]], **settings)
+    moved = ask(face_radius=0.25)
+    assert moved.limits.kind.tolist() == ["vertex-face"] and moved.limits.index.tolist() == [0]
+    assert moved.limits.blocked.tolist() == [Blocked.AHEAD] and len(moved.near) == 0
+    assert 0.2499 < moved.step <= 0.25 and moved.positions.shape == (6, 3)
+    moved = ask(edge_radius=[0.1], face_radius=[[0.5, 0.5]])
+    assert moved.near.kind.tolist() == ["vertex-face"] and moved.near.index.tolist() == [0]
+    assert moved.positions[3, 2] > 0.4499 and abs(moved.near.kept.sum() - 0.45) < 1e-12
+    assert "vertex-face" in moved._repr_html_() and "start nearer" in moved._repr_html_()
+    start[3, 2] = 0
+    moved = ask()
+    assert moved.step == 0 and moved.limits.blocked.tolist() == [Blocked.TOUCHING]
+    assert np.array_equal(moved.positions, start)
+    nothing = tunnelproof.advance_pairs(np.zeros((0, 3)), np.zeros((0, 3)), [], [])
+    assert nothing.step == 1 and nothing.positions.shape == (0, 3) and len(nothing.limits) == 0
+
+
+@pytest.mark.parametrize(
+    "change, message",
+    [
+        ({"start": START[:5]}, "^end has 60 entries, and start has 5"),
+        ({"end": np.full((60, 3), np.nan)}, r"^end\[0\]\[0\] is NaN"),
+        ({"start": START.T}, r"start has the shape \(3, 60\)"),
+        ({"edges": [[0, 1, 2, 60]]}, "edges: pair 0: point D is position 60, and there are 60"),
+        ({"faces": [[0, 1, 2, 3], [60, 1, 2, 0]]}, "faces: pair 1: point A is position 60"),
+        ({"faces": [[0, 1, 2, -1]]}, r"faces\[0\]\[3\] is -1"),
+        ({"edges": [[0, 1]]}, r"edges have the shape \(1, 2\), not \(n, 4\)"),
+        ({"edge_radius": -1.0}, "edges: .*-1"),
+        ({"face_radius": [0.0, -1.0]}, "faces: pair 1: .*-1"),
+        ({"face_radius": [0.0]}, r"face_radius has the shape \(1,\)"),
+        ({"edge_radius": "thin"}, "edge_radius: .* is no type of real numbers"),
+        ({"clearance": -1.0}, "the clearance is -1"),
+        ({"share": 1.0}, "the share is 1"),
+        ({"clearance": 0.1, "share": 0.5}, "give one of them"),
+        ({"precision": "f16"}, 'precision is "f16"'),
+    ],
+)
+def test_what_is_no_step_is_named(change, message):
+    asked = {"start": START, "end": END, "edges": INDICES[:2], "faces": INDICES[:2]}
+    with pytest.raises(ValueError, match=message):
+        tunnelproof.advance_pairs(**asked | change)

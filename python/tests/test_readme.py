@@ -17,5 +17,5 @@ def test_snippets_run_from_first_to_last(tmp_path, monkeypatch, capsys):
     assert printed[0] == re.search("It prints `(.*)`", text)[1]
     promised = re.findall(r"^print.*[^#]# (\S.*?)(?:: two.*)?$", text, re.MULTILINE)
     promised = [line for line in promised if not line.startswith("tunnel,")]
-    assert len(promised) == 5 and set(promised) <= set(printed)
+    assert len(promised) == 6 and set(promised) <= set(printed)
     assert "tunnel [[" in "\n".join(printed)

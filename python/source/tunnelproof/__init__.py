@@ -14,8 +14,8 @@ wires. With 0 contact is a common point.
 :func:`decide` is the certified path, for simulators: it misses no contact and invents none, and its
 time of impact is the exact one rounded down. Positions at that time are rounded, and may already be
 past the contact. :func:`advance` gives positions to store instead: straight motion to them touches
-nothing. :func:`decide_pairs` takes queries that share points by their indices. :class:`Mesh` does the
-same for whole meshes, whose pairs it finds itself.
+nothing. :func:`decide_pairs` and :func:`advance_pairs` take queries that share points by their
+indices. :class:`Mesh` does the same for whole meshes, whose pairs it finds itself.
 :func:`decide_rigid` is the certified path for rigid bodies that turn within the step. :func:`exact`
 is the oracle in exact arithmetic, by another method. :func:`certify` judges a method of your own
 against it on :func:`families` of queries, each of which aims at a weakness. :func:`explain` says
@@ -58,6 +58,7 @@ from ._hits import Case, ContactPoints, Hits
 from ._html import Picture, frame
 from ._kinds import Blocked, ContactKind, Feature
 from ._mesh import Mesh, MeshContacts, MeshLimits, MeshStep, NearPairs, Pairs
+from ._pairs import ListedPairs, NearListedPairs, PairsLimits, PairsStep, advance_pairs
 from ._query import Explanation, Method, Query, Shrunk, checked, explain, gap, query, shrink
 from ._simulate import Simulation, scenes, simulate
 from ._step import Advances, advance
@@ -75,17 +76,22 @@ __all__ = [
     "Family",
     "Feature",
     "Hits",
+    "ListedPairs",
     "Mesh",
     "MeshContacts",
     "MeshLimits",
     "MeshStep",
+    "NearListedPairs",
     "NearPairs",
     "Pairs",
+    "PairsLimits",
+    "PairsStep",
     "Picture",
     "Query",
     "Shrunk",
     "Simulation",
     "advance",
+    "advance_pairs",
     "certify",
     "decide",
     "decide_pairs",
@@ -167,7 +173,7 @@ def decide_pairs(
     radius: npt.ArrayLike = 0.0,
 ) -> tuple[Places, Hits]:
     """Which pairs of points that are shared touch, and when: candidate pairs as a broad phase of
-    your own delivers them.
+    your own delivers them. :func:`advance_pairs` gives positions to store.
 
     :param kind: ``"edge-edge"`` or ``"vertex-face"``.
     :param start: the points at the start of the step, of shape ``(m, 3)``, in metres.

@@ -47,13 +47,15 @@ def query_arrays(points: npt.ArrayLike, radius: npt.ArrayLike) -> tuple[Floats, 
     return of_points, radius_array(radius, len(of_points))
 
 
-def radius_array(radius: npt.ArrayLike, count: int, same: bool = False) -> Floats:
+def radius_array(
+    radius: npt.ArrayLike, count: int, same: bool = False, name: str = "radius"
+) -> Floats:
     """Two numbers for each of so many queries, whose sum is their radius. If one for all is taken
     as well, these are only two if they are the ``same``."""
-    of_radii = reals("radius", radius)
+    of_radii = reals(name, radius)
     if of_radii.shape not in [(), (count,), (count, 2)]:
         raise ValueError(
-            f"radius has the shape {of_radii.shape}, not (), ({count},) or ({count}, 2)"
+            f"{name} has the shape {of_radii.shape}, not (), ({count},) or ({count}, 2)"
         )
     if same and of_radii.ndim == 0:
         count = 1

@@ -11,20 +11,12 @@ import numpy.typing as npt
 
 from . import _tunnelproof
 from ._arrays import Codes, Floats, Indices, Precision, index_array, position_array, reals
-from ._html import table
-from ._kinds import Blocked, ContactKind, Feature
-
-
-_SHOWN = 20
-"""Rows of a table in a notebook."""
-
-
-def _counted(pairs: int) -> str:
-    return "1 pair" if pairs == 1 else f"{pairs} pairs"
+from ._kinds import ContactKind, Feature
+from ._rows import Rows, blocked_column, kept_column, step_html
 
 
 @dataclass(frozen=True, eq=False)
-class Pairs:
+class Pairs(Rows):
     """``n`` pairs of a mesh: of two edges, of an edge or a point and a point, or of a vertex and a
     face. ``len()`` is ``n``."""
 
@@ -45,25 +37,14 @@ class Pairs:
     def __len__(self) -> int:
         return len(self.first)
 
-    def _columns(self) -> dict[str, list[str]]:
-        """What a notebook shows of each pair beside its two sides."""
-        return {}
-
-    def _table(self, caption: str) -> str:
+    def _pairs(self) -> dict[str, list[str]]:
         features, indices = (self.first_feature, self.second_feature), (self.first, self.second)
-        sides = [
+        first, second = (
             [f"{Feature(feature).name.lower()} {index}" for feature, index in zip(*side)]
             for side in zip(features, indices)
-        ]
-        more = self._columns()
+        )
         corners = [" ".join(map(str, row)) for row in self.vertices.tolist()]
-        rows = list(zip(*sides, corners, *more.values()))
-        shown, left = rows[:_SHOWN], len(rows) - _SHOWN
-        caption += f"; {left} more are not shown" if left > 0 else ""
-        return table(["first", "second", "vertices A B C D", *more], shown, caption)
-
-    def _repr_html_(self) -> str:
-        return self._table(_counted(len(self)))
+        return {"first": first, "second": second, "vertices A B C D": corners}
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +81,7 @@ class MeshLimits(Pairs):
     """Why they do: values of :class:`Blocked`, int8 of shape ``(n,)``."""
 
     def _columns(self) -> dict[str, list[str]]:
-        return {"blocked": [Blocked(code).name.lower() for code in self.blocked]}
+        return blocked_column(self.blocked)
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,7 +93,7 @@ class NearPairs(Pairs):
     ``(n, 2)``."""
 
     def _columns(self) -> dict[str, list[str]]:
-        return {"kept, m": [f"{sum(kept):.6g}" for kept in self.kept.tolist()]}
+        return kept_column(self.kept)
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,14 +114,9 @@ class MeshStep:
     they were looked at."""
 
     def _repr_html_(self) -> str:
-        made = "A whole step." if self.step == 1 else f"{self.step:.6g} of the step."
         looked = " and ".join(map(str, self.candidates))
-        parts = [f"<p>{made} {looked} pairs of edges and of vertex and face were looked at.</p>"]
-        if len(self.limits):
-            parts.append(self.limits._table(f"{_counted(len(self.limits))} that end it"))
-        if len(self.near):
-            parts.append(self.near._table(f"{_counted(len(self.near))} that start nearer"))
-        return "".join(parts)
+        more = f" {looked} pairs of edges and of vertex and face were looked at."
+        return step_html(self.step, self.limits, self.near, more)
 
 
 class Mesh:

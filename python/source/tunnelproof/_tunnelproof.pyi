@@ -54,6 +54,17 @@ def decide(
 def decide_pairs(
     kind: Kind, start: Floats, end: Floats, indices: Indices, radii: Floats
 ) -> tuple[Places, dict[str, Any]]: ...
+def advance_pairs(
+    start: Floats,
+    end: Floats,
+    edges: Indices,
+    faces: Indices,
+    edge_radii: Floats,
+    face_radii: Floats,
+    clearance: float,
+    share: float | None,
+    precision: Precision,
+) -> dict[str, Any]: ...
 def exact(
     kind: Kind, points: Floats, radii: Floats
 ) -> dict[str, Any]: ...
