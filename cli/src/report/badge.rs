@@ -4,7 +4,7 @@ use maud::html;
 
 use tunnelproof_reference::certify::findings::Findings;
 use tunnelproof_reference::certify::strict;
-use tunnelproof_reference::certify::table::grouped;
+use tunnelproof_reference::certify::table::grouped_count;
 
 /// The mean width of a letter, the margin beside a text, and the height of the badge, in pixels.
 const LETTER: usize = 7;
@@ -41,7 +41,8 @@ pub fn draw(findings: &Findings) -> String {
 }
 
 fn passed(findings: &Findings) -> String {
-    format!("passes {} queries", grouped(findings.total.queries))
+    let queries = grouped_count(findings.total.queries, "query", "queries");
+    format!("passes {queries}")
 }
 
 /// The first thing that fails, and how much more does.

@@ -17,7 +17,7 @@ use tunnelproof::thesis::Threshold;
 
 use crate::sweep::{Evaluated, Grid, Part, Price, Sample, Setting, Worst};
 use tunnelproof_reference::certify::caller::explain_line;
-use tunnelproof_reference::certify::table::{grouped, short};
+use tunnelproof_reference::certify::table::{grouped, grouped_count, short};
 use tunnelproof_reference::corpus::jsonl::{self, Numbers};
 use tunnelproof_reference::field::{self, Integer};
 
@@ -102,12 +102,12 @@ impl<'a> Prices<'a> {
         let queries: usize = self.sources.iter().map(|source| source.queries).sum();
         let crossings: usize = self.sources.iter().map(|source| source.crossings).sum();
         let mut lines = vec![format!(
-            "tunnelproof {}, scale {} m, coordinates in {}, {} queries, {} crossings, exact arithmetic by {}",
+            "tunnelproof {}, scale {} m, coordinates in {}, {}, {}, exact arithmetic by {}",
             self.version,
             self.scale,
             self.precision,
-            grouped(queries as u64),
-            grouped(crossings as u64),
+            grouped_count(queries as u64, "query", "queries"),
+            grouped_count(crossings as u64, "crossing", "crossings"),
             self.arithmetic
         )];
         lines.extend(heading("table 3.1"));

@@ -19,7 +19,7 @@ use tunnelproof::thesis::Threshold;
 
 use crate::sweep::{Sample, Setting};
 use crate::tune::{Advice, Cost, Influence, Lattice, Member, Penalty, Validated};
-use tunnelproof_reference::certify::table::{grouped, short};
+use tunnelproof_reference::certify::table::{grouped, grouped_count, short};
 use tunnelproof_reference::field::{self, Integer};
 
 /// The result of a search.
@@ -177,13 +177,13 @@ impl Tuning {
     /// As text.
     pub fn text(&self) -> String {
         let mut lines = vec![format!(
-            "tunnelproof {}, scale {} m, coordinates in {}, {} queries, {} crossings, {} settings judged",
+            "tunnelproof {}, scale {} m, coordinates in {}, {}, {}, {} judged",
             self.version,
             self.scale,
             self.precision,
-            grouped(self.queries as u64),
-            grouped(self.crossings as u64),
-            grouped(self.judged as u64),
+            grouped_count(self.queries as u64, "query", "queries"),
+            grouped_count(self.crossings as u64, "crossing", "crossings"),
+            grouped_count(self.judged as u64, "setting", "settings"),
         )];
         lines.extend(self.fronts());
         lines.extend(self.recommendation());
@@ -249,11 +249,11 @@ fn validation(validation: &Validation) -> Vec<String> {
     let mut lines = vec![
         String::new(),
         format!(
-            "Judged on {}, seed {}: {} queries, {} crossings",
+            "Judged on {}, seed {}: {}, {}",
             validation.name,
             validation.seed,
-            grouped(validation.queries as u64),
-            grouped(validation.crossings as u64)
+            grouped_count(validation.queries as u64, "query", "queries"),
+            grouped_count(validation.crossings as u64, "crossing", "crossings")
         ),
         heading(),
     ];

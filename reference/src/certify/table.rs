@@ -308,6 +308,15 @@ pub const QUERIES: [&str; 2] = ["query", "queries"];
 /// What is said of answers that nobody asked for.
 pub const SURPLUS: [&str; 2] = ["answer too many", "answers too many"];
 
+/// How many there are of something, as [`grouped`] writes it.
+pub fn grouped_count(number: u64, one: &str, many: &str) -> String {
+    format!(
+        "{} {}",
+        grouped(number),
+        if number == 1 { one } else { many }
+    )
+}
+
 /// A number with a comma between groups of three digits.
 pub fn grouped(number: u64) -> String {
     let digits = number.to_string();
@@ -324,6 +333,12 @@ pub fn grouped(number: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn one_is_singular_and_thousands_have_commas() {
+        let texts = [0, 1, 1234].map(|count| grouped_count(count, "query", "queries"));
+        assert_eq!(texts, ["0 queries", "1 query", "1,234 queries"]);
+    }
 
     #[test]
     fn grouped_has_a_comma_between_thousands() {
