@@ -1,6 +1,6 @@
 //! The narrow phases side by side, in one run: reading the input alone, the thesis path, additive
-//! CCD, the certified path one by one and in batch. Before each set, the share of its queries that
-//! each stage of the certified path decides.
+//! CCD, the certified path one by one, in batch, and of pairs by index. Before each set, the share of
+//! its queries that each stage of the certified path decides.
 //!
 //! `cargo bench --bench certified`. The public sets are measured where `../shared/data` is present;
 //! the generated ones always. The mean of a query is the time of a set over its queries.
@@ -10,9 +10,9 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use tunnelproof::additive::Additive;
-use tunnelproof::certified::{self, Batch, Stage};
+use tunnelproof::certified::{self, Batch, Pairs, Stage};
 use tunnelproof::narrow::NarrowPhase;
-use tunnelproof::query::EdgeEdge;
+use tunnelproof::query::{EdgeEdge, Radius};
 use tunnelproof::thesis::Thesis;
 
 mod data;
@@ -55,6 +55,9 @@ fn bench(c: &mut Criterion) {
         group.bench_function("certified-batch", |b| {
             b.iter(|| batch.decide_observed(|_, hit| consume(hit), |_| {}));
         });
+        let points = Points::of(&queries);
+        let pairs = points.pairs();
+        group.bench_function("certified-pairs", |b| b.iter(|| consume(pairs.decide())));
         group.finish();
     }
 }
@@ -88,7 +91,47 @@ fn bench_thick(c: &mut Criterion) {
         group.bench_function("certified-batch", |b| {
             b.iter(|| batch.decide_observed(|_, hit| consume(hit), |_| {}));
         });
+        let points = Points::of(&queries);
+        let pairs = points.pairs();
+        group.bench_function("certified-pairs", |b| b.iter(|| consume(pairs.decide())));
         group.finish();
+    }
+}
+
+/// Queries as pairs of points. Points that move alike are one, as in the mesh that they come from.
+struct Points {
+    start: Vec<[f64; 3]>,
+    end: Vec<[f64; 3]>,
+    indices: Vec<[u32; 4]>,
+    radii: Vec<Radius>,
+}
+
+impl Points {
+    fn of(queries: &[EdgeEdge]) -> Self {
+        let (mut start, mut end) = (Vec::new(), Vec::new());
+        let mut places = BTreeMap::new();
+        let mut place = |query: &EdgeEdge, corner: usize| {
+            let ends = [query.start()[corner], query.end()[corner]].map(<[f64; 3]>::from);
+            *places
+                .entry(ends.map(|point| point.map(f64::to_bits)))
+                .or_insert_with(|| {
+                    start.push(ends[0]);
+                    end.push(ends[1]);
+                    start.len() as u32 - 1
+                })
+        };
+        let indices = queries.iter();
+        let indices = indices.map(|query| [0, 1, 2, 3].map(|corner| place(query, corner)));
+        Points {
+            indices: indices.collect(),
+            radii: queries.iter().map(EdgeEdge::radius).collect(),
+            start,
+            end,
+        }
+    }
+
+    fn pairs(&self) -> Pairs<'_, EdgeEdge> {
+        Pairs::with_radii(&self.start, &self.end, &self.indices, &self.radii).expect("pairs")
     }
 }
 

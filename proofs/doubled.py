@@ -153,7 +153,7 @@ def refined_value(engine, claim, underflows=False):
     context = Context(reaches=reach_name, underflows=underflows)
     interpreter = engine.interpreter(context)
     interpreter.builtins["difference"] = refined.difference(context)
-    found = interpreter.run(f"{HERE}refine.rs", "evaluate", Corners(context), None)
+    found = interpreter.run(f"{HERE}refine.rs", "evaluate", points(context), None)
     v = exact_vectors()
     exact = dot(v["m"], cross(v["k"], v["l"]))
     factor = engine.constant("refine", "VALUE_ERROR")

@@ -10,6 +10,7 @@ use std::ops::Range;
 
 use pulp::{Arch, WithSimd};
 
+use super::crossing;
 use super::cubic::Cubic;
 use super::ends::{Ends, Plain};
 use super::kind::Stages;
@@ -33,8 +34,8 @@ pub(crate) struct Tile {
 
 pub(super) const COORDINATES: usize = 24;
 
-/// What stages hand on: the cubic, or what [`Planes`] take.
-const FOUND: usize = 5;
+/// What stages hand on: the cubic and the time of a crossing, or what [`Planes`] take.
+const FOUND: usize = 6;
 
 /// How many queries are asked the first two stages before the later ones take what is open.
 pub(crate) const CHUNK: usize = 32;
@@ -113,6 +114,14 @@ impl Open {
         cubic.is_valid().then_some(cubic)
     }
 
+    /// The time of the first root of the query that is open at this place, as
+    /// [`crossing::time`] says it, if [it was asked](Self::time_crossings); after
+    /// [`screen`](Self::screen).
+    pub(super) fn crossing_time(&self, place: usize) -> Option<f64> {
+        let [.., time] = self.found(place);
+        (!time.is_nan()).then_some(time)
+    }
+
     /// How far the planes of the query that is open at this place reach, after
     /// [`screen_thick`](Self::screen_thick).
     pub(super) fn reached(&self, place: usize) -> Reached {
@@ -128,14 +137,13 @@ impl Open {
     }
 
     /// Adds what the first two stages leave of some queries without a radius, no more than
-    /// [`CHUNK`]: how many these are.
+    /// [`CHUNK`].
     pub(super) fn add<K: Stages>(
         &mut self,
         source: &impl Source,
         queries: Range<usize>,
         observe: &mut impl FnMut(Stage),
-    ) -> usize {
-        let before = self.count;
+    ) {
         let decided = Arch::new().dispatch(First::<_, _, _, 2, 0> {
             open: self,
             source,
@@ -144,7 +152,6 @@ impl Open {
             prepare: |_: &mut [Tile; CHUNK / LANES], _: Range<usize>| {},
         });
         report([Stage::Boxes, Stage::Direction], decided, observe);
-        self.count - before
     }
 
     /// The same for queries with radii above 0.
@@ -203,6 +210,14 @@ impl Open {
     pub(super) fn screen<K: Stages>(&mut self, observe: &mut impl FnMut(Stage)) {
         self.test([Stage::Signs], Signs::<K>(PhantomData), observe);
         self.test([Stage::Roots], Roots::<K>(PhantomData), observe);
+    }
+
+    /// The fourth stage, for the times of what may be contact; after [`screen`](Self::screen), if it
+    /// leaves enough queries.
+    pub(super) fn time_crossings<K: Stages>(&mut self) {
+        if self.count >= CROSSINGS {
+            self.test([], Crossings::<K>(PhantomData), &mut |_| {});
+        }
     }
 
     /// Planes that separate for the whole step or the next part of it.
@@ -321,14 +336,14 @@ impl<K: Stages> Test<1, FOUND> for Signs<K> {
         let cubic = Cubic::unchecked(&K::motion(points));
         let is_decided = cubic.is_valid() & cubic.has_no_root();
         let [b0, b1, b2, b3] = cubic.bernstein;
-        ([is_decided], [b0, b1, b2, b3, cubic.permanent])
+        ([is_decided], [b0, b1, b2, b3, cubic.permanent, f64::NAN])
     }
 }
 
 #[inline(always)]
 fn cubic_of<E: Ends>(
     Motion { k, l, m }: &Motion<E>,
-    &[b0, b1, b2, b3, permanent]: &[f64; FOUND],
+    &[b0, b1, b2, b3, permanent, _]: &[f64; FOUND],
 ) -> Cubic {
     Cubic::of_parts([b0, b1, b2, b3], permanent, [reach(k), reach(l), reach(m)])
 }
@@ -343,10 +358,28 @@ impl<K: Stages> Test<1, 0> for Roots<K> {
     fn of(&self, points: &[[Plain; 3]; 4], found: &[f64; FOUND]) -> ([bool; 1], [f64; 0]) {
         let motion = K::motion(points);
         let cubic = cubic_of(&motion, found);
-        let [lower, upper] = cubic.halves();
-        let is_apart_in = |half| K::is_apart_in(&motion, &cubic, half);
-        let is_apart = is_apart_in(&lower) & is_apart_in(&upper);
-        ([cubic.is_valid() & is_apart], [])
+        let are_apart = crossing::are_apart::<K, _>(&motion, &cubic);
+        ([cubic.is_valid() & are_apart], [])
+    }
+}
+
+/// Stage 4, for the time of the first root at which there may be contact.
+struct Crossings<K>(PhantomData<K>);
+
+/// How many queries have to be open for it to pay.
+const CROSSINGS: usize = 3;
+
+impl<K: Stages> Test<0, FOUND> for Crossings<K> {
+    const HELD: usize = FOUND;
+
+    #[inline(always)]
+    fn of(&self, points: &[[Plain; 3]; 4], found: &[f64; FOUND]) -> ([bool; 0], [f64; FOUND]) {
+        let motion = K::motion(points);
+        let cubic = cubic_of(&motion, found);
+        let time = crossing::time::<K, _>(points, &motion, &cubic);
+        let [b0, b1, b2, b3, permanent, _] = *found;
+        let time = if cubic.is_valid() { time } else { 0.0 };
+        ([], [b0, b1, b2, b3, permanent, time])
     }
 }
 

@@ -2,10 +2,11 @@
 
 use wide::f64x2;
 
+use super::crossing;
 use super::cubic::Cubic;
 use super::kind::{Kind, Stages};
 use super::motion::{Motion, Positions};
-use super::stage::Stage;
+use super::stage::{Finding, Stage};
 use super::thick;
 use crate::contact::{Case, Hit};
 use crate::environment;
@@ -112,24 +113,36 @@ fn decide_all<K: Stages>(
         observe(Stage::Signs);
         return None;
     }
+    let found = cubic.map_or(Finding::Undecided, |cubic| {
+        crossing::decide::<K, _>(&points, &motion, &cubic)
+    });
+    if let Some(found) = found.decided() {
+        observe(Stage::Roots);
+        return found;
+    }
     K::decide_by_roots(positions, || boxes, &motion, cubic.as_ref(), observe)
 }
 
-/// The stages after the first three, for a query that those leave open.
+/// The stages after those without a branch, for a query that those leave open, with the time of the
+/// first root, if that was asked for.
 #[inline(always)]
 pub(super) fn decide_rest<K: Stages>(
     positions: &Positions,
     cubic: impl Fn(&Motion<f64x2>) -> Option<Cubic>,
+    crossing_time: Option<f64>,
     observe: &mut impl FnMut(Stage),
 ) -> Option<Hit<K::Place>> {
     let points = positions.points::<f64x2>();
     let motion = K::motion(&points);
+    let cubic = cubic(&motion);
+    let found = cubic.map_or(Finding::Undecided, |cubic| match crossing_time {
+        Some(time) => Finding::of_certain(crossing::at::<K, _>(time, &motion, &cubic)),
+        None => crossing::decide::<K, _>(&points, &motion, &cubic),
+    });
+    if let Some(found) = found.decided() {
+        observe(Stage::Roots);
+        return found;
+    }
     let boxes = || K::boxes(&points, 0.0);
-    K::decide_by_roots(
-        || *positions,
-        boxes,
-        &motion,
-        cubic(&motion).as_ref(),
-        observe,
-    )
+    K::decide_by_roots(|| *positions, boxes, &motion, cubic.as_ref(), observe)
 }

@@ -106,6 +106,22 @@ impl Stages for EdgeEdge {
         exact::decide_edges(&positions())
     }
 
+    #[inline(always)]
+    fn time_at<E: Ends>(points: &[[E; 3]; 4], cubic: &Cubic, bracket: &Bracket) -> (f64, bool) {
+        let (sharp, least) = cubic.sharpen_once(bracket);
+        let (toi, is_certain) = Root::of(points, cubic, &sharp, least).below();
+        (toi, is_certain & (least > 0.0))
+    }
+
+    #[inline(always)]
+    fn crossing_at<E: Ends>(
+        motion: &Motion<E>,
+        cubic: &Cubic,
+        at: &Bracket,
+    ) -> Option<Hit<EdgePlace>> {
+        crossing(at, motion.meeting(cubic, at).place())
+    }
+
     fn decide_exactly(positions: &Positions) -> Option<Hit<EdgePlace>> {
         exact::decide_edges(positions)
     }
@@ -233,8 +249,11 @@ fn decide_near_end<E: Ends>(
     match root.meeting(positions, motion, cubic).place() {
         Place::Apart => Finding::Miss,
         place => {
-            let toi = root.round_down();
-            Finding::of_certain(toi.and_then(|toi| crossing(toi, bracket, place)))
+            let at = root.round_down().map(|toi| bracket.from(toi));
+            Finding::of_certain(at.and_then(|at| {
+                let hit = EdgeEdge::crossing_at(motion, cubic, &at);
+                hit.or_else(|| crossing(&at, place))
+            }))
         }
     }
 }
@@ -247,18 +266,13 @@ fn hit<E: Ends>(
     bracket: &Bracket,
 ) -> Option<Hit<EdgePlace>> {
     let toi = Root::new(&positions(), cubic, bracket)?.round_down()?;
-    let at_toi = Bracket {
-        low: toi,
-        high: toi.next_up(),
-        ..*bracket
-    };
-    crossing(toi, bracket, motion.meeting(cubic, &at_toi).place())
+    EdgeEdge::crossing_at(motion, cubic, &bracket.from(toi))
 }
 
-/// The contact at a simple root strictly inside the step, strictly inside both edges.
+/// The contact at a simple root between two neighbours in `f64`, strictly inside both edges.
 ///
 /// `f` changes sign there and the lines meet at an angle: a crossing of general motion.
-fn crossing(toi: f64, bracket: &Bracket, place: Place) -> Option<Hit<EdgePlace>> {
+fn crossing(at: &Bracket, place: Place) -> Option<Hit<EdgePlace>> {
     let Place::Inside { u, v, error } = place else {
         return None;
     };
@@ -266,10 +280,10 @@ fn crossing(toi: f64, bracket: &Bracket, place: Place) -> Option<Hit<EdgePlace>>
         return None;
     }
     Some(Hit {
-        toi,
-        toi_above: toi.next_up(),
+        toi: at.low,
+        toi_above: at.high,
         kind: ContactKind::Crossing,
-        side: if bracket.is_rising { -1 } else { 1 },
+        side: if at.is_rising { -1 } else { 1 },
         case: Case::General,
         flags: Flags::default(),
         place: EdgeEdge::place(u, v, error),

@@ -83,6 +83,18 @@ pub(super) trait Stages: 'static {
         observe: &mut impl FnMut(Stage),
     ) -> Option<Hit<Self::Place>>;
 
+    /// The time of impact at the root in a bracket, if the two touch there, and whether it is
+    /// certain, without a branch.
+    fn time_at<E: Ends>(points: &[[E; 3]; 4], cubic: &Cubic, bracket: &Bracket) -> (f64, bool);
+
+    /// The contact at the root between two neighbours in `f64`, the first one at which the two may
+    /// touch, if they certainly do, strictly inside.
+    fn crossing_at<E: Ends>(
+        motion: &Motion<E>,
+        cubic: &Cubic,
+        at: &Bracket,
+    ) -> Option<Hit<Self::Place>>;
+
     /// The answer of integers.
     fn decide_exactly(positions: &Positions) -> Option<Hit<Self::Place>>;
 

@@ -58,6 +58,7 @@ mod batch;
 mod block;
 mod cascade;
 mod contact;
+mod crossing;
 mod cubic;
 mod discrete;
 mod double;

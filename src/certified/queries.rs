@@ -65,24 +65,24 @@ pub(super) fn decide_range<K: Stages>(
     // By each thread that takes a part.
     debug_assert_eq!(environment::check(), Ok(()));
     let (mut open, mut are_thin) = (Open::new(), true);
-    // Of those without a radius: how many were asked the first stages and left open, of late.
+    // Of those without a radius: how many were asked several at once and left open, of late.
     let (mut asked, mut left, mut unscreened) = (0, 0, 0);
     for first in queries.clone().step_by(CHUNK) {
         let chunk = first..queries.end.min(first + CHUNK);
         let are_now_thin = source.are_thin(chunk.clone());
         if open.is_full() || are_now_thin != Some(are_thin) {
-            finish::<K>(&mut open, are_thin, source, &mut hit, &mut observe);
+            left += finish::<K>(&mut open, are_thin, source, &mut hit, &mut observe);
+            if asked >= SAMPLE {
+                unscreened = if 2 * left > asked { UNSCREENED } else { 0 };
+                (asked, left) = (0, 0);
+            }
         }
         are_thin = are_now_thin.unwrap_or_default();
         match are_now_thin {
             Some(false) => open.add_thick::<K>(source, chunk, &mut observe),
             Some(true) if unscreened == 0 => {
                 asked += chunk.len();
-                left += open.add::<K>(source, chunk, &mut observe);
-                if asked >= SAMPLE {
-                    unscreened = if 4 * left > 3 * asked { UNSCREENED } else { 0 };
-                    (asked, left) = (0, 0);
-                }
+                open.add::<K>(source, chunk, &mut observe);
             }
             _ => {
                 unscreened = u32::saturating_sub(unscreened, 1);
@@ -101,33 +101,40 @@ pub(super) fn decide_range<K: Stages>(
     finish::<K>(&mut open, are_thin, source, &mut hit, &mut observe);
 }
 
-/// How many queries without a radius show whether the first two stages decide so much that it pays
-/// to ask them of several at once.
+/// How many queries without a radius show whether the stages that are asked of several at once decide
+/// so much that it pays.
 const SAMPLE: usize = 256;
 
 /// How many chunks are decided one by one after a sample for which it did not.
 const UNSCREENED: u32 = 15 * (SAMPLE / CHUNK) as u32;
 
-/// Decides what the first two stages leave.
+/// Decides what the first two stages leave, and says how much of it the stages for several at once
+/// leave of queries without a radius.
 fn finish<K: Stages>(
     open: &mut Open,
     are_thin: bool,
     source: &impl Source,
     hit: &mut impl FnMut(usize, Hit<K::Place>),
     observe: &mut impl FnMut(Stage),
-) {
+) -> usize {
+    let mut left = 0;
     if open.queries().is_empty() {
-        return;
+        return left;
     }
     match are_thin {
-        true => open.screen::<K>(observe),
+        true => {
+            open.screen::<K>(observe);
+            open.time_crossings::<K>();
+        }
         false => open.screen_thick::<K>(observe),
     }
     for (place, &query) in open.queries().iter().enumerate() {
         let positions = open.positions(place);
         let found = if are_thin {
             let cubic = |motion: &_| open.cubic(place, motion);
-            decide_rest::<K>(&positions, cubic, observe)
+            let time = open.crossing_time(place);
+            left += usize::from(time == Some(0.0));
+            decide_rest::<K>(&positions, cubic, time, observe)
         } else {
             let (radius, reached) = (source.radius(query), open.reached(place));
             thick::decide_from::<K>(&positions, radius, reached, observe)
@@ -137,6 +144,7 @@ fn finish<K: Stages>(
         }
     }
     open.clear();
+    left
 }
 
 /// Which queries may touch, as far as the stages say that are taken for several at once.

@@ -49,16 +49,16 @@ fn difference<E: Ends>(from: [E; 2], to: [E; 2], time: Double<f64>) -> Double<E>
 /// `f64`, each off by at most `2^-1075`: below `2^-1072`. The one with the time adds that to a
 /// component, which is then multiplied by two others: with those of the minors and of the
 /// determinant, below `18 * 2^-712`. As `P` is above `2^-600`, `40 h P` is more.
-fn evaluate(positions: &Positions, time: Double<f64>) -> f64 {
-    let [a, b, c, d] = positions.points::<f64x2>();
+#[inline(always)]
+fn evaluate<E: Ends>([a, b, c, d]: &[[E; 3]; 4], time: Double<f64>) -> f64 {
     // K and L of an axis; M of two axes.
     let edges = |i: usize| difference([a[i], c[i]], [b[i], d[i]], time);
     let (x, y, z) = (edges(0), edges(1), edges(2));
     let m_xy = difference([a[0], a[1]], [c[0], c[1]], time);
     let m_z = difference([a[2], a[2]], [c[2], c[2]], time);
-    let products = |i: Double<f64x2>, j: Double<f64x2>| i.mul(j.swapped());
+    let products = |i: Double<E>, j: Double<E>| i.mul(j.swapped());
     let (yz, zx, xy) = (products(y, z), products(z, x), products(x, y));
-    let minor = |[first, second]: [Double<f64x2>; 2]| first.sub(second);
+    let minor = |[first, second]: [Double<E>; 2]| first.sub(second);
     let [first, second] = m_xy.mul(minor(yz.transposed(zx))).lanes();
     let [third, _] = m_z.mul(minor(xy.transposed(xy))).lanes();
     first.add(second).add(third).value()
@@ -75,27 +75,35 @@ const VALUE_ERROR: f64 = 256.0 * SQUARED_U;
 
 impl Root {
     /// The root in a bracket, if the slope there is certain.
+    pub(super) fn new(positions: &Positions, cubic: &Cubic, bracket: &Bracket) -> Option<Self> {
+        let (sharp, least) = cubic.sharpen(bracket)?;
+        (least > 0.0).then(|| Self::of(&positions.points::<f64x2>(), cubic, &sharp, least))
+    }
+
+    /// The root in a sharpened bracket, if the least magnitude of the slope there is above 0.
     ///
     /// Error bound. Let `t` be the middle of the sharpened bracket, `W` its width, `s` the least
     /// magnitude of the slope in it, `C` the bound on `|f''|`. By Taylor the root is
     /// `t - f(t) / f'(t)` up to `C W^2 / 2 s`. So it is `t + delta` up to `(256 h P + C W^2) / s`
     /// and, for slope, division and rounding, `|delta| (slope_error / s + 8 u)`; the first error is
     /// that of [`evaluate`].
-    pub(super) fn new(positions: &Positions, cubic: &Cubic, bracket: &Bracket) -> Option<Self> {
-        let (sharp, least) = cubic.sharpen(bracket)?;
-        if !(least > 0.0) {
-            return None;
-        }
+    #[inline(always)]
+    pub(super) fn of<E: Ends>(
+        points: &[[E; 3]; 4],
+        cubic: &Cubic,
+        sharp: &Bracket,
+        least: f64,
+    ) -> Self {
         let t = 0.5 * (sharp.low + sharp.high);
         let width = sharp.high - sharp.low;
         let (_, slope) = cubic.evaluate(t);
-        let delta = -evaluate(positions, Double { high: t, low: 0.0 }) / slope;
+        let delta = -evaluate(points, Double { high: t, low: 0.0 }) / slope;
         let error = (cubic.permanent * VALUE_ERROR + cubic.curvature() * width * width) / least
             + delta.abs() * (cubic.slope_error() / least + 8.0 * U);
-        Some(Root {
+        Root {
             time: two_sum(t, delta),
             error,
-        })
+        }
     }
 
     /// The `f64` above 0 and at most 1 that may be the root itself, if there is one: it is the only
@@ -114,17 +122,23 @@ impl Root {
     /// The largest `f64` not above the root, if that is certain; then the root is not an `f64`
     /// itself.
     pub(super) fn round_down(&self) -> Option<f64> {
+        let (below, is_certain) = self.below();
+        is_certain.then_some(below)
+    }
+
+    /// The same without a branch: the number, and whether it is certain.
+    #[inline(always)]
+    pub(super) fn below(&self) -> (f64, bool) {
         let Double { high, low } = self.time;
-        let below = if low - self.error > 0.0 {
-            high
-        } else if low + self.error < 0.0 {
-            high.next_down()
-        } else {
-            return None;
-        };
+        let (is_above, is_below) = (low - self.error > 0.0, low + self.error < 0.0);
+        // Of numbers above 0, as those are that can be certain.
+        let before = |x: f64| f64::from_bits(x.to_bits().wrapping_sub(1));
+        let after = |x: f64| f64::from_bits(x.to_bits().wrapping_add(1));
+        let below = if is_above { high } else { before(high) };
         // The root is between two neighbours, so neither of them, and inside the step.
-        let is_between = self.error < 0.125 * (below.next_up() - below);
-        (is_between && below > 0.0 && below < 1.0).then_some(below)
+        let is_between = self.error < 0.125 * (after(below) - below);
+        let is_inside = (below > 0.0) & (below < 1.0);
+        (below, (is_above | is_below) & is_between & is_inside)
     }
 
     /// Where the lines meet at the root: as [`Motion::meeting`](super::motion::Motion::meeting), to

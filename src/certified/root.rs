@@ -24,6 +24,16 @@ impl Bracket {
             is_rising: false,
         }
     }
+
+    /// The same root, of which a time is the largest `f64` below it.
+    #[inline(always)]
+    pub(super) fn from(&self, toi: f64) -> Self {
+        Bracket {
+            low: toi,
+            high: toi.next_up(),
+            ..*self
+        }
+    }
 }
 
 /// Roots of `f` in `[0, 1]`, ascending.
@@ -48,72 +58,71 @@ pub(super) struct Half {
 }
 
 impl Cubic {
-    /// Brackets of all roots in `[0, 1]` but those of which `is_apart` says that the edges do not
+    /// Brackets of all roots in `[0, 1]` but those of which `is_apart` says that the two sides do not
     /// touch at any root from one time to another; `None` if some cannot be certified.
     pub(super) fn isolate(&self, is_apart: impl Fn(f64, f64) -> bool) -> Option<Brackets> {
         let mut found = Brackets {
             brackets: [Bracket::around(0.0, 1.0); 3],
             count: 0,
         };
-        self.isolate_in(self.whole(), &is_apart, &mut found)?;
-        Some(found)
+        let end = self.decide_at_roots(is_apart, |bracket| {
+            let Some(next) = found.brackets.get_mut(found.count) else {
+                return Finding::Undecided;
+            };
+            *next = *bracket;
+            found.count += 1;
+            Finding::<()>::Miss
+        });
+        matches!(end, Finding::Miss).then_some(found)
     }
 
     /// What is found at the first root at which there is no miss, of those that
-    /// [`isolate`](Self::isolate) brackets. Undecided as soon as one of them is not certain.
+    /// [`isolate`](Self::isolate) brackets, whatever comes after it. Undecided if one up to there is
+    /// not certain.
     #[inline(always)]
     pub(super) fn decide_at_roots<H>(
         &self,
         is_apart: impl Fn(f64, f64) -> bool,
-        decide_at: impl Fn(&Bracket) -> Finding<H>,
+        mut decide_at: impl FnMut(&Bracket) -> Finding<H>,
     ) -> Finding<H> {
-        let Some(brackets) = self.isolate(is_apart) else {
-            return Finding::Undecided;
-        };
-        for bracket in brackets.as_slice() {
-            match decide_at(bracket) {
-                Finding::Miss => {}
-                finding => return finding,
-            }
-        }
-        Finding::Miss
+        self.decide_in(self.whole(), &is_apart, &mut decide_at)
     }
 
     /// Halves `part` until each piece has no root, or none that matters, or one that can be
-    /// bracketed.
-    fn isolate_in(
+    /// bracketed, from the start on.
+    fn decide_in<H>(
         &self,
         part: Part,
         is_apart: &impl Fn(f64, f64) -> bool,
-        found: &mut Brackets,
-    ) -> Option<()> {
+        decide_at: &mut impl FnMut(&Bracket) -> Finding<H>,
+    ) -> Finding<H> {
         let error = self.part_error();
         if have_one_sign(&part.bernstein, error) {
-            return Some(());
+            return Finding::Miss;
         }
         let [falls, rises] = part.falls_or_rises(error);
         if falls || rises {
             let (bracket, is_certain) = self.bracket(&part, rises);
             if is_certain {
-                *found.brackets.get_mut(found.count)? = bracket;
-                found.count += 1;
-                return Some(());
+                return decide_at(&bracket);
             }
         }
-        let [b0, _, _, b3] = part.bernstein;
         // Of the pieces one starts or ends there again, and so stays open.
-        let has_open_end = !(b0.abs() > error) || !(b3.abs() > error);
+        let has_open_end = !part.has_certain_ends(error);
         // Ends: at this depth, in any rounding mode.
         let may_halve = part.depth < MAX_DEPTH;
-        if (has_open_end || !may_halve) && self.is_settled(&part, is_apart)? {
-            return Some(());
-        }
-        if !may_halve {
-            return None;
+        if has_open_end || !may_halve {
+            match self.is_settled(&part, is_apart) {
+                Some(true) => return Finding::Miss,
+                Some(false) if may_halve => {}
+                _ => return Finding::Undecided,
+            }
         }
         let [lower, upper] = part.halves();
-        self.isolate_in(lower, is_apart, found)?;
-        self.isolate_in(upper, is_apart, found)
+        match self.decide_in(lower, is_apart, decide_at) {
+            Finding::Miss => self.decide_in(upper, is_apart, decide_at),
+            finding => finding,
+        }
     }
 
     /// Whether no root in a part matters; `None` if halving it will not show more: `f` may be 0
@@ -134,6 +143,34 @@ impl Cubic {
     pub(super) fn halves(&self) -> [Half; 2] {
         let [lower, upper] = self.whole().halves();
         [self.half(&lower), self.half(&upper)]
+    }
+
+    /// The first half of which it is not certain that the two sides are apart at all roots in it. One
+    /// half is looked at after the other, with branches.
+    #[inline(always)]
+    pub(super) fn first_half(&self, is_apart_in: impl Fn(&Half) -> bool) -> Option<Half> {
+        let error = self.part_error();
+        let halves = self.whole().halves().into_iter();
+        let mut open = halves.filter(|part| !have_one_sign(&part.bernstein, error));
+        open.find_map(|part| {
+            let [falls, rises] = part.falls_or_rises(error);
+            if !(falls || rises) {
+                let bracket = Bracket::around(part.low, part.high);
+                let (has_none, has_one) = (false, false);
+                return Some(Half {
+                    bracket,
+                    has_none,
+                    has_one,
+                });
+            }
+            Some(self.half(&part)).filter(|half| !is_apart_in(half))
+        })
+    }
+
+    /// Whether `f` is certainly not 0 at the start and at the end.
+    #[inline(always)]
+    pub(super) fn has_certain_ends(&self) -> bool {
+        self.whole().has_certain_ends(self.part_error())
     }
 
     #[inline(always)]
@@ -190,22 +227,25 @@ impl Cubic {
         2.0 * self.error
     }
 
+    #[inline(always)]
     pub(super) fn slope_error(&self) -> f64 {
         12.0 * self.error
     }
 
-    /// A short interval around the one root in a part, and whether it is certain to be one.
+    /// A short interval around the one root in a part, and whether it is certain to be one: as far
+    /// around the next step of Newton's method as that step is long.
     #[inline(always)]
     fn bracket(&self, part: &Part, is_rising: bool) -> (Bracket, bool) {
         let guess = part.guess();
-        let (_, slope) = self.evaluate(guess.t);
-        let distance = guess.distance + 2.0 * self.value_error() / slope.abs() + 2.0 * f64::EPSILON;
+        let (value, slope) = self.evaluate(guess);
+        let step = value / slope;
+        let distance = step.abs() + 2.0 * self.value_error() / slope.abs() + 2.0 * f64::EPSILON;
         let part = Bracket {
             low: part.low,
             high: part.high,
             is_rising,
         };
-        self.within(&part, guess.t, distance)
+        self.within(&part, guess - step, distance)
     }
 
     /// The part of a bracket up to some distance from `t`, and whether the root is certain to be
@@ -234,6 +274,7 @@ impl Cubic {
     ///
     /// Each is computed with an error below `24 error` from the coefficients and `6 * 6 u P`, below
     /// `3 error`, from its own roundings.
+    #[inline(always)]
     pub(super) fn curvature(&self) -> f64 {
         let [b0, b1, b2, b3] = self.bernstein;
         let (at_start, at_end) = ((b2 - b1) - (b1 - b0), (b3 - b2) - (b2 - b1));
@@ -242,9 +283,36 @@ impl Cubic {
 
     /// The least magnitude of the derivative in a bracket that holds a point where it is `slope`; 0
     /// or less, or NaN, if none is certain.
+    #[inline(always)]
     fn least_slope(&self, slope: f64, bracket: &Bracket) -> f64 {
         let width = bracket.high - bracket.low;
         (slope.abs() - self.slope_error() - self.curvature() * width) * (1.0 - 8.0 * U)
+    }
+
+    /// A bracket of the same root around `t`, in a bracket in which the derivative has at least some
+    /// magnitude above 0.
+    #[inline(always)]
+    fn narrowed(&self, bracket: &Bracket, t: f64, value: f64, least: f64) -> Bracket {
+        // The division and the sums below are rounded.
+        let distance = (value.abs() + self.value_error()) / least;
+        let distance = distance * (1.0 + 8.0 * U) + 2.0 * U;
+        Bracket {
+            low: larger(t - distance, bracket.low),
+            high: smaller(t + distance, bracket.high),
+            ..*bracket
+        }
+    }
+
+    /// As [`sharpen`](Self::sharpen), by one step without a branch: the least magnitude is 0 or
+    /// less, or NaN, where that does not do.
+    #[inline(always)]
+    pub(super) fn sharpen_once(&self, bracket: &Bracket) -> (Bracket, f64) {
+        let t = 0.5 * (bracket.low + bracket.high);
+        let (value, slope) = self.evaluate(t);
+        let least = self.least_slope(slope, bracket);
+        let sharp = self.narrowed(bracket, t, value, least);
+        let sharp_least = self.least_slope(slope, &sharp);
+        (sharp, if least > 0.0 { sharp_least } else { 0.0 })
     }
 
     /// A bracket of the same root as small as `f64` can make it, and the least magnitude of the
@@ -268,11 +336,7 @@ impl Cubic {
             }
             let least = self.least_slope(slope, &bracket);
             if least > 0.0 {
-                // The division and the sums below are rounded.
-                let distance = (value.abs() + self.value_error()) / least;
-                let distance = distance * (1.0 + 8.0 * U) + 2.0 * U;
-                bracket.low = larger(t - distance, bracket.low);
-                bracket.high = smaller(t + distance, bracket.high);
+                bracket = self.narrowed(&bracket, t, value, least);
                 if is_converged {
                     return Some((bracket, self.least_slope(slope, &bracket)));
                 }
@@ -299,12 +363,6 @@ impl Cubic {
 const MAX_NEWTON: u32 = 24;
 const MAX_DEPTH: u32 = 16;
 
-/// Where a root may be, and about how far away from there at most.
-struct Guess {
-    t: f64,
-    distance: f64,
-}
-
 /// `f` on a part of `[0, 1]`.
 #[derive(Clone, Copy)]
 struct Part {
@@ -315,11 +373,10 @@ struct Part {
 }
 
 impl Part {
-    /// Two steps of Halley's method from where the chord from end to end crosses 0. Each about
-    /// triples the digits that are right, so the error that is left is far below the last step
-    /// squared.
+    /// About where the root is: three steps of Halley's method, each of which about triples the digits
+    /// that are right, from where the chord from end to end crosses 0.
     #[inline(always)]
-    fn guess(&self) -> Guess {
+    fn guess(&self) -> f64 {
         let [b0, b1, b2, b3] = self.bernstein;
         // f = b0 + a1 x + a2 x^2 + a3 x^3 for x from 0 to 1.
         let (a1, a2) = (3.0 * (b1 - b0), 3.0 * ((b2 - b1) - (b1 - b0)));
@@ -331,15 +388,9 @@ impl Part {
             let half_curvature = inner + 2.0 * x * a3;
             f * slope / (slope * slope - f * half_curvature)
         };
-        let inside = |x: f64| smaller(larger(x, 0.0), 1.0);
+        let next = |x: f64| smaller(larger(x - step(x), 0.0), 1.0);
         let chord = b0 / (b0 - b3);
-        let first = inside(chord - step(chord));
-        let last = step(first);
-        let length = self.high - self.low;
-        Guess {
-            t: self.low + length * inside(first - last),
-            distance: length * last * last,
-        }
+        self.low + (self.high - self.low) * next(next(next(chord)))
     }
 
     /// Whether `f` certainly has one root in the part, a simple one, and falls or rises through it
@@ -351,6 +402,13 @@ impl Part {
         let falls = (b0 > error) & (b3 < -error) & ((b1 > error) | (b2 < -error));
         let rises = (b0 < -error) & (b3 > error) & ((b1 < -error) | (b2 > error));
         [falls, rises]
+    }
+
+    /// Whether `f` is certainly not 0 at the start and at the end.
+    #[inline(always)]
+    fn has_certain_ends(&self, error: f64) -> bool {
+        let [b0, _, _, b3] = self.bernstein;
+        (b0.abs() > error) & (b3.abs() > error)
     }
 
     /// De Casteljau's algorithm at the middle.

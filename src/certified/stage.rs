@@ -73,6 +73,15 @@ impl<H> Finding<H> {
         self.and_then(|hit| Finding::Hit(form(hit)))
     }
 
+    /// The hit or the miss that is proved.
+    pub(super) fn decided(self) -> Option<Option<H>> {
+        match self {
+            Finding::Hit(hit) => Some(Some(hit)),
+            Finding::Miss => Some(None),
+            Finding::Undecided => None,
+        }
+    }
+
     /// A hit if it is certain.
     pub(super) fn of_certain(hit: Option<H>) -> Self {
         hit.map_or(Finding::Undecided, Finding::Hit)

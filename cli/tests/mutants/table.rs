@@ -114,8 +114,8 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     Mutant {
         culprit: Culprit::Certified,
         file: "src/certified/root.rs",
-        text: "        self.isolate_in(lower, is_apart, found)?;\n",
-        replacement: "        let _ = lower;\n",
+        text: "        match self.decide_in(lower, is_apart, decide_at) {\n",
+        replacement: "        let _ = lower;\n        match Finding::<H>::Miss {\n",
         fault: "roots in the lower half of a part are dropped",
     },
     Mutant {
@@ -128,8 +128,8 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     Mutant {
         culprit: Culprit::Certified,
         file: "src/certified/refine.rs",
-        text: "            high.next_down()\n",
-        replacement: "            high\n",
+        text: "{ before(high) }",
+        replacement: "{ high }",
         fault: "a time of impact is rounded up",
     },
     Mutant {

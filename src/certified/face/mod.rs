@@ -29,7 +29,7 @@ use super::root::{Bracket, Half};
 use super::separate::{SweptBoxes, U};
 use super::stage::{Finding, Stage};
 use crate::contact::{Case, ContactKind, FacePlace, Flags, Hit, PLACE_ERROR};
-use crate::query::{Point, Radius, VertexFace};
+use crate::query::{EdgeEdge, Point, Radius, VertexFace};
 
 impl Sealed for VertexFace {}
 
@@ -113,6 +113,24 @@ impl Stages for VertexFace {
         }
     }
 
+    /// The same cubic, with the error bound that belongs to the edges.
+    #[inline(always)]
+    fn time_at<E: Ends>(points: &[[E; 3]; 4], _: &Cubic, bracket: &Bracket) -> (f64, bool) {
+        let edges = edges_of(points);
+        let cubic = Cubic::unchecked(&Motion::new(&edges));
+        let (toi, is_certain) = EdgeEdge::time_at(&edges, &cubic, bracket);
+        (toi, is_certain & cubic.is_valid())
+    }
+
+    #[inline(always)]
+    fn crossing_at<E: Ends>(
+        motion: &Motion<E>,
+        cubic: &Cubic,
+        at: &Bracket,
+    ) -> Option<Hit<FacePlace>> {
+        crossing(at, raw_weights(motion, cubic, at).place())
+    }
+
     fn decide_exactly(positions: &Positions) -> Option<Hit<FacePlace>> {
         exact::decide_face(&as_edges(positions))
     }
@@ -174,11 +192,15 @@ impl Stages for VertexFace {
 
 /// The ends of the edges BC and AD.
 fn as_edges(Positions { start, end }: &Positions) -> Positions {
-    let order = |[a, b, c, d]: [_; 4]| [b, c, a, d];
     Positions {
-        start: order(*start),
-        end: order(*end),
+        start: edges_of(start),
+        end: edges_of(end),
     }
+}
+
+#[inline(always)]
+fn edges_of<P: Copy>(&[a, b, c, d]: &[P; 4]) -> [P; 4] {
+    [b, c, a, d]
 }
 
 /// A vertex in the face is in its plane: the first root of the cubic at which it is inside the face
@@ -214,25 +236,33 @@ fn decide_at_root<E: Ends>(
     match place {
         Place::Apart => Finding::Miss,
         Place::Inside { .. } => Finding::of_certain(hit(positions, motion, cubic, &bracket)),
-        Place::Unclear => decide_near_side(&positions(), &bracket),
+        Place::Unclear => decide_near_side(&positions(), motion, cubic, &bracket),
     }
 }
 
 /// Whether the vertex touches the face at the root in a sharpened bracket, to twice the precision.
-fn decide_near_side(positions: &Positions, bracket: &Bracket) -> Finding<Hit<FacePlace>> {
+fn decide_near_side<E: Ends>(
+    positions: &Positions,
+    motion: &Motion<E>,
+    cubic: &Cubic,
+    bracket: &Bracket,
+) -> Finding<Hit<FacePlace>> {
     let edges = as_edges(positions);
-    let motion = Motion::new(&edges.points::<f64x2>());
-    let Some(cubic) = Cubic::new(&motion) else {
+    let edge_motion = Motion::new(&edges.points::<f64x2>());
+    let Some(edge_cubic) = Cubic::new(&edge_motion) else {
         return Finding::Undecided;
     };
-    let Some(root) = Root::new(&edges, &cubic, bracket) else {
+    let Some(root) = Root::new(&edges, &edge_cubic, bracket) else {
         return Finding::Undecided;
     };
-    match of_edges(&root.meeting(&edges, &motion, &cubic)).place() {
+    match of_edges(&root.meeting(&edges, &edge_motion, &edge_cubic)).place() {
         Place::Apart => Finding::Miss,
         place => {
-            let toi = root.round_down();
-            Finding::of_certain(toi.and_then(|toi| crossing(toi, bracket, place)))
+            let at = root.round_down().map(|toi| bracket.from(toi));
+            Finding::of_certain(at.and_then(|at| {
+                let hit = VertexFace::crossing_at(motion, cubic, &at);
+                hit.or_else(|| crossing(&at, place))
+            }))
         }
     }
 }
@@ -248,17 +278,12 @@ fn hit<E: Ends>(
     // The same cubic, with the error bound that belongs to the edges.
     let edge_cubic = Cubic::new(&Motion::new(&edges.points::<f64x2>()))?;
     let toi = Root::new(&edges, &edge_cubic, bracket)?.round_down()?;
-    let at_toi = Bracket {
-        low: toi,
-        high: toi.next_up(),
-        ..*bracket
-    };
-    crossing(toi, bracket, raw_weights(motion, cubic, &at_toi).place())
+    VertexFace::crossing_at(motion, cubic, &bracket.from(toi))
 }
 
-/// The contact at a simple root strictly inside the step, strictly inside the face: `f` changes its
-/// sign.
-fn crossing(toi: f64, bracket: &Bracket, place: Place) -> Option<Hit<FacePlace>> {
+/// The contact at a simple root between two neighbours in `f64`, strictly inside the face: `f`
+/// changes its sign.
+fn crossing(at: &Bracket, place: Place) -> Option<Hit<FacePlace>> {
     let Place::Inside { weights, error } = place else {
         return None;
     };
@@ -266,10 +291,10 @@ fn crossing(toi: f64, bracket: &Bracket, place: Place) -> Option<Hit<FacePlace>>
         return None;
     }
     Some(Hit {
-        toi,
-        toi_above: toi.next_up(),
+        toi: at.low,
+        toi_above: at.high,
         kind: ContactKind::Crossing,
-        side: if bracket.is_rising { -1 } else { 1 },
+        side: if at.is_rising { -1 } else { 1 },
         case: Case::General,
         flags: Flags::default(),
         place: FacePlace { weights, error },

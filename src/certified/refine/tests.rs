@@ -20,7 +20,7 @@ fn refine_evaluate_is_within_its_bound() {
         let t = 0.5 * (sharp.low + sharp.high);
         let value = Exact::new(&positions).f.at(&Number::from(t));
         let found = Claim::within(
-            evaluate(&positions, Double { high: t, low: 0.0 }),
+            evaluate(&positions.points::<f64x2>(), Double { high: t, low: 0.0 }),
             &value,
             Number::zero(),
         )

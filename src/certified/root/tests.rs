@@ -217,11 +217,14 @@ fn halves_are_right(cubic: &Cubic, exact: &Polynomial) -> Option<bool> {
     claims
 }
 
-/// Whether `sharpen` keeps the root of each bracket, with a slope that nowhere in it is less.
+/// Whether `sharpen` keeps the root of each bracket, with a slope that nowhere in it is less, and so
+/// does one step of it.
 fn sharpens(cubic: &Cubic, exact: &Polynomial, brackets: &Brackets) -> Option<bool> {
     let mut claims = None;
-    for bracket in brackets.as_slice() {
-        let Some((sharp, least)) = cubic.sharpen(bracket) else {
+    let once = |bracket| Some(cubic.sharpen_once(bracket)).filter(|(_, least)| *least > 0.0);
+    let each = |bracket| [cubic.sharpen(bracket), once(bracket)].map(|sharp| (bracket, sharp));
+    for (bracket, sharp) in brackets.as_slice().iter().flat_map(each) {
+        let Some((sharp, least)) = sharp else {
             continue;
         };
         let (low, high) = (Number::from(sharp.low), Number::from(sharp.high));
@@ -276,6 +279,36 @@ fn root_halves_are_right() {
     check_all(7, 12_000, |cubic, case| {
         halves_are_right(cubic, &case.exact)
     });
+}
+
+#[test]
+fn root_first_half_is_the_first_that_is_open() {
+    let mut random = Random::new(14);
+    let mut counts = [0; 4];
+    for _ in 0..12_000 {
+        let Some(Case { cubic, t, .. }) = Case::new(&start(&mut random)) else {
+            continue;
+        };
+        // At roots before some time there is no contact.
+        let is_apart = |half: &Half| half.has_none || (half.has_one && half.bracket.high < t);
+        let [lower, upper] = cubic.halves();
+        let of = |half: &Half| (half.has_one, half.bracket.low, half.bracket.high);
+        let (first, place) = match (is_apart(&lower), is_apart(&upper)) {
+            (false, _) => (Some(lower), 0),
+            (true, false) => (Some(upper), 1),
+            (true, true) => (None, 2),
+        };
+        let found = cubic.first_half(is_apart);
+        assert_eq!(found.is_none(), first.is_none());
+        if let (Some(found), Some(first)) = (&found, &first) {
+            assert_eq!(found.has_one, first.has_one);
+            // Without a root that is known the bracket says nothing.
+            assert!(!found.has_one || of(found) == of(first));
+            counts[3] += usize::from(found.has_one);
+        }
+        counts[place] += 1;
+    }
+    assert!(counts.into_iter().all(|count| count > 100), "{counts:?}");
 }
 
 #[test]

@@ -31,6 +31,11 @@ impl Case {
         let edges = as_edges(&positions);
         let edge_motion = Motion::new(&edges.points::<f64x2>());
         let refined = Cubic::new(&edge_motion).and_then(|edge_cubic| {
+            // It takes the bracket of one root; a longer one may hold more.
+            let [low, high] = [root.bracket.low, root.bracket.high].map(Number::from);
+            if exact.f.roots_in_closed(&low, &high) != 1 {
+                return None;
+            }
             let root = Root::new(&edges, &edge_cubic, &root.bracket)?;
             Some(of_edges(&root.meeting(&edges, &edge_motion, &edge_cubic)))
         });
