@@ -114,7 +114,7 @@ impl Open {
         cubic.is_valid().then_some(cubic)
     }
 
-    /// The time of the first root of the query that is open at this place, as
+    /// The time of contact of the query that is open at this place, as
     /// [`crossing::time`] says it, if [it was asked](Self::time_crossings); after
     /// [`screen`](Self::screen).
     pub(super) fn crossing_time(&self, place: usize) -> Option<f64> {
@@ -212,7 +212,7 @@ impl Open {
         self.test([Stage::Roots], Roots::<K>(PhantomData), observe);
     }
 
-    /// The fourth stage, for the times of what may be contact; after [`screen`](Self::screen), if it
+    /// The fourth stage, for the times of contacts; after [`screen`](Self::screen), if it
     /// leaves enough queries.
     pub(super) fn time_crossings<K: Stages>(&mut self) {
         if self.count >= CROSSINGS {
@@ -363,7 +363,7 @@ impl<K: Stages> Test<1, 0> for Roots<K> {
     }
 }
 
-/// Stage 4, for the time of the first root at which there may be contact.
+/// Stage 4, for the time of a contact.
 struct Crossings<K>(PhantomData<K>);
 
 /// How many queries have to be open for it to pay.

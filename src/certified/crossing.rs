@@ -18,8 +18,9 @@ pub(super) fn are_apart<K: Stages, E: Ends>(motion: &Motion<E>, cubic: &Cubic) -
     K::is_apart_in(motion, cubic, &lower) & K::is_apart_in(motion, cubic, &upper)
 }
 
-/// The time, rounded down, of the first root at which there may be contact: with its sign where `f`
-/// rises there, with the other one where it falls; 0 if that is not certain.
+/// The time, rounded down, of the first root at which the two are not certain to be apart, if they
+/// certainly touch at it, strictly inside: with its sign where `f` rises there, with the other one
+/// where it falls; 0 if that is not certain.
 #[inline(always)]
 pub(super) fn time<K: Stages, E: Ends>(
     points: &[[E; 3]; 4],
@@ -37,7 +38,8 @@ pub(super) fn time<K: Stages, E: Ends>(
     let has_one = (is_upper & upper.has_one) | (!is_upper & lower.has_one);
     let (toi, is_certain) = K::time_at(points, cubic, &bracket);
     let signed = if bracket.is_rising { toi } else { -toi };
-    if has_one & cubic.has_certain_ends() & is_certain {
+    let is_first = has_one & cubic.has_certain_ends();
+    if is_first & K::touch_at(motion, cubic, &bracket) & is_certain {
         signed
     } else {
         0.0
@@ -57,7 +59,7 @@ pub(super) fn decide<K: Stages, E: Ends>(
     let Some(half) = cubic.first_half(|half| K::is_apart_in(motion, cubic, half)) else {
         return Finding::Miss;
     };
-    if !half.has_one {
+    if !(half.has_one && K::touch_at(motion, cubic, &half.bracket)) {
         return Finding::Undecided;
     }
     let (toi, is_certain) = K::time_at(points, cubic, &half.bracket);
@@ -65,7 +67,7 @@ pub(super) fn decide<K: Stages, E: Ends>(
     Finding::of_certain(is_certain.then(hit).flatten())
 }
 
-/// The contact at such a time, if the two certainly touch then, strictly inside.
+/// The contact at such a time, if its place is precise enough.
 #[inline(always)]
 pub(super) fn at<K: Stages, E: Ends>(
     time: f64,

@@ -107,6 +107,11 @@ impl Stages for EdgeEdge {
     }
 
     #[inline(always)]
+    fn touch_at<E: Ends>(motion: &Motion<E>, cubic: &Cubic, bracket: &Bracket) -> bool {
+        motion.meeting(cubic, bracket).is_inside()
+    }
+
+    #[inline(always)]
     fn time_at<E: Ends>(points: &[[E; 3]; 4], cubic: &Cubic, bracket: &Bracket) -> (f64, bool) {
         let (sharp, least) = cubic.sharpen_once(bracket);
         let (toi, is_certain) = Root::of(points, cubic, &sharp, least).below();
@@ -249,11 +254,8 @@ fn decide_near_end<E: Ends>(
     match root.meeting(positions, motion, cubic).place() {
         Place::Apart => Finding::Miss,
         place => {
-            let at = root.round_down().map(|toi| bracket.from(toi));
-            Finding::of_certain(at.and_then(|at| {
-                let hit = EdgeEdge::crossing_at(motion, cubic, &at);
-                hit.or_else(|| crossing(&at, place))
-            }))
+            let toi = root.round_down();
+            Finding::of_certain(toi.and_then(|toi| crossing(&bracket.from(toi), place)))
         }
     }
 }

@@ -83,6 +83,9 @@ pub(super) trait Stages: 'static {
         observe: &mut impl FnMut(Stage),
     ) -> Option<Hit<Self::Place>>;
 
+    /// Whether the two certainly touch at the root in a bracket, strictly inside.
+    fn touch_at<E: Ends>(motion: &Motion<E>, cubic: &Cubic, bracket: &Bracket) -> bool;
+
     /// The time of impact at the root in a bracket, if the two touch there, and whether it is
     /// certain, without a branch.
     fn time_at<E: Ends>(points: &[[E; 3]; 4], cubic: &Cubic, bracket: &Bracket) -> (f64, bool);

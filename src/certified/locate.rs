@@ -122,6 +122,17 @@ impl Meeting {
         (self.n > self.error_n) & is_apart
     }
 
+    /// Whether the lines certainly meet strictly inside both edges.
+    #[inline(always)]
+    pub(super) fn is_inside(&self) -> bool {
+        let (error_u1, error_v1) = self.far_errors();
+        (self.n > self.error_n)
+            & (self.u > self.error_u)
+            & (self.v > self.error_v)
+            & (self.before_b > error_u1)
+            & (self.before_d > error_v1)
+    }
+
     /// The parameters, if the lines certainly meet strictly inside both edges.
     pub(super) fn place(&self) -> Place {
         if self.is_apart() {
@@ -129,12 +140,7 @@ impl Meeting {
         }
         let (error_u1, error_v1) = self.far_errors();
         let Meeting { n, u, v, .. } = *self;
-        let is_inside = n > self.error_n
-            && u > self.error_u
-            && v > self.error_v
-            && self.before_b > error_u1
-            && self.before_d > error_v1;
-        if !is_inside {
+        if !self.is_inside() {
             return Place::Unclear;
         }
         // |u~/n~ - u/n| <= (error_u + error_n) / (n~ - error_n) for u in [0, 1], and three roundings.

@@ -113,6 +113,11 @@ impl Stages for VertexFace {
         }
     }
 
+    #[inline(always)]
+    fn touch_at<E: Ends>(motion: &Motion<E>, cubic: &Cubic, bracket: &Bracket) -> bool {
+        raw_weights(motion, cubic, bracket).are_inside()
+    }
+
     /// The same cubic, with the error bound that belongs to the edges.
     #[inline(always)]
     fn time_at<E: Ends>(points: &[[E; 3]; 4], _: &Cubic, bracket: &Bracket) -> (f64, bool) {
@@ -236,33 +241,25 @@ fn decide_at_root<E: Ends>(
     match place {
         Place::Apart => Finding::Miss,
         Place::Inside { .. } => Finding::of_certain(hit(positions, motion, cubic, &bracket)),
-        Place::Unclear => decide_near_side(&positions(), motion, cubic, &bracket),
+        Place::Unclear => decide_near_side(&positions(), &bracket),
     }
 }
 
 /// Whether the vertex touches the face at the root in a sharpened bracket, to twice the precision.
-fn decide_near_side<E: Ends>(
-    positions: &Positions,
-    motion: &Motion<E>,
-    cubic: &Cubic,
-    bracket: &Bracket,
-) -> Finding<Hit<FacePlace>> {
+fn decide_near_side(positions: &Positions, bracket: &Bracket) -> Finding<Hit<FacePlace>> {
     let edges = as_edges(positions);
-    let edge_motion = Motion::new(&edges.points::<f64x2>());
-    let Some(edge_cubic) = Cubic::new(&edge_motion) else {
+    let motion = Motion::new(&edges.points::<f64x2>());
+    let Some(cubic) = Cubic::new(&motion) else {
         return Finding::Undecided;
     };
-    let Some(root) = Root::new(&edges, &edge_cubic, bracket) else {
+    let Some(root) = Root::new(&edges, &cubic, bracket) else {
         return Finding::Undecided;
     };
-    match of_edges(&root.meeting(&edges, &edge_motion, &edge_cubic)).place() {
+    match of_edges(&root.meeting(&edges, &motion, &cubic)).place() {
         Place::Apart => Finding::Miss,
         place => {
-            let at = root.round_down().map(|toi| bracket.from(toi));
-            Finding::of_certain(at.and_then(|at| {
-                let hit = VertexFace::crossing_at(motion, cubic, &at);
-                hit.or_else(|| crossing(&at, place))
-            }))
+            let toi = root.round_down();
+            Finding::of_certain(toi.and_then(|toi| crossing(&bracket.from(toi), place)))
         }
     }
 }

@@ -111,13 +111,19 @@ impl RawWeights {
         (b | c | d) & (minus_b | minus_c | minus_d)
     }
 
+    /// Whether the vertex is certainly strictly inside.
+    #[inline(always)]
+    pub(super) fn are_inside(&self) -> bool {
+        let ([b, c, d], [minus_b, minus_c, minus_d]) = self.signs();
+        (b & c & d) | (minus_b & minus_c & minus_d)
+    }
+
     /// Where the vertex is.
     pub(super) fn place(&self) -> Place {
         if self.are_apart() {
             return Place::Apart;
         }
-        let (above, below) = self.signs();
-        if above != [true; 3] && below != [true; 3] {
+        if !self.are_inside() {
             return Place::Unclear;
         }
         // |x~/s~ - x/s| <= (error of x + error of s) / (|s~| - error of s) for x/s in [0, 1], and
