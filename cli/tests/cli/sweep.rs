@@ -116,7 +116,7 @@ fn sweep_takes_a_corpus_and_refuses_bad_queries_with_their_place() {
     let corpus = path.to_str().unwrap();
     let output = sweep(folder.path(), &["--corpus", corpus]);
     assert!(output.status.success(), "{}", stderr(&output));
-    assert!(stdout(&output).contains("1 queries, 1 crossings"));
+    assert!(stdout(&output).contains("1 query, 1 crossing,"));
     fs::write(&path, line.replace("edge-edge", "vertex-face")).unwrap();
     let output = sweep(folder.path(), &["--corpus", corpus]);
     assert_eq!(output.status.code(), Some(2));
