@@ -79,7 +79,11 @@ def all_claims():
     claim("least normal", "thick/nearness.rs", thick.least_normal, part="rounding")
     claim("least normal, while", "thick/nearness.rs", thick.least_normal, part="width")
     claim("slope of the distance", "thick/refine_toi.rs", thick.slope_of_distance)
-    claim("difference in double-double", "thick/refine_toi.rs", thick.excess_at_time, unit=H, unit_name="h")
+    claim("difference in double-double", "thick/doubled.rs", thick.excess_at_time, unit=H, unit_name="h")
+    claim("slope in double-double", "thick/doubled.rs", thick.doubled_slopes, unit=H, unit_name="h")
+    claim("normal in double-double", "thick/doubled.rs", thick.doubled_normal, unit=H, unit_name="h")
+    for kind in thick.LEAST_CORNERS:
+        claim(f"corner in double-double, {kind}", "thick/sharp_plane.rs", thick.sharp_corner, kind, unit=H, unit_name="h")
     claim("change in a step", "thick/instant.rs", thick.change_in_a_step)
     for kind in thick.LEAST_CORNERS:
         for i in range(3):

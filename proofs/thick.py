@@ -3,7 +3,8 @@
 import re
 from fractions import Fraction
 
-from doubled import Corners, double_sizes
+from doubled import double_sizes
+from doubled import points as corners
 from engine import AXES, HERE, cross, differences, dot, ends, limit, own, sizes_of_ends
 from filters import all_hold, chosen, same_as_one_of
 from places import Located, kept, said_at, sizes_at_time
@@ -227,11 +228,8 @@ def slope_of_distance(engine, claim):
     found = interpreter.run(f"{HERE}motion.rs", "dot", parts["w"], parts["v"])
     # Sums of three sizes, rounded.
     size = [F.size(context, f"s{a}").rounded().rounded() for a in AXES]
-    interpreter.given = {("Moving", "reaches"): [None, size]}
-    interpreter.builtins["if"] = lambda *_: False
-    scope = interpreter.scope_at(
-        f"{HERE}thick/refine_toi.rs", "refine_toi", "slope_error", None, Record("Moving"), None, None
-    )
+    square = interpreter.run(f"{HERE}motion.rs", "dot", size, size)
+    slope_error = interpreter.run(f"{HERE}thick/refine_toi.rs", "slope_error", square)
 
     def sizes(name):
         kind, letter, axis = re.fullmatch(r"(r?)([wv])([xyz])", name).groups()
@@ -239,13 +237,13 @@ def slope_of_distance(engine, claim):
         return polynomial((said * U if kind else (2 if letter == "v" else 1), f"s{axis}"))
 
     exact = dot([own(f"w{a}") for a in AXES], [own(f"v{a}") for a in AXES])
-    claim.needs(found, exact, scope["slope_error"], sizes)
+    claim.needs(found, exact, slope_error, sizes)
 
 
 def excess_at_time(engine, claim):
     """The difference of a place at a time in double-double arithmetic."""
     double_sizes(engine)
-    said = engine.said("thick/refine_toi", r"the sum `24 h s`: below `(\d+) h s`")
+    said = engine.said("thick/doubled", r"the sum `24 h s`: below `(\d+) h s`")
     for file in ("edges", "face/mod"):
         tokens = engine.sources.file(f"{HERE}{file}.rs").constants["DIFFERENCES"]
         numbers = [int(token.text) for token in tokens if token.kind == "number"]
@@ -267,15 +265,112 @@ def excess_at_time(engine, claim):
             "two_difference": difference,
             "two_sum": lambda a, b: Double(a),
         })
-        scope = interpreter.scope_at(
-            f"{HERE}thick/refine_toi.rs", "excess", "xy", Corners(context), None, t, Record("Spot", u=u, v=v), None
-        )
+        xy, zz = interpreter.run(f"{HERE}thick/doubled.rs", "difference_at", corners(context), t, Record("Spot", u=u, v=v))
         sizes = lambda name: {(): Fraction(1)} if name[0] == "f" else sizes_of_ends(name)
-        xy, zz = scope["xy"], scope["zz"]
         for axis, lane in (("x", xy.exact.ends[0]), ("y", xy.exact.ends[1]), ("z", zz.exact.ends[0])):
             at = lambda name: polynomial((1, f"{name}0{axis}"), (1, f"{name}1{axis}", "ft"), (-1, f"{name}0{axis}", "ft"))
             exact = total(at("m"), product(own("fv"), at("l")), scaled(-1, product(own("fu"), at("k"))))
             bound = limit(context, said * H, [f"{name}{axis}" for name in "KLM"])
+            claim.needs(lane, exact, bound, sizes)
+
+
+def with_error(context, name):
+    """An exact number and what it is off by, `r`."""
+    return F(context, {((f"{kind}{name}",), ()): Fraction(1) for kind in ("", "r")})
+
+
+def doubled_edges(engine, context):
+    """`K` and `L` at a time in double-double arithmetic, `D` the difference at a place; and their sizes."""
+    double_sizes(engine)
+    errors = {
+        "k": engine.said("refine", r"the sum within `24 h k` more \(bounds at the operations\): `([\d.]+) h k`"),
+        "d": engine.said("thick/doubled", r"the sum `24 h s`: below `(\d+) h s`"),
+    }
+    errors["l"] = errors["k"]
+    edges = [Double(Pair(with_error(context, f"k{a}"), with_error(context, f"l{a}"))) for a in AXES]
+
+    def sizes(name):
+        kind, letter, axis = re.fullmatch(r"(r?)([kld])([xyz])", name).groups()
+        return polynomial((errors[letter] * H if kind else 1, f"{letter.upper()}{axis}"))
+
+    return edges, sizes
+
+
+def sum_of_products(context, factor, *names):
+    """So many times the sum over the axes of some products of sizes."""
+    return total_of([F.size(context, *(f"{name}{a}" for name, a in zip(pair, axes)), factor=factor) for pair, axes in names])
+
+
+def total_of(sizes):
+    found = sizes[0]
+    for size in sizes[1:]:
+        found = found.plus(size)
+    return found
+
+
+def doubled_slopes(engine, claim):
+    """The products of the difference at a place with `K` and `L`."""
+    context = Context()
+    edges, sizes = doubled_edges(engine, context)
+    interpreter = engine.interpreter(context)
+    x, y, z = (with_error(context, f"d{a}") for a in AXES)
+    interpreter.builtins["difference_at"] = lambda *_: [Double(Pair(x, y)), Double(Pair(z, z))]
+    found = interpreter.run(f"{HERE}thick/doubled.rs", "slopes_at", None, edges, None, Record("Instant", spot=None))
+    error = engine.constant("thick/doubled", "SLOPE_ERROR")
+    for name, slope in zip("kl", found):
+        exact = dot([own(f"{name}{a}") for a in AXES], [own(f"d{a}") for a in AXES])
+        bound = sum_of_products(context, error, *(((name.upper(), "D"), (a, a)) for a in AXES))
+        claim.needs(slope, exact, bound, sizes)
+
+
+def doubled_normal(engine, claim):
+    """`K x L` at a time in double-double arithmetic."""
+    context = Context()
+    edges, sizes = doubled_edges(engine, context)
+    found = engine.interpreter(context).run(f"{HERE}thick/doubled.rs", "normal_of", edges)
+    error = engine.constant("thick/doubled", "MINOR_ERROR")
+    exact = cross([own(f"k{a}") for a in AXES], [own(f"l{a}") for a in AXES])
+    for i, component in enumerate(found):
+        first, second = AXES[(i + 1) % 3], AXES[(i + 2) % 3]
+        bound = sum_of_products(context, error, (("K", "L"), (first, second)), (("K", "L"), (second, first)))
+        claim.needs(component, exact[i], bound, sizes)
+
+
+def sharp_corner(engine, claim, kind):
+    """A corner's product with a normal, both in double-double arithmetic, at both ends of the step."""
+    double_sizes(engine)
+    _, file, _, _ = LEAST_CORNERS[kind]
+    said = engine.said("thick/sharp_plane", r"its product is within `(\d+) h S`")
+    tokens = engine.sources.file(f"{HERE}{file}.rs").constants["DIFFERENCES"]
+    numbers = [int(token.text) for token in tokens if token.kind == "number"]
+    pairs = dict(zip(zip(numbers[::2], numbers[1::2]), "klm"))
+    for u, v in engine.interpreter(Context()).constant(f"{HERE}{file}.rs", "CORNERS"):
+        context = Context()
+        interpreter = engine.interpreter(context)
+
+        def difference(to, start):
+            lanes = []
+            for x, y in zip(start.ends, to.ends):
+                (p, _), (q, _) = x.leaf(), y.leaf()
+                lanes.append(F.exactly(context, f"{pairs['abcd'.index(p[0]), 'abcd'.index(q[0])]}{p[1:]}"))
+            return Double(Pair(*lanes))
+
+
+        def is_above(condition, go, _):
+            kind, operator, x, y = condition
+            if (kind, operator) != ("binary", ">"):
+                raise Refused(f"a condition of another kind: {condition}")
+            return go(x) > go(y)
+
+        interpreter.builtins.update({"K::DIFFERENCES": [list(pair) for pair in pairs], "two_difference": difference, "if": is_above})
+        normal = [Double(Pair(F.exactly(context, f"n{a}"), F.exactly(context, f"n{a}"))) for a in AXES]
+        products = interpreter.run(f"{HERE}thick/sharp_plane.rs", "products", corners(context), normal)
+        found = interpreter.run(f"{HERE}thick/sharp_plane.rs", "corner", products, u, v)
+        sizes = lambda name: own(f"N{name[1]}") if name[0] == "n" else sizes_of_ends(name)
+        for end, lane in enumerate(found.exact.ends):
+            at = {name: dot(ends(name, end), [own(f"n{a}") for a in AXES]) for name in "klm"}
+            exact = total(at["m"], scaled(v, at["l"]), scaled(-u, at["k"]))
+            bound = sum_of_products(context, said * H, *(((name, "N"), (a, a)) for name in "KLM" for a in AXES))
             claim.needs(lane, exact, bound, sizes)
 
 

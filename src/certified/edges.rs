@@ -153,6 +153,10 @@ impl Stages for EdgeEdge {
         nearest::nearest_on_edges(gram)
     }
 
+    fn nearest_on_sides(gram: &Gram) -> impl IntoIterator<Item = Spot> {
+        nearest::nearest_to_ends(gram)
+    }
+
     fn place(u: f64, v: f64, error: f64) -> EdgePlace {
         EdgePlace {
             first: EdgePoint { u, v },

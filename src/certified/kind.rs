@@ -120,6 +120,11 @@ pub(super) trait Stages: 'static {
     /// About where the difference is nearest to 0.
     fn nearest(gram: &Gram) -> Spot;
 
+    /// The nearest places on the boundary, a side each, as far as a kind asks for them.
+    fn nearest_on_sides(_gram: &Gram) -> impl IntoIterator<Item = Spot> {
+        []
+    }
+
     /// The place of `(u, v)` up to an error.
     fn place(u: f64, v: f64, error: f64) -> Self::Place;
 

@@ -9,6 +9,7 @@ use super::ends::{larger, smaller};
 use super::motion::{Vector, dot};
 
 /// Scalar products of `K`, `L` and `M` at one time.
+#[derive(Clone, Copy)]
 pub(super) struct Gram {
     pub(super) kk: f64,
     pub(super) ll: f64,
@@ -73,14 +74,29 @@ pub(super) fn nearest_on_edges(gram: &Gram) -> Spot {
     let u = clamped(gram.centre().0 / gram.determinant());
     let v = clamped((u * gram.kl - gram.ml) * of_l);
     let u = clamped((gram.mk + v * gram.kl) * of_k);
-    // The sign of the direction that leads inside, and whether the other one does too.
-    let inward = |x: f64| (if x == 1.0 { -1.0 } else { 1.0 }, x > 0.0 && x < 1.0);
-    let ((along_u, u_is_free), (along_v, v_is_free)) = (inward(u), inward(v));
-    let directions = [
-        Direction::new(along_u, 0.0, u_is_free),
-        Direction::new(0.0, along_v, v_is_free),
-    ];
-    Spot { u, v, directions }
+    Spot::on_edges(u, v)
+}
+
+/// The nearest places for `u` of 0 and 1, and for `v` of 0 and 1.
+pub(super) fn nearest_to_ends(gram: &Gram) -> [Spot; 4] {
+    let of_end = |u: f64| Spot::on_edges(u, clamped((u * gram.kl - gram.ml) / gram.ll));
+    let on_end = |v: f64| Spot::on_edges(clamped((gram.mk + v * gram.kl) / gram.kk), v);
+    [of_end(0.0), of_end(1.0), on_end(0.0), on_end(1.0)]
+}
+
+impl Spot {
+    /// A place in the unit square.
+    #[inline(always)]
+    fn on_edges(u: f64, v: f64) -> Self {
+        // The sign of the direction that leads inside, and whether the other one does too.
+        let inward = |x: f64| (if x == 1.0 { -1.0 } else { 1.0 }, x > 0.0 && x < 1.0);
+        let ((along_u, u_is_free), (along_v, v_is_free)) = (inward(u), inward(v));
+        let directions = [
+            Direction::new(along_u, 0.0, u_is_free),
+            Direction::new(0.0, along_v, v_is_free),
+        ];
+        Spot { u, v, directions }
+    }
 }
 
 /// The foot in the plane, or the nearest of the nearest points of the sides. Without a branch.

@@ -29,7 +29,7 @@ pub(super) struct Root {
 /// differences at the ends are exact, their difference is within `16 h k`, the product with the
 /// time within `8 h 2 k` more, the sum within `24 h k` more (bounds at the operations): `56.1 h k`.
 #[inline(always)]
-fn difference<E: Ends>(from: [E; 2], to: [E; 2], time: Double<f64>) -> Double<E> {
+pub(super) fn difference<E: Ends>(from: [E; 2], to: [E; 2], time: Double<f64>) -> Double<E> {
     let ([from_start, from_end], [to_start, to_end]) =
         (from[0].transposed(from[1]), to[0].transposed(to[1]));
     let (first, last) = (

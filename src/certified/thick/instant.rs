@@ -37,6 +37,17 @@ impl Instant {
         }
     }
 
+    /// The same time with another place.
+    pub(super) fn at_spot(&self, spot: Spot) -> Self {
+        Instant {
+            at: self.at,
+            change: self.change,
+            gram: self.gram,
+            difference: difference(&self.at, spot.u, spot.v),
+            spot,
+        }
+    }
+
     /// How the difference changes along both directions of the spot.
     #[inline(always)]
     pub(super) fn along(&self) -> [Vector; 2] {

@@ -11,6 +11,9 @@
 //!    the start are a contact there. The rest of the answer is bounded in `f64` too (`contact`).
 //!    Where edges are parallel, or one is a point, words say where they are nearest; where a time of
 //!    impact may be an `f64` itself, the distance there is compared in integers (`exact::thick`).
+//!    Double-double arithmetic says at which end edges are nearest that are parallel but for
+//!    rounding (`nearly_parallel`), whether the two are within the radius at the start, and, by a
+//!    plane between their nearest points, that they stay apart (`sharp_plane`).
 //! 4. Integers decide what is left (`exact::thick`): edges that may be parallel where they touch,
 //!    grazes.
 //!
@@ -19,9 +22,12 @@
 
 mod advance;
 mod contact;
+mod doubled;
 mod instant;
+mod nearly_parallel;
 mod nearness;
 mod refine_toi;
+mod sharp_plane;
 #[cfg(test)]
 mod testing;
 mod turning;
@@ -31,6 +37,7 @@ use wide::f64x2;
 use super::ends::Ends;
 use super::kind::Stages;
 use super::motion::{Positions, dot};
+use super::nearest::Spot;
 use super::separate::U;
 use super::stage::{Finding, Stage};
 use crate::contact::Hit;
@@ -39,6 +46,7 @@ pub(super) use advance::Reached;
 pub(super) use advance::rounded_up;
 use advance::{Advance, Moving, Plane};
 use contact::contact;
+use doubled::excess;
 use instant::Instant;
 use refine_toi::{RefinedToi, refine_toi};
 
@@ -215,12 +223,18 @@ fn decide_by_planes<K: Stages>(
         Advance::Apart => return Finding::Miss,
         _ if !moving.is_ordinary() => return Finding::Undecided,
         Advance::Near => {
-            let Some(start) = moving.start_within::<K>(radius) else {
-                return Finding::Undecided;
-            };
-            match moving.near_start::<K>(&start) {
-                Some(near) => Finding::Hit(near),
-                None => return Finding::of_certain(K::contact_of_parallel(&positions(), [0.0; 2])),
+            let (positions, start) = (positions(), Instant::new::<K, _>(moving, 0.0));
+            if !moving.is_within(&start, radius)
+                && !moving.is_within_sharply::<K>(&positions, radius, &start)
+            {
+                // Apart at the start, if they are, by less than `f64` can tell.
+                refine_toi::<K>(&positions, moving, radius, 0.0)
+            } else if let Some(near) = moving.near_start::<K>(&start) {
+                Finding::Hit(near)
+            } else if let Some(hit) = K::contact_of_parallel(&positions, [0.0; 2]) {
+                return Finding::Hit(hit);
+            } else {
+                Finding::of_certain(moving.near_start_at_boundary::<K>(&positions, &start))
             }
         }
         Advance::Until(proved) => refine_toi::<K>(&positions(), moving, radius, proved),
@@ -240,17 +254,42 @@ impl Moving<f64x2> {
         self.radius > SMALLEST && self.radius < LARGEST && self.boxes.size() < LARGEST
     }
 
-    /// The start, if two points are certainly within the radius of each other there.
-    #[inline(never)]
-    fn start_within<K: Stages>(&self, radius: Radius) -> Option<Instant> {
-        let start = Instant::new::<K, _>(self, 0.0);
-        self.is_within(&start, radius).then_some(start)
-    }
-
     /// The contact at the start, at which two points are within the radius of each other.
     fn near_start<K: Stages>(&self, start: &Instant) -> Option<RefinedToi> {
         let nearness = self.nearness::<K>(start, 0.0)?;
         RefinedToi::new([0.0; 2], start.spot, &nearness)
+    }
+
+    /// The same as [`is_within`](Self::is_within) to twice the precision, at the place or at one on
+    /// the boundary.
+    #[inline(never)]
+    fn is_within_sharply<K: Stages>(
+        &self,
+        positions: &Positions,
+        radius: Radius,
+        start: &Instant,
+    ) -> bool {
+        let (_, size) = self.reaches();
+        let is_within = |spot: Spot| {
+            let (x, error) = excess::<K>(positions, radius, 0.0, &spot, &size);
+            x * (1.0 - 2.0 * U) < -error
+        };
+        is_within(start.spot) || K::nearest_on_sides(&start.gram).into_iter().any(is_within)
+    }
+
+    /// The same of edges that are nearly parallel.
+    #[inline(never)]
+    fn near_start_at_boundary<K: Stages>(
+        &self,
+        positions: &Positions,
+        start: &Instant,
+    ) -> Option<RefinedToi> {
+        let mut spots = K::nearest_on_sides(&start.gram).into_iter();
+        spots.find_map(|spot| {
+            let start = start.at_spot(spot);
+            let nearness = self.nearness_at_boundary::<K>(positions, &start, 0.0, 0.0)?;
+            RefinedToi::new([0.0; 2], spot, &nearness)
+        })
     }
 
     /// Whether the points of a place at the start are certainly within the radius of each other.

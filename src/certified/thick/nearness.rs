@@ -242,10 +242,10 @@ fn inside(first: Slope, second: Slope, normal: f64) -> Option<(f64, f64)> {
 }
 
 /// 2^-450: what is longer has a square that loses nothing to underflow.
-const SHORTEST: f64 = f64::from_bits((1023 - 450) << 52);
+pub(super) const SHORTEST: f64 = f64::from_bits((1023 - 450) << 52);
 
 /// 2^-850: far above what underflow adds to a product of two vectors below 2^182 each.
-const TINY: f64 = f64::from_bits((1023 - 850) << 52);
+pub(super) const TINY: f64 = f64::from_bits((1023 - 850) << 52);
 
 #[cfg(test)]
 mod tests;

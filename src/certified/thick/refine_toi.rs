@@ -10,12 +10,12 @@ use std::cmp::Ordering;
 use wide::f64x2;
 
 use super::advance::Moving;
+use super::doubled::excess;
 use super::instant::Instant;
 use super::nearness::Nearness;
-use crate::certified::double::{Double, two_difference, two_sum};
-use crate::certified::ends::Ends;
+use crate::certified::double::two_sum;
 use crate::certified::kind::Stages;
-use crate::certified::motion::{Positions, Vector, dot};
+use crate::certified::motion::{Positions, dot};
 use crate::certified::nearest::Spot;
 use crate::certified::refine::Root;
 use crate::certified::separate::U;
@@ -60,9 +60,6 @@ const SHORT: f64 = 1.0 / (1u64 << 36) as f64;
 /// 2^-28: a slope that the place cannot hide.
 const STEEP: f64 = 1.0 / (1u64 << 28) as f64;
 
-/// `2^-106`.
-const H: f64 = U * U;
-
 /// The contact, if any, given that they are apart up to a time shortly before it.
 ///
 /// # Proof
@@ -95,13 +92,108 @@ pub(super) fn refine_toi<K: Stages>(
     radius: Radius,
     proved: f64,
 ) -> Finding<RefinedToi> {
-    let (_, size) = moving.reaches();
-    let size2 = dot(&size, &size);
-    let slope_error = 64.0 * U * size2;
     let mut t = proved;
     // Ends: after so many corrections.
     for _ in 0..MOST_STEPS {
+        let query = Query {
+            positions,
+            moving,
+            radius,
+            t,
+        };
         let here = Instant::new::<K, _>(moving, t);
+        let mut next = query.correct::<K>(&here, |while_| query.nearness::<K>(&here, while_));
+        if let Correction::Uncertain = next {
+            next = query.correct_at_boundary::<K>(&here);
+        }
+        match next {
+            Correction::Decided(finding) => return finding,
+            Correction::ApartUntil(next) => t = next,
+            Correction::Uncertain => return Finding::Undecided,
+        }
+    }
+    Finding::Undecided
+}
+
+/// The error of `w . w'`, from the square of the sum of the sizes.
+fn slope_error(size2: f64) -> f64 {
+    64.0 * U * size2
+}
+
+/// A query that is apart up to a time.
+struct Query<'a> {
+    positions: &'a Positions,
+    moving: &'a Moving<f64x2>,
+    radius: Radius,
+    t: f64,
+}
+
+/// What is known after one more correction of the time.
+enum Correction {
+    Decided(Finding<RefinedToi>),
+    /// They are apart up to this later time.
+    ApartUntil(f64),
+    Uncertain,
+}
+
+impl Query<'_> {
+    /// What is certain about the nearest place from the time on.
+    #[inline(always)]
+    fn nearness<K: Stages>(&self, here: &Instant, while_: f64) -> Option<Nearness> {
+        self.moving.nearness::<K>(here, while_).or_else(|| {
+            let nearness = self.moving.nearness_of_parallel::<K>(here, while_)?;
+            K::are_always_parallel(self.positions).then_some(nearness)
+        })
+    }
+
+    /// A correction where `f64` cannot tell: of edges that are nearly parallel, or that do not come
+    /// nearer.
+    #[inline(never)]
+    fn correct_at_boundary<K: Stages>(&self, here: &Instant) -> Correction {
+        let &Query {
+            positions,
+            moving,
+            radius,
+            t,
+        } = self;
+        let stays_apart =
+            |here: &Instant| moving.stays_apart_sharply::<K>(positions, radius, here, t);
+        if stays_apart(here) {
+            return Correction::Decided(Finding::Miss);
+        }
+        for spot in K::nearest_on_sides(&here.gram) {
+            let here = here.at_spot(spot);
+            let next = self.correct::<K>(&here, |while_| {
+                moving.nearness_at_boundary::<K>(positions, &here, t, while_)
+            });
+            match next {
+                Correction::Uncertain if stays_apart(&here) => {
+                    return Correction::Decided(Finding::Miss);
+                }
+                Correction::Uncertain => {}
+                next => return next,
+            }
+        }
+        Correction::Uncertain
+    }
+
+    /// One correction of the time, from the distance at a place and how near it is to the nearest
+    /// one; the proof is that of [`refine_toi`].
+    #[inline(always)]
+    fn correct<K: Stages>(
+        &self,
+        here: &Instant,
+        nearness: impl FnOnce(f64) -> Option<Nearness>,
+    ) -> Correction {
+        let &Query {
+            positions,
+            moving,
+            radius,
+            t,
+        } = self;
+        let (_, size) = moving.reaches();
+        let size2 = dot(&size, &size);
+        let slope_error = slope_error(size2);
         let velocity = here.velocity();
         let (x, x_error) = excess::<K>(positions, radius, t, &here.spot, &size);
         let slope = -dot(&here.difference, &velocity);
@@ -114,100 +206,42 @@ pub(super) fn refine_toi<K: Stages>(
         // The root is ahead, so that `least` is below the slope. Where rounding outweighs the slope
         // it may have any sign.
         if !(x > 0.0 && slope > 0.0 && least > 0.0 && bend < 0.0625) {
-            return Finding::Undecided;
+            return Correction::Uncertain;
         }
-        let nearness = moving.nearness::<K>(&here, while_);
-        let nearness = nearness.or_else(|| {
-            let nearness = moving.nearness_of_parallel::<K>(&here, while_)?;
-            K::are_always_parallel(positions).then_some(nearness)
-        });
-        let Some(nearness) = nearness else {
-            return Finding::Undecided;
+        let Some(nearness) = nearness(while_) else {
+            return Correction::Uncertain;
         };
         let error = (nearness.excess + x_error) / (2.0 * least) * (1.0 + 8.0 * U)
             + delta * (4.0 * (slope_error / least) + 3.0 * bend * bend + 16.0 * U);
         if !(error < delta + 8.0 * U) {
-            return Finding::Undecided;
+            return Correction::Uncertain;
         }
         let root = Root::near(two_sum(t, delta), error);
         let refined = |toi| RefinedToi::new(toi, here.spot, &nearness);
         if let Some(below) = root.round_down() {
             if let Some(refined) = refined([below, below.next_up()]) {
-                return Finding::Hit(refined);
+                return Correction::Decided(Finding::Hit(refined));
             }
         } else if least > STEEP * size2
             && while_ < SHORT
             && nearness.error <= PLACE_ERROR / 4.0
             && let Some(at) = root.near_f64()
         {
-            return match K::compare_distance(positions, radius, at) {
+            return Correction::Decided(match K::compare_distance(positions, radius, at) {
                 Ordering::Less => Finding::of_certain(refined([at.next_down(), at])),
                 Ordering::Equal => Finding::of_certain(refined([at; 2])),
                 Ordering::Greater if at == 1.0 => Finding::Miss,
                 Ordering::Greater => Finding::of_certain(refined([at, at.next_up()])),
-            };
+            });
         }
         // They are apart until then.
         let next = (t + (delta - error)) * (1.0 - 2.0 * U);
         if next >= 1.0 {
-            return Finding::Miss;
+            Correction::Decided(Finding::Miss)
+        } else if next > t {
+            Correction::ApartUntil(next)
+        } else {
+            Correction::Uncertain
         }
-        if !(next > t) {
-            return Finding::Undecided;
-        }
-        t = next;
     }
-    Finding::Undecided
 }
-
-/// The squared distance less `R^2` of the points of a place at a time, in double-double arithmetic,
-/// and a bound on its error but for the rounding to `f64`.
-///
-/// Error bound, with `h = 2^-106` and `s` the sum of the larger magnitudes at both ends: the
-/// differences are exact, their products with `u` and `v` add `16 h s`, two sums `16 h s`: below
-/// `32 h s` at each end of the step. The change is within `(64 + 24) h s`, the product with the
-/// time adds `16 h s`, the sum `24 h s`: below `160 h s`. So `w^2` is off by `320 h |w| s` and the
-/// square of that error; products, sums and the radius add `64 h` of both sides. What underflows is
-/// far below that of the radius.
-fn excess<K: Stages>(
-    positions: &Positions,
-    radius: Radius,
-    t: f64,
-    spot: &Spot,
-    size: &Vector,
-) -> (f64, f64) {
-    let points = positions.points::<f64x2>();
-    let number = |x: f64| Double {
-        high: f64x2::both(x),
-        low: f64x2::both(0.0),
-    };
-    let (u, v, time) = (number(spot.u), number(spot.v), number(t));
-    // At both ends of the step.
-    let axis = |i: usize| {
-        let difference =
-            |(from, to): (usize, usize)| two_difference(points[to][i], points[from][i]);
-        let [k, l, m] = K::DIFFERENCES;
-        let (k, l, m) = (difference(k), difference(l), difference(m));
-        m.add(v.mul(l)).sub(u.mul(k))
-    };
-    let (x, y, z) = (axis(0), axis(1), axis(2));
-    let at_time = |[start, end]: [Double<f64x2>; 2]| start.add(end.sub(start).mul(time));
-    let (xy, zz) = (at_time(x.transposed(y)), at_time(z.transposed(z)));
-    let [first, second] = radius.parts();
-    let [zr, _] = zz.transposed(Double::both(two_sum(first, second)));
-    let ([x2, y2], [z2, r2]) = (xy.mul(xy).lanes(), zr.mul(zr).lanes());
-    let value = x2.add(y2).add(z2).sub(r2).value();
-    let difference = [
-        xy.high.start().abs(),
-        xy.high.end().abs(),
-        zz.high.start().abs(),
-    ];
-    let total = 160.0 * H * (size[0] + size[1] + size[2]);
-    let error = 330.0 * H * dot(&difference, size)
-        + total * total
-        + 64.0 * H * (x2.high + y2.high + z2.high + r2.high);
-    (value, error)
-}
-
-#[cfg(test)]
-mod tests;
