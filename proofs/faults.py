@@ -118,6 +118,8 @@ FAULTS = [
     ("thick/advance", "{ least } else { f64::INFINITY }", "{ least } else { 0.0 }", "margin with a radius, edges"),
     ("thick/advance", "(square > SMALLEST) &", "(square < SMALLEST) &", "margin with a radius, edges"),
     ("thick/contact", "if value > error", "if value < error", "side of a contact"),
+    ("thick/touch", "is_touch & is_near & is_placed", "is_touch & is_placed", KEPT),
+    ("thick/touch", "is_in_space & (are_apart | cross)", "is_in_space", KEPT),
     # Names.
     ("separate", "const TINY: f64 = 1e-300;", "const TINY: f64 = 0.0;\nfn f() { const TINY: f64 = 1e-300; }", "margin of edges, underflow"),
     ("separate", "const TINY: f64 = 1e-300;", "const TINY: f64 = 1e-300;\nconst TINY: f64 = 0.0;", "margin of edges, underflow"),
@@ -143,7 +145,7 @@ FAULTS = [
     ("locate", "(self.n > self.error_n) & is_apart", "is_apart", KEPT),
     ("cubic", "(size < LARGEST) & (self.permanent > SMALLEST)", "(size < LARGEST)", KEPT),
     ("thick/turning", "let discriminant = square - product + 16.0 * U * size;", "let discriminant = square - product;", KEPT),
-    ("thick/nearness", "(first.most > SHORTEST && second.most > SHORTEST).then_some((fall, error))", "Some((fall, error))", KEPT),
+    ("thick/nearness", "(first.most > SHORTEST) & (second.most > SHORTEST)", "first.most > SHORTEST", KEPT),
     ("normal/bounded", "let relative = self.error / largest / length;", "let relative = self.error / length;", KEPT),
     ("normal/bounded", "error: (a + b + c) * (1.0 + 16.0 * E)", "error: (a + b) * (1.0 + 16.0 * E)", KEPT),
     ("rigid/normal", "Rough::new(hit.toi, hit.toi_above - hit.toi)", "Rough::new(hit.toi, 0.0)", KEPT),
@@ -218,8 +220,8 @@ FAULTS = [
     ("separate", "at_start & at_end & (bound < LARGEST)", "at_start & at_end & (d[0] < LARGEST)", "margin of a face"),
     ("thick/advance", "(square > SMALLEST) & (square", "(square > SMALLEST) | (square", "margin with a radius, edges"),
     ("thick/advance", "(start > 0.0) & (end > 0.0)", "(start > 0.0) | (end > 0.0)", "margin with a radius, face"),
-    ("thick/contact", "(value < -error).then_some(-1)", "(value < error).then_some(-1)", "side of a contact"),
-    ("thick/contact", "Some(1)", "Some(-1)", "side of a contact"),
+    ("thick/contact", "value < -error", "value < error", "side of a contact"),
+    ("thick/contact", "above - below", "below - above", "side of a contact"),
     # What a text or a comment hides, or seems to.
     ("separate", "const TINY: f64 = 1e-300;", "const S: &str = \"//\"; const TINY: f64 = 1e-323;", "margin of edges, underflow"),
     ("separate", "const TINY: f64 = 1e-300;", "const S: &str = r#\"\"//\"#; const TINY: f64 = 1e-323;", "margin of edges, underflow"),

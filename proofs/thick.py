@@ -138,26 +138,25 @@ def nearness_sizes(engine, direction):
 DIRECTIONS = {"of u": (1, 0, ["K"]), "of v": (0, 1, ["L"]), "of both": (1, -1, ["K", "L"])}
 
 
-def slope_scope(engine, context, direction, kinds):
-    """What `slopes` computes of both directions, which are taken as the same here."""
+def slope_along(engine, context, direction, kinds):
+    """What is computed of a direction."""
     u, v, _ = DIRECTIONS[direction]
     interpreter = engine.interpreter(context)
     interpreter.builtins.update({"K::FIRST": 2, "if": lambda *_: False})
     vectors = located_vector(context, "d", kinds)
-    directions = [Record("Direction", u=float(u), v=float(v), is_free=False)] * 2
-    here = Record("Instant", spot=Record("Spot", directions=directions), difference=located_vector(context, "m", kinds))
+    of = Record("Direction", u=float(u), v=float(v), is_free=False)
+    here = Record("Instant", difference=located_vector(context, "m", kinds))
     vector = lambda name: [F.size(context, f"{name}{axis}").rounded() for axis in AXES]
     edges, add = [vector("K"), vector("L")], lambda x, y: [p + q for p, q in zip(x, y)]
     size = add(add(*edges), vector("M"))
-    interpreter.given = {("Instant", "along"): [vectors, vectors], ("Moving", "reaches"): [edges, size]}
-    this, width = Record("Moving"), F.size(context, "W")
-    return interpreter.scope_at(f"{HERE}thick/nearness.rs", "slopes", "first", this, here, width, of="Moving")
+    most = interpreter.run(f"{HERE}thick/nearness.rs", "reach", *edges, of="Direction", this=of)
+    return interpreter.run(f"{HERE}thick/nearness.rs", "new", vectors, most, here, size, F.size(context, "W"), of="Slope")
 
 
 def slope_of(engine, claim, direction, part):
     """The product of a direction and the difference, against its error."""
     context = Context()
-    slope = slope_scope(engine, context, direction, ("", "w", "r"))["first"]
+    slope = slope_along(engine, context, direction, ("", "w", "r"))
     exact = dot([own(f"d{axis}") for axis in AXES], [own(f"m{axis}") for axis in AXES])
     bound = slope.fields["error"]
     relative = F(context, {key: c for key, c in bound.terms.items() if key[0]})

@@ -17,7 +17,8 @@ use super::kind::Stages;
 use super::motion::{Motion, Positions, reach};
 use super::stage::Stage;
 use super::step::{Precision, room, widened};
-use super::thick::{self, Reached, rounded_up};
+use super::thick::{self, Reached, Touch, rounded_up};
+use crate::contact::Hit;
 use crate::query::Radius;
 
 /// How many queries lie side by side: a few registers, whatever the processor.
@@ -102,6 +103,13 @@ impl Open {
         }
     }
 
+    /// One of the numbers found.
+    #[inline(always)]
+    fn row(&self, place: usize, row: usize) -> f64 {
+        self.tiles[place / LANES].found[row][place % LANES]
+    }
+
+    #[inline(always)]
     fn found(&self, place: usize) -> [f64; FOUND] {
         let (tile, lane) = (&self.tiles[place / LANES], place % LANES);
         tile.found.map(|row| row[lane])
@@ -220,14 +228,47 @@ impl Open {
         }
     }
 
+    /// The contacts that planes lead to, after [`screen_thick`](Self::screen_thick); whether they
+    /// are asked for: that takes enough queries.
+    pub(super) fn find_touches<K: Stages>(&mut self, source: &impl Source) -> bool {
+        let may_touch = |&place: &usize| has_ended(self.row(place, 3)) || self.row(place, 1) == 0.0;
+        let touching = (0..self.count).filter(may_touch).count();
+        let is_asked = touching >= CROSSINGS && 2 * touching >= self.count;
+        if is_asked {
+            for place in 0..self.count {
+                let radii = source.radius(self.queries[place]).parts();
+                let (tile, lane) = (&mut self.tiles[place / LANES], place % LANES);
+                [tile.found[4][lane], tile.found[5][lane]] = radii;
+            }
+            self.test([], Touches::<K>(PhantomData), &mut |_| {});
+            self.test([], Passages::<K>(PhantomData), &mut |_| {});
+        }
+        is_asked
+    }
+
+    /// The contact of the query that is open at this place, if it is certain, and else how far planes
+    /// reach; after [`find_touches`](Self::find_touches) has asked.
+    pub(super) fn touch<K: Stages>(&self, place: usize) -> Result<Hit<K::Place>, Reached> {
+        let found @ [toi, t, u, v, error, passage] = self.found(place);
+        if toi == NONE {
+            return Err(reached_of(&found));
+        }
+        let touch = Touch { toi, u, v, error };
+        touch.hit::<K>(passage).ok_or(Reached::ByPlanes {
+            t,
+            planes: 0,
+            is_last: true,
+        })
+    }
+
     /// Planes that separate for the whole step or the next part of it.
     pub(super) fn screen_thick<K: Stages>(&mut self, observe: &mut impl FnMut(Stage)) {
         self.test([Stage::Planes], Fixed::<K>(PhantomData), observe);
         for _ in 0..PLANES {
             let asked = self.count;
             self.test([Stage::Planes], Planes::<K>(PhantomData), observe);
-            let advancing = (0..self.count).filter(|&place| !has_ended(self.found(place)[3]));
-            if 2 * advancing.count() <= asked {
+            let advancing = (0..self.count).filter(|&place| !has_ended(self.row(place, 3)));
+            if STRAGGLERS * advancing.count() <= asked {
                 break;
             }
         }
@@ -401,7 +442,10 @@ impl<K: Stages> Test<1, 0> for Fixed<K> {
 struct Planes<K>(PhantomData<K>);
 
 /// How many planes that turn are tried here.
-const PLANES: u32 = 5;
+const PLANES: u32 = 8;
+
+/// One of so many is not worth another plane for all.
+const STRAGGLERS: usize = 6;
 
 impl<K: Stages> Test<1, 4> for Planes<K> {
     const HELD: usize = 4;
@@ -415,6 +459,42 @@ impl<K: Stages> Test<1, 4> for Planes<K> {
         let planes = if has_ended { planes } else { planes + 1.0 };
         let last = if has_ended | next.is_last { 1.0 } else { 0.0 };
         ([next.is_apart & !has_ended], [radius, t, planes, last])
+    }
+}
+
+/// The time of a contact that is not certain.
+const NONE: f64 = -1.0;
+
+/// With a radius: the contact after the last plane, or at the start. Where it is certain, its place
+/// is where the number of planes was.
+struct Touches<K>(PhantomData<K>);
+
+impl<K: Stages> Test<0, FOUND> for Touches<K> {
+    const HELD: usize = FOUND;
+
+    #[inline(always)]
+    fn of(&self, points: &[[Plain; 3]; 4], found: &[f64; FOUND]) -> ([bool; 0], [f64; FOUND]) {
+        let [radius, t, planes, last, first, second] = *found;
+        let (touch, is_certain) = Touch::new::<K, _>(points, radius, [first, second], t);
+        let is_touch = is_certain & (has_ended(last) | (t == 0.0));
+        let of = |touch: f64, none: f64| if is_touch { touch } else { none };
+        let toi = of(touch.toi, NONE);
+        let place = [of(touch.u, planes), of(touch.v, last), touch.error];
+        ([], [toi, t, place[0], place[1], place[2], 0.0])
+    }
+}
+
+/// How the two pass each other without their radius, after [`Touches`].
+struct Passages<K>(PhantomData<K>);
+
+impl<K: Stages> Test<0, FOUND> for Passages<K> {
+    const HELD: usize = FOUND;
+
+    #[inline(always)]
+    fn of(&self, points: &[[Plain; 3]; 4], found: &[f64; FOUND]) -> ([bool; 0], [f64; FOUND]) {
+        let [toi, t, u, v, error, _] = *found;
+        let passage = Touch::passage::<K, _>(points, toi);
+        ([], [toi, t, u, v, error, passage])
     }
 }
 

@@ -7,7 +7,7 @@ use super::cubic::Cubic;
 use super::ends::Ends;
 use super::kind::Stages;
 use super::motion::Motion;
-use super::root::Bracket;
+use super::root::{Bracket, Half};
 use super::stage::Finding;
 use crate::contact::Hit;
 
@@ -16,6 +16,37 @@ use crate::contact::Hit;
 pub(super) fn are_apart<K: Stages, E: Ends>(motion: &Motion<E>, cubic: &Cubic) -> bool {
     let [lower, upper] = cubic.halves();
     K::is_apart_in(motion, cubic, &lower) & K::is_apart_in(motion, cubic, &upper)
+}
+
+/// Whether the two certainly touch at no root, and whether they certainly do, strictly inside, at the
+/// first one that is not ruled out: a simple one, at which they pass each other.
+#[inline(always)]
+pub(super) fn cross<K: Stages, E: Ends>(motion: &Motion<E>, cubic: &Cubic) -> [bool; 2] {
+    let (first, are_apart) = first_root::<K, E>(motion, cubic);
+    let is_valid = cubic.is_valid() & cubic.has_certain_ends();
+    let touch = first.has_one & K::touch_at(motion, cubic, &first.bracket);
+    [cubic.is_valid() & are_apart, is_valid & touch]
+}
+
+/// The first root at which the two are not certain to be apart, and whether they are at all.
+#[inline(always)]
+fn first_root<K: Stages, E: Ends>(motion: &Motion<E>, cubic: &Cubic) -> (Half, bool) {
+    let [lower, upper] = cubic.halves();
+    let is_upper = K::is_apart_in(motion, cubic, &lower);
+    let of = |lower, upper| if is_upper { upper } else { lower };
+    let is = |lower: bool, upper: bool| (is_upper & upper) | (!is_upper & lower);
+    let bracket = Bracket {
+        low: of(lower.bracket.low, upper.bracket.low),
+        high: of(lower.bracket.high, upper.bracket.high),
+        is_rising: is(lower.bracket.is_rising, upper.bracket.is_rising),
+    };
+    let first = Half {
+        bracket,
+        has_none: is(lower.has_none, upper.has_none),
+        has_one: is(lower.has_one, upper.has_one),
+    };
+    let are_apart = is_upper & K::is_apart_in(motion, cubic, &upper);
+    (first, are_apart)
 }
 
 /// The time, rounded down, of the first root at which the two are not certain to be apart, if they
@@ -27,18 +58,11 @@ pub(super) fn time<K: Stages, E: Ends>(
     motion: &Motion<E>,
     cubic: &Cubic,
 ) -> f64 {
-    let [lower, upper] = cubic.halves();
-    let is_upper = K::is_apart_in(motion, cubic, &lower);
-    let of = |lower, upper| if is_upper { upper } else { lower };
-    let bracket = Bracket {
-        low: of(lower.bracket.low, upper.bracket.low),
-        high: of(lower.bracket.high, upper.bracket.high),
-        is_rising: (is_upper & upper.bracket.is_rising) | (!is_upper & lower.bracket.is_rising),
-    };
-    let has_one = (is_upper & upper.has_one) | (!is_upper & lower.has_one);
+    let (first, _) = first_root::<K, E>(motion, cubic);
+    let bracket = first.bracket;
     let (toi, is_certain) = K::time_at(points, cubic, &bracket);
     let signed = if bracket.is_rising { toi } else { -toi };
-    let is_first = has_one & cubic.has_certain_ends();
+    let is_first = first.has_one & cubic.has_certain_ends();
     if is_first & K::touch_at(motion, cubic, &bracket) & is_certain {
         signed
     } else {

@@ -84,8 +84,11 @@ impl Cubic {
     }
 
     /// Whether `f` is certainly not 0 for the whole step: then not all coefficients are.
+    #[inline(always)]
     pub(super) fn is_not_identically_0(&self) -> bool {
-        self.bernstein.iter().any(|b| b.abs() > self.error)
+        let [b0, b1, b2, b3] = self.bernstein;
+        let largest = larger(larger(b0.abs(), b1.abs()), larger(b2.abs(), b3.abs()));
+        largest > self.error
     }
 
     /// Whether `f` has no root in `[0, 1]`, so that the edges are never coplanar: it is a convex

@@ -64,29 +64,37 @@ pub(super) fn decide_range<K: Stages>(
 ) {
     // By each thread that takes a part.
     debug_assert_eq!(environment::check(), Ok(()));
-    let (mut open, mut are_thin) = (Open::new(), true);
-    // Of those without a radius: how many were asked several at once and left open, of late.
-    let (mut asked, mut left, mut unscreened) = (0, 0, 0);
+    let (mut open, mut are_thin, mut worth) = (Open::new(), true, Worths::default());
     for first in queries.clone().step_by(CHUNK) {
         let chunk = first..queries.end.min(first + CHUNK);
         let are_now_thin = source.are_thin(chunk.clone());
         if open.is_full() || are_now_thin != Some(are_thin) {
-            left += finish::<K>(&mut open, are_thin, source, &mut hit, &mut observe);
-            if asked >= SAMPLE {
-                unscreened = if 2 * left > asked { UNSCREENED } else { 0 };
-                (asked, left) = (0, 0);
-            }
+            finish::<K>(
+                &mut open,
+                are_thin,
+                source,
+                &mut worth,
+                &mut hit,
+                &mut observe,
+            );
         }
         are_thin = are_now_thin.unwrap_or_default();
         match are_now_thin {
             Some(false) => open.add_thick::<K>(source, chunk, &mut observe),
-            Some(true) if unscreened == 0 => {
-                asked += chunk.len();
+            Some(true) if worth.stages.is_tried() => {
+                worth.stages.asked += chunk.len();
                 open.add::<K>(source, chunk, &mut observe);
             }
             _ => {
-                unscreened = u32::saturating_sub(unscreened, 1);
-                finish::<K>(&mut open, are_thin, source, &mut hit, &mut observe);
+                worth.stages.skip();
+                finish::<K>(
+                    &mut open,
+                    are_thin,
+                    source,
+                    &mut worth,
+                    &mut hit,
+                    &mut observe,
+                );
                 open.put(source, chunk.clone());
                 for (place, query) in chunk.enumerate() {
                     let positions = || open.positions(place);
@@ -98,52 +106,144 @@ pub(super) fn decide_range<K: Stages>(
             }
         }
     }
-    finish::<K>(&mut open, are_thin, source, &mut hit, &mut observe);
+    finish::<K>(
+        &mut open,
+        are_thin,
+        source,
+        &mut worth,
+        &mut hit,
+        &mut observe,
+    );
 }
 
-/// How many queries without a radius show whether the stages that are asked of several at once decide
-/// so much that it pays.
+/// What asking several queries at once is worth.
+#[derive(Default)]
+struct Worths {
+    /// All stages, of queries without a radius.
+    stages: Worth,
+    /// Contacts after the last plane, of those with one.
+    touches: Worth,
+}
+
+/// Whether it decides so much that it pays.
+#[derive(Default)]
+struct Worth {
+    /// How many queries were asked of late.
+    asked: usize,
+    /// How many of them it left open.
+    left: usize,
+    /// How often it is not tried any more.
+    skipped: u32,
+}
+
+/// How many queries show that.
 const SAMPLE: usize = 256;
 
-/// How many chunks are decided one by one after a sample for which it did not.
-const UNSCREENED: u32 = 15 * (SAMPLE / CHUNK) as u32;
+/// How often it is not tried after a sample for which it did not.
+const SKIPPED: u32 = 15 * (SAMPLE / CHUNK) as u32;
 
-/// Decides what the first two stages leave, and says how much of it the stages for several at once
-/// leave of queries without a radius.
+impl Worth {
+    fn is_tried(&self) -> bool {
+        self.skipped == 0
+    }
+
+    fn skip(&mut self) {
+        self.skipped = self.skipped.saturating_sub(1);
+    }
+
+    fn left(&mut self, left: usize) {
+        self.left += left;
+        if self.asked >= SAMPLE {
+            let is_much = 2 * self.left > self.asked;
+            *self = Worth {
+                skipped: if is_much { SKIPPED } else { 0 },
+                ..Worth::default()
+            };
+        }
+    }
+}
+
+/// Decides what the first two stages leave.
 fn finish<K: Stages>(
     open: &mut Open,
     are_thin: bool,
     source: &impl Source,
+    worth: &mut Worths,
+    hit: &mut impl FnMut(usize, Hit<K::Place>),
+    observe: &mut impl FnMut(Stage),
+) {
+    if open.queries().is_empty() {
+        return;
+    }
+    if are_thin {
+        open.screen::<K>(observe);
+        open.time_crossings::<K>();
+        let left = decide_thin::<K>(open, hit, observe);
+        worth.stages.left(left);
+    } else {
+        open.screen_thick::<K>(observe);
+        let is_tried = worth.touches.is_tried();
+        let has_touches = is_tried && open.find_touches::<K>(source);
+        if has_touches {
+            worth.touches.asked += open.queries().len();
+        } else if !is_tried {
+            worth.touches.skip();
+        }
+        let left = decide_thick::<K>(open, source, has_touches, hit, observe);
+        worth.touches.left(left);
+    }
+    open.clear();
+}
+
+/// Decides what is open, without a radius; and says of how many no time is known.
+fn decide_thin<K: Stages>(
+    open: &Open,
     hit: &mut impl FnMut(usize, Hit<K::Place>),
     observe: &mut impl FnMut(Stage),
 ) -> usize {
     let mut left = 0;
-    if open.queries().is_empty() {
-        return left;
-    }
-    match are_thin {
-        true => {
-            open.screen::<K>(observe);
-            open.time_crossings::<K>();
-        }
-        false => open.screen_thick::<K>(observe),
-    }
     for (place, &query) in open.queries().iter().enumerate() {
         let positions = open.positions(place);
-        let found = if are_thin {
-            let cubic = |motion: &_| open.cubic(place, motion);
-            let time = open.crossing_time(place);
-            left += usize::from(time == Some(0.0));
-            decide_rest::<K>(&positions, cubic, time, observe)
+        let cubic = |motion: &_| open.cubic(place, motion);
+        let time = open.crossing_time(place);
+        left += usize::from(time == Some(0.0));
+        if let Some(found) = decide_rest::<K>(&positions, cubic, time, observe) {
+            hit(query, found);
+        }
+    }
+    left
+}
+
+/// The same with a radius; and says how many contacts are asked for and not certain.
+fn decide_thick<K: Stages>(
+    open: &Open,
+    source: &impl Source,
+    has_touches: bool,
+    hit: &mut impl FnMut(usize, Hit<K::Place>),
+    observe: &mut impl FnMut(Stage),
+) -> usize {
+    let mut left = 0;
+    for (place, &query) in open.queries().iter().enumerate() {
+        let touch = if has_touches {
+            open.touch::<K>(place)
         } else {
-            let (radius, reached) = (source.radius(query), open.reached(place));
-            thick::decide_from::<K>(&positions, radius, reached, observe)
+            Err(open.reached(place))
+        };
+        let found = match touch {
+            Ok(hit) => {
+                observe(Stage::Planes);
+                Some(hit)
+            }
+            Err(reached) => {
+                left += usize::from(has_touches);
+                let (positions, radius) = (open.positions(place), source.radius(query));
+                thick::decide_from::<K>(&positions, radius, reached, observe)
+            }
         };
         if let Some(found) = found {
             hit(query, found);
         }
     }
-    open.clear();
     left
 }
 

@@ -115,8 +115,13 @@ impl Root {
     }
 
     /// A number no farther from `time` than `error`.
+    #[inline(always)]
     pub(super) fn near(time: Double<f64>, error: f64) -> Self {
         Root { time, error }
+    }
+
+    pub(super) fn error(&self) -> f64 {
+        self.error
     }
 
     /// The largest `f64` not above the root, if that is certain; then the root is not an `f64`

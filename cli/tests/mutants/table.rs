@@ -163,8 +163,8 @@ pub(crate) const MUTANTS: &[Mutant] = &[
     Mutant {
         culprit: Culprit::Thick,
         file: "src/certified/thick/nearness.rs",
-        text: "(square > SMALLEST && least > 0.0).then_some(least)",
-        replacement: "(!square.is_nan()).then(|| square.sqrt())",
+        text: "(least, (square > SMALLEST) & (least > 0.0))",
+        replacement: "(square.sqrt(), !square.is_nan())",
         fault: "edges that may be parallel where they touch are said to be not",
     },
     Mutant {

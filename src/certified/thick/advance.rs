@@ -64,17 +64,22 @@ pub(in crate::certified) struct Plane {
 
 const MOST_PLANES: u32 = 24;
 
+/// `K`, `L` and `M` of the shape.
+#[inline(always)]
+pub(super) fn differences<K: Stages, E: Ends>(points: &[[E; 3]; 4]) -> Motion<E> {
+    let [k, l, m] = K::DIFFERENCES;
+    Motion {
+        k: sub(&points[k.1], &points[k.0]),
+        l: sub(&points[l.1], &points[l.0]),
+        m: sub(&points[m.1], &points[m.0]),
+    }
+}
+
 impl<E: Ends> Moving<E> {
     #[inline(always)]
     pub(super) fn new<K: Stages>(points: &[[E; 3]; 4], radius: f64) -> Self {
-        let difference = |(from, to): (usize, usize)| sub(&points[to], &points[from]);
-        let [k, l, m] = K::DIFFERENCES;
         Moving {
-            motion: Motion {
-                k: difference(k),
-                l: difference(l),
-                m: difference(m),
-            },
+            motion: differences::<K, E>(points),
             boxes: K::boxes(points, radius * (1.0 + 4.0 * U)),
             radius,
         }

@@ -27,7 +27,10 @@ pub(super) fn contact<K: Stages>(
     let ([toi, toi_above], side) = match case {
         _ if neighbours[1] == 0.0 => (neighbours, 0),
         Case::General => {
-            let quick = cubic.and_then(|cubic| side(&cubic, neighbours[0]));
+            let quick = cubic.and_then(|cubic| match side(&cubic, neighbours[0]) {
+                0.0 => None,
+                side => Some(side as i8),
+            });
             let side = quick.or_else(|| K::side(positions, neighbours));
             (neighbours, side?)
         }
@@ -74,16 +77,15 @@ fn passage<K: Stages>(positions: &Positions, cubic: Option<&Cubic>) -> Passage {
     quick().map_or_else(|| K::passage(positions), of)
 }
 
-/// The sign of `f` just before a time of impact up to `2 u` from `t`, if it is certain.
+/// The sign of `f` just before a time of impact up to `2 u` from `t`; 0 if it is not certain.
 ///
 /// The value is within twice the error of the cubic of that at `t`, and changes by at most 2 u
 /// times three differences of coefficients: `12 u P`, less than its error.
-fn side(cubic: &Cubic, t: f64) -> Option<i8> {
+#[inline(always)]
+pub(super) fn side(cubic: &Cubic, t: f64) -> f64 {
     let (value, _) = cubic.evaluate(t);
     let error = 3.0 * cubic.error;
-    if value > error {
-        Some(1)
-    } else {
-        (value < -error).then_some(-1)
-    }
+    let above = if value > error { 1.0 } else { 0.0 };
+    let below = if value < -error { 1.0 } else { 0.0 };
+    above - below
 }

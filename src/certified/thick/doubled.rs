@@ -7,11 +7,10 @@ use super::instant::Instant;
 use crate::certified::double::{Double, two_difference, two_sum};
 use crate::certified::ends::Ends;
 use crate::certified::kind::Stages;
-use crate::certified::motion::{Positions, Vector, dot};
+use crate::certified::motion::{Vector, dot};
 use crate::certified::nearest::Spot;
 use crate::certified::refine::difference;
 use crate::certified::separate::U;
-use crate::query::Radius;
 
 /// `2^-106`.
 pub(super) const H: f64 = U * U;
@@ -64,7 +63,7 @@ pub(super) fn slopes_at<K: Stages>(
     t: f64,
     here: &Instant,
 ) -> [f64; 2] {
-    let [xy, zz] = difference_at::<K>(points, t, &here.spot);
+    let [xy, zz] = difference_at::<K, _>(points, t, &here.spot);
     let ([x, y], [z, _]) = (xy.lanes(), zz.lanes());
     let product = |i: usize, far: Double<f64>| edges[i].mul(Double::both(far));
     let [k, l] = product(0, x).add(product(1, y)).add(product(2, z)).lanes();
@@ -79,28 +78,48 @@ pub(super) fn slopes_at<K: Stages>(
 /// `32 h s` at each end of the step. The change is within `(64 + 24) h s`, the product with the
 /// time adds `16 h s`, the sum `24 h s`: below `160 h s`.
 #[inline(always)]
-pub(super) fn difference_at<K: Stages>(
-    points: &[[f64x2; 3]; 4],
+pub(super) fn difference_at<K: Stages, E: Ends>(
+    points: &[[E; 3]; 4],
     t: f64,
     spot: &Spot,
-) -> [Double<f64x2>; 2] {
-    let number = |x: f64| Double {
-        high: f64x2::both(x),
-        low: f64x2::both(0.0),
-    };
+) -> [Double<E>; 2] {
     let (u, v, time) = (number(spot.u), number(spot.v), number(t));
-    // At both ends of the step.
-    let axis = |i: usize| {
-        let difference =
-            |(from, to): (usize, usize)| two_difference(points[to][i], points[from][i]);
-        let [k, l, m] = K::DIFFERENCES;
-        let (k, l, m) = (difference(k), difference(l), difference(m));
-        m.add(v.mul(l)).sub(u.mul(k))
-    };
-    let (x, y, z) = (axis(0), axis(1), axis(2));
-    let at_time = |[start, end]: [Double<f64x2>; 2]| start.add(end.sub(start).mul(time));
-    let (xy, zz) = (at_time(x.transposed(y)), at_time(z.transposed(z)));
-    [xy, zz]
+    let x = difference_at_ends::<K, E>(points, 0, u, v);
+    let y = difference_at_ends::<K, E>(points, 1, u, v);
+    let z = difference_at_ends::<K, E>(points, 2, u, v);
+    let (xy, zz) = (x.transposed(y), z.transposed(z));
+    [at_time(xy, time), at_time(zz, time)]
+}
+
+/// A number of one `f64`, in both lanes.
+#[inline(always)]
+fn number<E: Ends>(x: f64) -> Double<E> {
+    Double {
+        high: E::both(x),
+        low: E::both(0.0),
+    }
+}
+
+/// The difference on an axis at both ends of the step.
+#[inline(always)]
+fn difference_at_ends<K: Stages, E: Ends>(
+    points: &[[E; 3]; 4],
+    axis: usize,
+    u: Double<E>,
+    v: Double<E>,
+) -> Double<E> {
+    let [k, l, m] = K::DIFFERENCES;
+    let (k, l, m) = (
+        two_difference(points[k.1][axis], points[k.0][axis]),
+        two_difference(points[l.1][axis], points[l.0][axis]),
+        two_difference(points[m.1][axis], points[m.0][axis]),
+    );
+    m.add(v.mul(l)).sub(u.mul(k))
+}
+
+#[inline(always)]
+fn at_time<E: Ends>([start, end]: [Double<E>; 2], time: Double<E>) -> Double<E> {
+    start.add(end.sub(start).mul(time))
 }
 
 /// The squared distance less `R^2` of the points of a place at a time, in double-double arithmetic,
@@ -109,15 +128,15 @@ pub(super) fn difference_at<K: Stages>(
 /// Error bound, with that of [`difference_at`]: `w^2` is off by `320 h |w| s` and the
 /// square of that error; products, sums and the radius add `64 h` of both sides. What underflows is
 /// far below that of the radius.
-pub(super) fn excess<K: Stages>(
-    positions: &Positions,
-    radius: Radius,
+#[inline(always)]
+pub(super) fn excess<K: Stages, E: Ends>(
+    points: &[[E; 3]; 4],
+    [first, second]: [f64; 2],
     t: f64,
     spot: &Spot,
     size: &Vector,
 ) -> (f64, f64) {
-    let [xy, zz] = difference_at::<K>(&positions.points::<f64x2>(), t, spot);
-    let [first, second] = radius.parts();
+    let [xy, zz] = difference_at::<K, E>(points, t, spot);
     let [zr, _] = zz.transposed(Double::both(two_sum(first, second)));
     let ([x2, y2], [z2, r2]) = (xy.mul(xy).lanes(), zr.mul(zr).lanes());
     let value = x2.add(y2).add(z2).sub(r2).value();

@@ -30,6 +30,7 @@ mod refine_toi;
 mod sharp_plane;
 #[cfg(test)]
 mod testing;
+mod touch;
 mod turning;
 
 use wide::f64x2;
@@ -49,6 +50,7 @@ use contact::contact;
 use doubled::excess;
 use instant::Instant;
 use refine_toi::{RefinedToi, refine_toi};
+pub(super) use touch::Touch;
 
 /// The distance of the two sides at the start, about.
 pub(super) fn start_distance<K: Stages>(positions: &Positions) -> f64 {
@@ -269,9 +271,9 @@ impl Moving<f64x2> {
         radius: Radius,
         start: &Instant,
     ) -> bool {
-        let (_, size) = self.reaches();
+        let (points, (_, size)) = (positions.points::<f64x2>(), self.reaches());
         let is_within = |spot: Spot| {
-            let (x, error) = excess::<K>(positions, radius, 0.0, &spot, &size);
+            let (x, error) = excess::<K, _>(&points, radius.parts(), 0.0, &spot, &size);
             x * (1.0 - 2.0 * U) < -error
         };
         is_within(start.spot) || K::nearest_on_sides(&start.gram).into_iter().any(is_within)

@@ -43,19 +43,55 @@ struct Slope {
     most: f64,
 }
 
+impl Direction {
+    /// The larger magnitudes at both ends, from those of `K` and `L`.
+    #[inline(always)]
+    fn reach(&self, k: &Vector, l: &Vector) -> Vector {
+        add(&scaled(self.u.abs(), k), &scaled(self.v.abs(), l))
+    }
+}
+
 impl Slope {
-    /// Whether it is certainly farther in that direction.
-    fn is_uphill(&self, direction: &Direction) -> bool {
-        !direction.is_free && self.value > self.error
+    /// Along a direction that is at most so large.
+    #[inline(always)]
+    fn new(vector: &Vector, most: &Vector, here: &Instant, size: &Vector, while_: f64) -> Self {
+        let length = dot(vector, vector).sqrt();
+        let error = (8.0 * U + 3.0 * while_) * dot(most, most).sqrt();
+        Slope {
+            value: dot(vector, &here.difference),
+            error: (32.0 * U + 6.0 * while_) * dot(most, size) * (1.0 + 8.0 * U) + TINY,
+            least: length * (1.0 - 8.0 * U) - error * (1.0 + 8.0 * U),
+            most: length * (1.0 + 8.0 * U) + error * (1.0 + 8.0 * U),
+        }
     }
 
+    /// Whether it is certainly farther in that direction.
+    #[inline(always)]
+    fn is_uphill(&self, direction: &Direction) -> bool {
+        !direction.is_free & (self.value > self.error)
+    }
+
+    #[inline(always)]
     fn size(&self) -> f64 {
         self.value.abs() + self.error
+    }
+
+    /// This one, or else the other.
+    #[inline(always)]
+    fn or(self, is_this: bool, other: Self) -> Self {
+        let of = |this: f64, other: f64| if is_this { this } else { other };
+        Slope {
+            value: of(self.value, other.value),
+            error: of(self.error, other.error),
+            least: of(self.least, other.least),
+            most: of(self.most, other.most),
+        }
     }
 }
 
 impl<E: Ends> Moving<E> {
     /// The larger magnitudes at both ends of `K`, `L` and `M`, and their sum.
+    #[inline(always)]
     pub(super) fn reaches(&self) -> ([Vector; 2], Vector) {
         let Motion { k, l, m } = &self.motion;
         let (k, l, m) = (reach(k), reach(l), reach(m));
@@ -104,7 +140,7 @@ impl<E: Ends> Moving<E> {
             is_uphill,
             along,
             reaches,
-        } = self.slopes(here, while_)?;
+        } = self.ordinary_slopes(here, while_)?;
         // Of a face with corners in one place, which weights are meant is for integers to say.
         let is_point = reaches.map(|reach| reach == [0.0; 3] && K::FIRST == 2);
         let (excess, error) = match is_point {
@@ -112,14 +148,9 @@ impl<E: Ends> Moving<E> {
             [true, false] => alone(second, is_uphill[1])?,
             [false, true] => alone(first, is_uphill[0])?,
             [false, false] => {
-                let normal = least_normal(&along, &reaches, while_)?;
-                let held = match is_uphill {
-                    [true, true] => Some((0.0, 0.0)),
-                    [false, true] => beside(first, second),
-                    [true, false] => beside(second, first),
-                    [false, false] => None,
-                };
-                held.or_else(|| inside(first, second, normal))?
+                let (fall, error, is_certain) =
+                    in_space(first, second, is_uphill, &along, &reaches, while_);
+                is_certain.then_some((fall, error))?
             }
         };
         Some(Nearness {
@@ -127,6 +158,28 @@ impl<E: Ends> Moving<E> {
             error: error * (1.0 + 64.0 * U),
             is_parallel: false,
         })
+    }
+
+    /// The same without a branch, and whether it is certain; not of edges that are points.
+    #[inline(always)]
+    pub(super) fn nearness_in_space(&self, here: &Instant, while_: f64) -> (Nearness, bool) {
+        let (slopes, is_ordinary) = self.slopes(here, while_);
+        let Slopes {
+            slopes: [first, second],
+            is_uphill,
+            along,
+            reaches,
+        } = slopes;
+        let is_zero = |[x, y, z]: &Vector| (*x == 0.0) & (*y == 0.0) & (*z == 0.0);
+        let is_no_point = !(is_zero(&reaches[0]) | is_zero(&reaches[1]));
+        let (fall, error, is_certain) =
+            in_space(first, second, is_uphill, &along, &reaches, while_);
+        let nearness = Nearness {
+            excess: fall * (1.0 + 64.0 * U),
+            error: error * (1.0 + 64.0 * U),
+            is_parallel: false,
+        };
+        (nearness, is_certain & is_ordinary & is_no_point)
     }
 
     /// The same of two edges that are parallel and do not turn, of the squared distance alone: the
@@ -146,7 +199,7 @@ impl<E: Ends> Moving<E> {
             slopes: [first, _],
             is_uphill,
             ..
-        } = self.slopes(here, while_)?;
+        } = self.ordinary_slopes(here, while_)?;
         let (excess, _) = alone(first, is_uphill == [true; 2])?;
         Some(Nearness {
             excess: excess * (1.0 + 64.0 * U),
@@ -155,55 +208,83 @@ impl<E: Ends> Moving<E> {
         })
     }
 
-    /// The slopes along both directions from a time on, for a while; and their vectors with the
-    /// larger magnitudes of these at both ends of the step.
+    /// The same as [`slopes`](Self::slopes), if they may be used.
     #[inline(always)]
-    fn slopes(&self, here: &Instant, while_: f64) -> Option<Slopes> {
+    fn ordinary_slopes(&self, here: &Instant, while_: f64) -> Option<Slopes> {
+        let (slopes, is_ordinary) = self.slopes(here, while_);
+        is_ordinary.then_some(slopes)
+    }
+
+    /// The slopes along both directions from a time on, for a while; and their vectors with the
+    /// larger magnitudes of these at both ends of the step. And whether the while is short, and none
+    /// overflows.
+    #[inline(always)]
+    fn slopes(&self, here: &Instant, while_: f64) -> (Slopes, bool) {
         let ([k, l], size) = self.reaches();
-        let directions = here.spot.directions;
+        let [first_direction, second_direction] = here.spot.directions;
         let along = here.along();
-        let reach = |direction: &Direction| {
-            add(
-                &scaled(direction.u.abs(), &k),
-                &scaled(direction.v.abs(), &l),
-            )
-        };
-        let reaches = [reach(&directions[0]), reach(&directions[1])];
-        let slope = |i: usize| {
-            let (vector, most) = (&along[i], &reaches[i]);
-            let length = dot(vector, vector).sqrt();
-            let error = (8.0 * U + 3.0 * while_) * dot(most, most).sqrt();
-            Slope {
-                value: dot(vector, &here.difference),
-                error: (32.0 * U + 6.0 * while_) * dot(most, &size) * (1.0 + 8.0 * U) + TINY,
-                least: length * (1.0 - 8.0 * U) - error * (1.0 + 8.0 * U),
-                most: length * (1.0 + 8.0 * U) + error * (1.0 + 8.0 * U),
-            }
-        };
-        let (first, second) = (slope(0), slope(1));
-        if !((0.0..0.125).contains(&while_) && first.size() < LARGEST && second.size() < LARGEST) {
-            return None;
-        }
-        Some(Slopes {
+        let reaches = [
+            first_direction.reach(&k, &l),
+            second_direction.reach(&k, &l),
+        ];
+        let slope = |vector, most| Slope::new(vector, most, here, &size, while_);
+        let first = slope(&along[0], &reaches[0]);
+        let second = slope(&along[1], &reaches[1]);
+        let is_short = (while_ >= 0.0) & (while_ < 0.125);
+        let is_ordinary = is_short & (first.size() < LARGEST) & (second.size() < LARGEST);
+        let slopes = Slopes {
             slopes: [first, second],
             is_uphill: [
-                first.is_uphill(&directions[0]),
-                second.is_uphill(&directions[1]),
+                first.is_uphill(&first_direction),
+                second.is_uphill(&second_direction),
             ],
             along,
             reaches,
-        })
+        };
+        (slopes, is_ordinary)
     }
 }
 
-/// A length above 0 that the normal of two directions certainly has all the while.
-fn least_normal(along: &[Vector; 2], reaches: &[Vector; 2], while_: f64) -> Option<f64> {
+/// Bounds on the fall of the squared distance and on `|s1| + |s2|` where neither direction is 0
+/// throughout, and whether they are certain.
+#[inline(always)]
+fn in_space(
+    first: Slope,
+    second: Slope,
+    [is_first_uphill, is_second_uphill]: [bool; 2],
+    along: &[Vector; 2],
+    reaches: &[Vector; 2],
+    while_: f64,
+) -> (f64, f64, bool) {
+    let (normal, is_normal_certain) = least_normal(along, reaches, while_);
+    let chosen = |is_second: bool, first: f64, second: f64| if is_second { second } else { first };
+    // The one that is not uphill, and the one that is.
+    let flat = second.or(is_first_uphill, first);
+    let steep = first.or(is_first_uphill, second);
+    let (beside_fall, beside_error, is_beside) = beside(flat, steep);
+    let (inside_fall, inside_error, is_inside) = inside(first, second, normal);
+    let is_beside = is_beside & (is_first_uphill | is_second_uphill);
+    let fall = chosen(is_beside, inside_fall, beside_fall);
+    let error = chosen(is_beside, inside_error, beside_error);
+    let is_held = is_first_uphill & is_second_uphill;
+    (
+        chosen(is_held, fall, 0.0),
+        chosen(is_held, error, 0.0),
+        is_normal_certain & (is_held | is_beside | is_inside),
+    )
+}
+
+/// A length that the normal of two directions certainly has all the while, and whether it is above
+/// 0.
+#[inline(always)]
+fn least_normal(along: &[Vector; 2], reaches: &[Vector; 2], while_: f64) -> (f64, bool) {
     let normal = cross(&along[0], &along[1]);
-    let permanent: f64 = permanents(&reaches[0], &reaches[1]).iter().sum();
+    let [x, y, z] = permanents(&reaches[0], &reaches[1]);
+    let permanent = x + y + z;
     let error = (16.0 * U + 5.0 * while_) * permanent * (1.0 + 8.0 * U);
     let square = dot(&normal, &normal);
     let least = square.sqrt() * (1.0 - 8.0 * U) - error;
-    (square > SMALLEST && least > 0.0).then_some(least)
+    (least, (square > SMALLEST) & (least > 0.0))
 }
 
 /// Bounds on the fall of the squared distance and on `|s|` along one direction.
@@ -216,29 +297,29 @@ fn alone(slope: Slope, is_uphill: bool) -> Option<(f64, f64)> {
     (least > SHORTEST).then(|| (fall, slope.size() / (least * least)))
 }
 
-/// Bounds on the fall of the squared distance and on `|s1| + |s2|`, where it is farther along the
-/// second direction.
-fn beside(first: Slope, second: Slope) -> Option<(f64, f64)> {
+/// The same, where it is farther along the second direction.
+#[inline(always)]
+fn beside(first: Slope, second: Slope) -> (f64, f64, bool) {
     let Slope { least, .. } = first;
     let turn = second.most / least;
     let rest = (second.value - second.error) - turn * first.size() * (1.0 + 8.0 * U);
-    if !(least > SHORTEST && rest > 0.0) {
-        return None;
-    }
+    let is_certain = (least > SHORTEST) & (rest > 0.0);
     let fall = (first.size() / least) * (first.size() / least);
     let second = fall / (4.0 * rest);
     let first = first.size() / (least * least) + turn * second;
-    Some((fall, first + second))
+    (fall, first + second, is_certain)
 }
 
 /// The same where nothing is in the way, with a bound on `|N|`.
-fn inside(first: Slope, second: Slope, normal: f64) -> Option<(f64, f64)> {
+#[inline(always)]
+fn inside(first: Slope, second: Slope, normal: f64) -> (f64, f64, bool) {
     let length = (first.size() * second.most + second.size() * first.most) / normal;
     let (fall, error) = (
         length * length,
         length * ((first.most + second.most) / normal),
     );
-    (first.most > SHORTEST && second.most > SHORTEST).then_some((fall, error))
+    let is_certain = (first.most > SHORTEST) & (second.most > SHORTEST);
+    (fall, error, is_certain)
 }
 
 /// 2^-450: what is longer has a square that loses nothing to underflow.

@@ -9,11 +9,13 @@ use std::cmp::Ordering;
 
 use wide::f64x2;
 
+use super::LARGEST;
 use super::advance::Moving;
 use super::doubled::excess;
 use super::instant::Instant;
 use super::nearness::Nearness;
 use crate::certified::double::two_sum;
+use crate::certified::ends::Ends;
 use crate::certified::kind::Stages;
 use crate::certified::motion::{Positions, dot};
 use crate::certified::nearest::Spot;
@@ -116,6 +118,7 @@ pub(super) fn refine_toi<K: Stages>(
 }
 
 /// The error of `w . w'`, from the square of the sum of the sizes.
+#[inline(always)]
 fn slope_error(size2: f64) -> f64 {
     64.0 * U * size2
 }
@@ -126,6 +129,83 @@ struct Query<'a> {
     moving: &'a Moving<f64x2>,
     radius: Radius,
     t: f64,
+}
+
+/// The distance at a place at a time, and how fast that falls: Newton's method, with the proof of
+/// [`refine_toi`].
+pub(super) struct Approach {
+    t: f64,
+    /// About how long after the time the place is at the radius.
+    delta: f64,
+    /// How long what follows holds.
+    pub(super) while_: f64,
+    /// Half the slope of the squared distance, at least, all the while.
+    least: f64,
+    bend: f64,
+    x_error: f64,
+    slope_error: f64,
+    /// The square of the sum of the sizes.
+    size2: f64,
+    /// Whether it falls, to the radius, all the while.
+    pub(super) is_ahead: bool,
+    /// Whether the place is certainly within the radius.
+    pub(super) is_within: bool,
+}
+
+impl Approach {
+    #[inline(always)]
+    pub(super) fn new<K: Stages, E: Ends>(
+        points: &[[E; 3]; 4],
+        moving: &Moving<E>,
+        radii: [f64; 2],
+        here: &Instant,
+        t: f64,
+    ) -> Self {
+        let (_, size) = moving.reaches();
+        let size2 = dot(&size, &size);
+        let slope_error = slope_error(size2);
+        let velocity = here.velocity();
+        let (x, x_error) = excess::<K, E>(points, radii, t, &here.spot, &size);
+        let slope = -dot(&here.difference, &velocity);
+        let first = x / (2.0 * slope);
+        let bend = first * dot(&velocity, &velocity) / (2.0 * slope);
+        let delta = first * (1.0 + bend);
+        let while_ = 2.0 * delta + 8.0 * U;
+        // The velocity is at most twice the size.
+        let least = slope - slope_error - 4.5 * size2 * while_;
+        Approach {
+            t,
+            delta,
+            while_,
+            least,
+            bend,
+            x_error,
+            slope_error,
+            size2,
+            // The root is ahead, so that `least` is below the slope. Where rounding outweighs the slope
+            // it may have any sign.
+            is_within: x * (1.0 - 2.0 * U) < -x_error,
+            is_ahead: (x > 0.0) & (slope > 0.0) & (least > 0.0) & (bend < 0.0625),
+        }
+    }
+
+    /// Whether all differences are below 2^179.
+    #[inline(always)]
+    pub(super) fn is_small(&self) -> bool {
+        self.size2 < 0.25 * LARGEST * LARGEST
+    }
+
+    /// The time of impact, and whether it is not before the time by more than rounding.
+    #[inline(always)]
+    pub(super) fn root(&self, nearness: &Nearness) -> (Root, bool) {
+        let &Approach {
+            delta, least, bend, ..
+        } = self;
+        let error = (nearness.excess + self.x_error) / (2.0 * least) * (1.0 + 8.0 * U)
+            + delta * (4.0 * (self.slope_error / least) + 3.0 * bend * bend + 16.0 * U);
+        let root = Root::near(two_sum(self.t, delta), error);
+        (root, error < delta + 8.0 * U)
+    }
 }
 
 /// What is known after one more correction of the time.
@@ -191,39 +271,26 @@ impl Query<'_> {
             radius,
             t,
         } = self;
-        let (_, size) = moving.reaches();
-        let size2 = dot(&size, &size);
-        let slope_error = slope_error(size2);
-        let velocity = here.velocity();
-        let (x, x_error) = excess::<K>(positions, radius, t, &here.spot, &size);
-        let slope = -dot(&here.difference, &velocity);
-        let first = x / (2.0 * slope);
-        let bend = first * dot(&velocity, &velocity) / (2.0 * slope);
-        let delta = first * (1.0 + bend);
-        let while_ = 2.0 * delta + 8.0 * U;
-        // The velocity is at most twice the size.
-        let least = slope - slope_error - 4.5 * size2 * while_;
-        // The root is ahead, so that `least` is below the slope. Where rounding outweighs the slope
-        // it may have any sign.
-        if !(x > 0.0 && slope > 0.0 && least > 0.0 && bend < 0.0625) {
+        let points = positions.points::<f64x2>();
+        let approach = Approach::new::<K, _>(&points, moving, radius.parts(), here, t);
+        if !approach.is_ahead {
             return Correction::Uncertain;
         }
-        let Some(nearness) = nearness(while_) else {
+        let Some(nearness) = nearness(approach.while_) else {
             return Correction::Uncertain;
         };
-        let error = (nearness.excess + x_error) / (2.0 * least) * (1.0 + 8.0 * U)
-            + delta * (4.0 * (slope_error / least) + 3.0 * bend * bend + 16.0 * U);
-        if !(error < delta + 8.0 * U) {
+        let (root, is_ahead) = approach.root(&nearness);
+        if !is_ahead {
             return Correction::Uncertain;
         }
-        let root = Root::near(two_sum(t, delta), error);
+        let Approach { least, size2, .. } = approach;
         let refined = |toi| RefinedToi::new(toi, here.spot, &nearness);
         if let Some(below) = root.round_down() {
             if let Some(refined) = refined([below, below.next_up()]) {
                 return Correction::Decided(Finding::Hit(refined));
             }
         } else if least > STEEP * size2
-            && while_ < SHORT
+            && approach.while_ < SHORT
             && nearness.error <= PLACE_ERROR / 4.0
             && let Some(at) = root.near_f64()
         {
@@ -235,7 +302,7 @@ impl Query<'_> {
             });
         }
         // They are apart until then.
-        let next = (t + (delta - error)) * (1.0 - 2.0 * U);
+        let next = (t + (approach.delta - root.error())) * (1.0 - 2.0 * U);
         if next >= 1.0 {
             Correction::Decided(Finding::Miss)
         } else if next > t {

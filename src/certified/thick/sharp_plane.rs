@@ -111,7 +111,7 @@ fn sharp_normal<K: Stages>(points: &[[f64x2; 3]; 4], here: &Instant, t: f64) -> 
         high: Ends::new(-u, v),
         low: f64x2::both(0.0),
     };
-    let [xy, zz] = difference_at::<K>(points, t, &here.spot);
+    let [xy, zz] = difference_at::<K, _>(points, t, &here.spot);
     let ([x, y], [z, _]) = (xy.lanes(), zz.lanes());
     let with_shares = |i: usize, far: Double<f64>| {
         let [k, l] = edges[i].mul(shares).lanes();

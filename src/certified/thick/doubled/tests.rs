@@ -13,7 +13,8 @@ fn excess_is_within_its_bound<K: Stages>(seed: u64) {
         let (_, size) = sample.moving.reaches();
         let here = Instant::new::<K, _>(&sample.moving, t);
         let spot = Spot { u, v, ..here.spot };
-        let (value, error) = excess::<K>(&sample.positions, Radius::from(parts), t, &spot, &size);
+        let (value, error) =
+            excess::<K, _>(&sample.positions.points::<f64x2>(), parts, t, &spot, &size);
         let difference = sample.difference(&Number::from(t), &[u, v].map(Number::from));
         let radius = &Number::from(parts[0]) + &Number::from(parts[1]);
         let exact = &exact_dot(&difference, &difference) - &(&radius * &radius);
