@@ -230,6 +230,7 @@ impl<E: Ends> Moving<E> {
         let slope = |vector, most| Slope::new(vector, most, here, &size, while_);
         let first = slope(&along[0], &reaches[0]);
         let second = slope(&along[1], &reaches[1]);
+        #[allow(clippy::manual_range_contains, reason = "that has a branch")]
         let is_short = (while_ >= 0.0) & (while_ < 0.125);
         let is_ordinary = is_short & (first.size() < LARGEST) & (second.size() < LARGEST);
         let slopes = Slopes {
