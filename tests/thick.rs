@@ -126,15 +126,15 @@ fn is_same(said: Option<&Said>, exact: &ExactAnswer) -> bool {
 const EXACT_AT_MOST: &[(&str, f64)] = &[
     ("thick_uniform", 10.0),
     ("thick_lattice", 30.0),
-    ("thick_parallel", 57.0),
+    ("thick_parallel", 38.0),
     ("thick_grazing", 27.0),
     ("thick_scales", 94.0),
     ("thick_layers", 1.0),
-    ("thick_touching_layers", 20.0),
+    ("thick_touching_layers", 12.0),
     ("thick_face_uniform", 10.0),
     ("thick_face_lattice", 59.0),
     ("thick_face_layers", 1.0),
-    ("thick_face_touching_layers", 20.0),
+    ("thick_face_touching_layers", 10.0),
 ];
 
 #[test]
