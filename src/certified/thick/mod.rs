@@ -17,6 +17,9 @@
 //! 4. Integers decide what is left (`exact::thick`): edges that may be parallel where they touch,
 //!    grazes.
 //!
+//! For several queries at once, the first correction of the time, without a branch, finds most
+//! contacts (`touch`).
+//!
 //! The proofs need no case distinction: a plane between two sides bounds their distance from below,
 //! two points bound it from above, wherever they come from.
 
