@@ -4,12 +4,15 @@ use super::*;
 use crate::certified::testing::{Random, layout, points};
 use crate::query::{EdgeEdge, VertexFace};
 
+/// How many queries are asked.
+const COUNT: u32 = if cfg!(debug_assertions) { 1000 } else { 4000 };
+
 /// Sides whose distance at the start is that of the radius, but for some rounding, and which then
 /// slide, part or meet.
 fn is_never_said_in_vain<K: Stages>(seed: u64, coordinates: impl Fn(&mut Random) -> [f64; 24]) {
     let random = &mut Random::new(seed);
     let [mut said, mut apart] = [0; 2];
-    for _ in 0..4000 {
+    for _ in 0..COUNT {
         let mut x = coordinates(random);
         x.copy_within(..12, 12);
         let difference = {
@@ -39,8 +42,8 @@ fn is_never_said_in_vain<K: Stages>(seed: u64, coordinates: impl Fn(&mut Random)
         said += u32::from(is_said);
         apart += u32::from(is_apart);
     }
-    println!("thick: sharp planes separate {said} of {apart} of 4000");
-    assert!(said > 300 && 2 * said > apart, "{said} of {apart}");
+    println!("thick: sharp planes separate {said} of {apart} of {COUNT}");
+    assert!(said > COUNT / 15 && 2 * said > apart, "{said} of {apart}");
 }
 
 #[test]
