@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from doubled import double_sizes
 from doubled import points as corners
-from engine import AXES, HERE, cross, differences, dot, ends, limit, own, sizes_of_ends
+from engine import AXES, HERE, cross, differences, dot, ends, limit, own, sizes_of_ends, summed
 from filters import all_hold, chosen, same_as_one_of
 from places import Located, kept, said_at, sizes_at_time
 from prove import Refused, polynomial, product, scaled, total
@@ -239,31 +239,31 @@ def slope_of_distance(engine, claim):
     claim.needs(found, exact, slope_error, sizes)
 
 
+def exact_differences(engine, context, file):
+    """What a kind's differences are, and `two_difference` of two corners: without error, by its name."""
+    tokens = engine.sources.file(f"{HERE}{file}.rs").constants["DIFFERENCES"]
+    numbers = [int(token.text) for token in tokens if token.kind == "number"]
+    pairs = dict(zip(zip(numbers[::2], numbers[1::2]), "klm"))
+
+    def difference(to, start):
+        lanes = []
+        for x, y in zip(start.ends, to.ends):
+            (p, _), (q, _) = x.leaf(), y.leaf()
+            lanes.append(F.exactly(context, f"{pairs['abcd'.index(p[0]), 'abcd'.index(q[0])]}{p[1:]}"))
+        return Double(Pair(*lanes))
+
+    return {"K::DIFFERENCES": [list(pair) for pair in pairs], "two_difference": difference}
+
+
 def excess_at_time(engine, claim):
     """The difference of a place at a time in double-double arithmetic."""
     double_sizes(engine)
     said = engine.said("thick/doubled", r"the sum `24 h s`: below `(\d+) h s`")
     for file in ("edges", "face/mod"):
-        tokens = engine.sources.file(f"{HERE}{file}.rs").constants["DIFFERENCES"]
-        numbers = [int(token.text) for token in tokens if token.kind == "number"]
-        pairs = {(a, b): name for name, a, b in zip("klm", numbers[::2], numbers[1::2])}
         context = Context()
         interpreter = engine.interpreter(context)
-        letters = {(f"{'abcd'[i]}", f"{'abcd'[j]}"): name for (i, j), name in pairs.items()}
-
-        def difference(to, start):
-            lanes = []
-            for x, y in zip(start.ends, to.ends):
-                (p, _), (q, _) = x.leaf(), y.leaf()
-                lanes.append(F.exactly(context, f"{letters[p[0], q[0]]}{p[1:]}"))
-            return Double(Pair(*lanes))
-
+        interpreter.builtins.update(exact_differences(engine, context, file))
         u, v, t = (F.exactly(context, name) for name in ("fu", "fv", "ft"))
-        interpreter.builtins.update({
-            "K::DIFFERENCES": [list(pair) for pair in pairs],
-            "two_difference": difference,
-            "two_sum": lambda a, b: Double(a),
-        })
         xy, zz = interpreter.run(f"{HERE}thick/doubled.rs", "difference_at", corners(context), t, Record("Spot", u=u, v=v))
         sizes = lambda name: {(): Fraction(1)} if name[0] == "f" else sizes_of_ends(name)
         for axis, lane in (("x", xy.exact.ends[0]), ("y", xy.exact.ends[1]), ("z", zz.exact.ends[0])):
@@ -297,14 +297,8 @@ def doubled_edges(engine, context):
 
 def sum_of_products(context, factor, *names):
     """So many times the sum over the axes of some products of sizes."""
-    return total_of([F.size(context, *(f"{name}{a}" for name, a in zip(pair, axes)), factor=factor) for pair, axes in names])
-
-
-def total_of(sizes):
-    found = sizes[0]
-    for size in sizes[1:]:
-        found = found.plus(size)
-    return found
+    sizes = [F.size(context, *(f"{name}{a}" for name, a in zip(pair, axes)), factor=factor) for pair, axes in names]
+    return summed(sizes, F.plus)
 
 
 def doubled_slopes(engine, claim):
@@ -340,20 +334,9 @@ def sharp_corner(engine, claim, kind):
     double_sizes(engine)
     _, file, _, _ = LEAST_CORNERS[kind]
     said = engine.said("thick/sharp_plane", r"its product is within `(\d+) h S`")
-    tokens = engine.sources.file(f"{HERE}{file}.rs").constants["DIFFERENCES"]
-    numbers = [int(token.text) for token in tokens if token.kind == "number"]
-    pairs = dict(zip(zip(numbers[::2], numbers[1::2]), "klm"))
     for u, v in engine.interpreter(Context()).constant(f"{HERE}{file}.rs", "CORNERS"):
         context = Context()
         interpreter = engine.interpreter(context)
-
-        def difference(to, start):
-            lanes = []
-            for x, y in zip(start.ends, to.ends):
-                (p, _), (q, _) = x.leaf(), y.leaf()
-                lanes.append(F.exactly(context, f"{pairs['abcd'.index(p[0]), 'abcd'.index(q[0])]}{p[1:]}"))
-            return Double(Pair(*lanes))
-
 
         def is_above(condition, go, _):
             kind, operator, x, y = condition
@@ -361,7 +344,7 @@ def sharp_corner(engine, claim, kind):
                 raise Refused(f"a condition of another kind: {condition}")
             return go(x) > go(y)
 
-        interpreter.builtins.update({"K::DIFFERENCES": [list(pair) for pair in pairs], "two_difference": difference, "if": is_above})
+        interpreter.builtins.update(exact_differences(engine, context, file) | {"if": is_above})
         normal = [Double(Pair(F.exactly(context, f"n{a}"), F.exactly(context, f"n{a}"))) for a in AXES]
         products = interpreter.run(f"{HERE}thick/sharp_plane.rs", "products", corners(context), normal)
         found = interpreter.run(f"{HERE}thick/sharp_plane.rs", "corner", products, u, v)
