@@ -35,7 +35,11 @@ impl World {
         Energy {
             kinetic: self.kinetic_energy(),
             potential: self.potential_energy(),
-            elastic: self.wires.iter().map(elastic).sum(),
+            elastic: self
+                .wires
+                .iter()
+                .map(|wire| elastic(wire, self.settings.step))
+                .sum(),
         }
     }
 
@@ -73,7 +77,10 @@ impl World {
 
     /// The energy in J of the forces that wires have.
     pub(in crate::wire) fn energy_of_forces(&self) -> f64 {
-        self.wires.iter().map(of_forces).sum()
+        self.wires
+            .iter()
+            .map(|wire| of_forces(wire, self.settings.step))
+            .sum()
     }
 
     /// Linear momentum of all that forces move, in N s.
@@ -166,35 +173,46 @@ fn sliding(wire: &Wire) -> f64 {
 
 /// Of every segment the lesser of `T^2 / (2 k)` with the tension of the last step and `k g^2 / 2` as it lies: what damping
 /// added to a force is no energy, nor is a hair of which there was no force. Bending and twist are as the wire lies.
-fn of_forces(wire: &Wire) -> f64 {
+fn of_forces(wire: &Wire, step: f64) -> f64 {
     let segments = wire.segments.iter().enumerate();
     let stretch = segments.map(|(at, segment)| {
         let rest = wire.rest_length(at);
         let stiffness = wire.material.stretch_stiffness() / rest;
         let longer = wire.span(at).norm() - rest;
-        let force = segment.tension.abs().min(stiffness * longer.abs());
-        force * force / (2.0 * stiffness)
+        let beyond = buckled(wire, at, longer, step);
+        let elastic = stiffness * (longer.abs() - beyond);
+        let force = segment.tension.abs().min(elastic);
+        force * force / (2.0 * stiffness) + wire.largest_push(step) * beyond
     });
     let bends = (1..wire.segments.len()).map(|node| bending(wire, node));
     stretch.sum::<f64>() + bends.sum::<f64>() + wire.twist_energy()
 }
 
-/// `g^2 / (2 eps)` of every row: stretch, which a chain has only where it is longer than
-/// unstretched, bend and twist.
-fn elastic(wire: &Wire) -> f64 {
+/// `g^2 / (2 eps)` of every row of stretch, bend and twist. What a segment that has buckled is shorter than that it is at
+/// the force at which it buckles, none for a chain.
+fn elastic(wire: &Wire, step: f64) -> f64 {
     let material = &wire.material;
     let mut energy = 0.0;
     for segment in 0..wire.segments.len() {
         let rest = wire.rest_length(segment);
         let longer = wire.span(segment).norm() - rest;
-        if longer > 0.0 || !material.is_chain() {
-            energy += longer * longer * material.stretch_stiffness() / (2.0 * rest);
-        }
+        let beyond = buckled(wire, segment, longer, step);
+        let elastic = longer.abs() - beyond;
+        energy += elastic * elastic * material.stretch_stiffness() / (2.0 * rest);
+        energy += wire.largest_push(step) * beyond;
         if segment > 0 {
             energy += bending(wire, segment);
         }
     }
     energy + wire.twist_energy()
+}
+
+/// By how much a segment that is `longer` than unstretched, or shorter where that is negative, is shorter than where it
+/// buckles, in m.
+fn buckled(wire: &Wire, segment: usize, longer: f64, step: f64) -> f64 {
+    let rest = wire.rest_length(segment);
+    let strain = wire.largest_push(step) / wire.material.stretch_stiffness();
+    (-longer - strain * rest).max(0.0)
 }
 
 /// Of bending at a node, 0 for a chain.
@@ -203,3 +221,6 @@ fn bending(wire: &Wire, node: usize) -> f64 {
     let mean = (wire.rest_length(node - 1) + wire.rest_length(node)) / 2.0;
     (after - before).norm_squared() * wire.material.bend_stiffness() / (2.0 * mean)
 }
+
+#[cfg(test)]
+mod tests;

@@ -134,10 +134,10 @@ fn torque() -> Outcome {
         eye(chuck, 0.01, 0.0),
     ];
     world.add_wire(&WirePlan::new(material, 0.1, route))?;
-    // What keeps the bar from turning: a chain up from one end and one down from the other.
+    // What keeps the bar from turning, by its pull: a wire down from one end and one up from the other.
     let arm = 0.25;
     for side in [1.0, -1.0] {
-        let hold = Stop::Pinned(at(0.0, side * arm, side * 1.0));
+        let hold = Stop::Pinned(at(0.0, side * arm, -side));
         let route = vec![eye(bar, 0.0, side * arm), hold];
         world.add_wire(&WirePlan::new(Material::steel(0.002), 1.0, route))?;
     }
@@ -147,7 +147,7 @@ fn torque() -> Outcome {
     }
     let due = material.twist_stiffness() * world.wires()[0].twist() / length;
     let of_turns = material.twist_stiffness() * turns * TAU / length;
-    // The chains stand across the bar but for what they are stretched by.
+    // The wires stand across the bar but for what they are stretched by.
     let pair: f64 = world.wires()[1..]
         .iter()
         .map(|wire| {

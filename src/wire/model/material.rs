@@ -125,6 +125,18 @@ impl Material {
         self.bend_modulus * self.area() * self.radius * self.radius / 4.0
     }
 
+    /// The push in N under which a straight piece of a length in m buckles that is hinged at both ends, `pi^2 E I / l^2`
+    /// (Euler 1744).
+    pub(super) fn buckling_load(&self, length: f64) -> f64 {
+        (PI / length) * (PI / length) * self.bend_stiffness()
+    }
+
+    /// The push in N under which a small bend of a long, straight wire grows `e`-fold in a time in s: the fastest one grows
+    /// by `T / (2 sqrt(E I mu))` a second.
+    pub(super) fn growing_load(&self, time: f64) -> f64 {
+        2.0 * (self.bend_stiffness() * self.mass_per_length()).sqrt() / time
+    }
+
     /// Stiffness `G J` in N m^2, `J = pi r^4 / 2`: torque per twist and length.
     pub fn twist_stiffness(&self) -> f64 {
         2.0 * self.twist_modulus * self.second_moment()

@@ -171,6 +171,9 @@ pub struct Wire {
 /// The most segments that a resolution may ask for, so that a slip does not take all memory.
 pub(super) const MOST_SEGMENTS: f64 = 1e6;
 
+/// How often a bend of a wire that is pushed may grow `e`-fold in a step.
+const GROWTH: f64 = 2.0;
+
 impl Resolution {
     /// Of a wire so long in m.
     pub(in crate::wire) fn check(&self, length: f64) -> Result<(), ModelError> {
@@ -358,6 +361,20 @@ impl Wire {
     /// Unstretched length of a segment in m.
     pub fn rest_length(&self, segment: usize) -> f64 {
         self.nodes[segment + 1].arc - self.nodes[segment].arc
+    }
+
+    /// The most that a segment pushes in steps of a length in s, in N. That is what buckles a piece of the resolution's
+    /// length, `pi^2 E I / l^2`, as nodes are too far apart for the bends of more; or less, what makes a bend grow `e^2`-fold
+    /// in a step, `4 sqrt(E I mu) / h`: it would be bent before the step is over. What the whole wire bears between clamped
+    /// ends, `4 pi^2 E I / L^2`, makes no bend grow. A chain pushes with 0.
+    ///
+    /// A wire that is straight to the last bit would carry any load, and no real one is.
+    pub fn largest_push(&self, step: f64) -> f64 {
+        let length = self.nodes[self.nodes.len() - 1].arc - self.nodes[0].arc;
+        let grows = GROWTH * self.material.growing_load(step);
+        let borne = 4.0 * self.material.buckling_load(length);
+        let resolved = self.material.buckling_load(self.resolution.length);
+        resolved.min(grows.max(borne))
     }
 
     /// Mass of a node in kg: half of each segment it ends.

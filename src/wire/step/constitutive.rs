@@ -1,7 +1,8 @@
 //! Constitutive laws of rows: piecewise linear functions from a row's excess to its multiplier.
 //!
 //! A row's multiplier is a function of its excess `e = G v - target`. A bilateral row has `e /
-//! Sigma`; a chain's, which never pushes, the same for `e > 0` and nothing below. A wire that turns
+//! Sigma`. So has one of stretch, but it pushes no more than what buckles its segment, and a chain's
+//! never does. A wire that turns
 //! over a contact node has friction that takes up any slip, as far as its bound goes; and it slides
 //! no further in a step than there is wire for. All of them rise, so they are the derivatives of
 //! convex functions, which are piecewise quadratic.
@@ -11,8 +12,11 @@
 pub(super) enum ConstitutiveLaw {
     /// In proportion.
     Linear,
-    /// In proportion where the excess is above 0, else none: a pull, never a push.
-    TensionOnly,
+    /// In proportion, but a push is `most` N s at most.
+    LimitedPush {
+        /// 0 for a chain, which pulls only.
+        most: f64,
+    },
     /// Friction against the speed of sliding.
     Friction {
         /// The bound is this factor, `tanh(f D/2)`, times the sum of two pulls; one that pushes
@@ -66,6 +70,24 @@ impl Branch {
         range: [f64::NEG_INFINITY, f64::INFINITY],
         ..Branch::ACTIVE
     };
+
+    /// The branch that holds at an excess of a law that rises from `start` on, and pushes with `most` N s at most.
+    pub(super) fn of_push(excess: f64, start: f64, sigma: f64, most: f64) -> Branch {
+        let end = start - sigma * most;
+        if excess > end {
+            Branch {
+                start,
+                range: [end, f64::INFINITY],
+                ..Branch::ACTIVE
+            }
+        } else {
+            Branch {
+                offset: -most,
+                range: [f64::NEG_INFINITY, end],
+                ..Branch::INACTIVE
+            }
+        }
+    }
 
     /// `Sigma` times the multiplier.
     pub(super) fn load(&self, excess: f64, sigma: f64) -> f64 {
@@ -140,8 +162,7 @@ impl ConstitutiveLaw {
     pub(super) fn branch(&self, excess: f64, sigma: f64) -> Branch {
         match *self {
             ConstitutiveLaw::Linear => Branch::ALWAYS,
-            ConstitutiveLaw::TensionOnly if excess > 0.0 => Branch::ACTIVE,
-            ConstitutiveLaw::TensionOnly => Branch::INACTIVE,
+            ConstitutiveLaw::LimitedPush { most } => Branch::of_push(excess, 0.0, sigma, most),
             ConstitutiveLaw::Friction { bound, reach, .. } => {
                 let (side, reach) = if excess < 0.0 {
                     (-1.0, reach[0])
@@ -218,7 +239,8 @@ mod tests {
         let friction = friction_law(0.2);
         for law in [
             ConstitutiveLaw::Linear,
-            ConstitutiveLaw::TensionOnly,
+            ConstitutiveLaw::LimitedPush { most: 0.0 },
+            ConstitutiveLaw::LimitedPush { most: 1.5 },
             friction,
         ] {
             let mut last = f64::NEG_INFINITY;
@@ -249,7 +271,7 @@ mod tests {
         let mut law = friction_law(0.0);
         *law.bound_mut().unwrap() = 5.0;
         assert_eq!(law.bounds(&[10.0, 0.0]), Some([5.0, 1.0]));
-        assert_eq!(ConstitutiveLaw::TensionOnly.bounds(&[10.0, 0.0]), None);
+        assert_eq!(ConstitutiveLaw::Linear.bounds(&[10.0, 0.0]), None);
     }
 
     #[test]

@@ -103,13 +103,8 @@ impl Island {
 
     /// Whether more than one factorisation and one solve may be needed: it has contacts, chains or
     /// contact nodes.
-    pub(super) fn iterates(&self, world: &World) -> bool {
-        let slides = |kind: &NodeKind| matches!(kind, NodeKind::Contact { .. });
-        let mut wires = self.wires.iter().map(|&wire| &world.wires[wire]);
-        !self.contacts.is_empty()
-            || wires.any(|wire| {
-                wire.material.is_chain() || wire.nodes.iter().any(|node| slides(&node.kind))
-            })
+    pub(super) fn iterates(&self) -> bool {
+        !self.contacts.is_empty() || !self.wires.is_empty()
     }
 
     /// Segments and contacts.

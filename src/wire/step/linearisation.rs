@@ -79,7 +79,7 @@ impl Linearisation {
         let mut rows = rows.iter();
         for (at, (wire, own)) in world.wires.iter().zip(&mut self.0).enumerate() {
             for ((segment, own), row) in own.iter_mut().enumerate().zip(rows.by_ref()) {
-                let tension = x[row.multiplier] / world.settings.step;
+                let tension = row.impulse(x) / world.settings.step;
                 // Before the first step no tension is known.
                 let is_more = world.steps > 0 && tension > GROWTH * own.tension;
                 if is_more && is_short(world, at, segment, tension) {

@@ -88,7 +88,7 @@ fn predict(system: &mut System, values: &[f64]) {
         .iter_mut()
         .filter_map(|row| row.softened.as_mut());
     for (soft, multiplier) in chains.zip(multipliers) {
-        soft.predicted = multiplier.max(0.0);
+        soft.predict(*multiplier);
     }
 }
 

@@ -37,16 +37,25 @@ pub(super) struct Row {
     pub(super) law: ConstitutiveLaw,
     /// The branch of the law that is solved with.
     pub(super) branch: Branch,
-    /// Where contacts are in the system, the law of a chain is softened.
+    /// Where contacts are in the system, the laws of segments that may push with all they can are softened.
     pub(super) softened: Option<Softened>,
 }
 
-/// A law that gives way to a multiplier that was not predicted.
+/// The law of a segment, which gives way to a multiplier that was not predicted.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Softened {
     pub(super) softness: Softness,
+    /// The largest push in N s.
+    most: f64,
     /// The predicted multiplier in N s.
     pub(super) predicted: f64,
+}
+
+impl Softened {
+    /// Predicts a multiplier, or the largest push.
+    pub(super) fn predict(&mut self, multiplier: f64) {
+        self.predicted = multiplier.max(-self.most);
+    }
 }
 
 impl Row {
@@ -78,6 +87,11 @@ impl Row {
         slides.fold(of_points, |sum, &(column, value)| sum + value * x[column])
     }
 
+    /// Its multiplier for a solution, in N s or N m s.
+    pub(super) fn impulse(&self, x: &[f64]) -> f64 {
+        x[self.multiplier] + self.branch.offset
+    }
+
     /// How fast the second carrier leaves the first for a solution, in m/s: of a row of stretch.
     pub(super) fn way(&self, x: &[f64]) -> Vector {
         self.terms[1].0.velocity(x) - self.terms[0].0.velocity(x)
@@ -99,15 +113,29 @@ impl Row {
     /// The energy in J that the force of a solution stores. With SPOOK the force is `f = (e + tau G v+) / eps`, with
     /// `e` as the row is halfway. What damping adds to a force stores nothing, and what it takes from one
     /// is never given back: so it is `min(|e|, |eps f|)^2 / (2 eps)`, and 0 where damping alone gives the force.
+    /// Of a segment that has buckled `f` is what it would have, and what it is shorter is stored at the force that it has.
     pub(super) fn elastic_energy(&self, x: &[f64], step: f64) -> f64 {
-        let force = x[self.multiplier] / step;
+        let has_buckled = self.branch.offset != 0.0;
+        let impulse = if has_buckled {
+            self.excess(x) / self.sigma
+        } else {
+            x[self.multiplier]
+        };
+        let force = impulse / step;
         if force == 0.0 || self.compliance == 0.0 {
             return 0.0;
         }
         let way = self.compliance * force.abs();
         let added = self.damping * self.velocity(x) * force.signum();
         let stored = (way - added.max(0.0)).max(0.0);
-        stored * stored / (2.0 * self.compliance)
+        let most = -self.branch.offset / step;
+        let beyond = if has_buckled {
+            (stored - self.compliance * most).max(0.0)
+        } else {
+            0.0
+        };
+        let elastic = stored - beyond;
+        elastic * elastic / (2.0 * self.compliance) + most * beyond
     }
 
     /// What the velocities that are prescribed do by the multiplier of a solution, in J.
@@ -116,7 +144,7 @@ impl Row {
         if self.fed == 0.0 && !self.terms.iter().any(is_given) {
             return 0.0;
         }
-        self.given() * (x[self.multiplier] + self.branch.offset)
+        self.given() * self.impulse(x)
     }
 
     /// Whether the solution decides which branch holds.
@@ -124,7 +152,7 @@ impl Row {
         match self.law {
             ConstitutiveLaw::Linear => false,
             // A segment without length has no direction.
-            ConstitutiveLaw::TensionOnly => {
+            ConstitutiveLaw::LimitedPush { .. } => {
                 let mut terms = self.terms.iter();
                 terms.any(|(_, along)| along.norm_squared() > 0.0)
             }
@@ -132,10 +160,14 @@ impl Row {
         }
     }
 
-    /// Softens the law of a chain near a predicted multiplier, and takes the branch that gives it.
-    /// `masses` is the diagonal of the mass matrix.
+    /// Softens the law of a segment near a predicted multiplier if it may well be at its largest push, as a chain always
+    /// may, and takes the branch that gives it. `masses` is the diagonal of the mass matrix.
     pub(super) fn soften(&mut self, masses: &[f64], predicted: f64) {
-        if self.law != ConstitutiveLaw::TensionOnly || !self.may_change() {
+        let ConstitutiveLaw::LimitedPush { most } = self.law else {
+            return;
+        };
+        let is_far = most > 0.0 && predicted > -most / 2.0;
+        if is_far || !self.may_change() {
             return;
         }
         let mut mobility = 0.0;
@@ -144,8 +176,19 @@ impl Row {
         if mobility > 0.0 {
             self.softened = Some(Softened {
                 softness: Softness::new(mobility),
-                predicted: predicted.max(0.0),
+                most,
+                predicted: predicted.max(-most),
             });
+        }
+    }
+
+    /// Lets a segment that resists bending push with whatever it has to.
+    pub(super) fn let_push(&mut self) {
+        if matches!(self.law, ConstitutiveLaw::LimitedPush { most } if most > 0.0) {
+            self.law = ConstitutiveLaw::Linear;
+            if self.branch.offset != 0.0 {
+                self.branch = Branch::ACTIVE;
+            }
         }
     }
 
@@ -161,18 +204,7 @@ impl Row {
             None => self.law.branch(excess, self.sigma),
             Some(soft) => {
                 let start = -soft.softness.compliance * soft.predicted;
-                if excess > start {
-                    Branch {
-                        start,
-                        range: [start, f64::INFINITY],
-                        ..Branch::ACTIVE
-                    }
-                } else {
-                    Branch {
-                        range: [f64::NEG_INFINITY, start],
-                        ..Branch::INACTIVE
-                    }
-                }
+                Branch::of_push(excess, start, self.regularisation(), soft.most)
             }
         }
     }
@@ -181,7 +213,7 @@ impl Row {
     /// what was predicted. Returns whether this changes the system.
     pub(super) fn take_branch(&mut self, x: &[f64], predicted: bool) -> bool {
         let excess = match &self.softened {
-            Some(soft) if predicted && soft.predicted > 0.0 => self.sigma * soft.predicted,
+            Some(soft) if predicted && soft.predicted > -soft.most => self.sigma * soft.predicted,
             _ => self.excess(x),
         };
         let branch = self.branch_at(excess);
@@ -212,7 +244,7 @@ impl Row {
         let (excess, sigma) = (self.excess(x), self.regularisation());
         let due = self.branch_at(excess).load(excess, sigma);
         let off = (due - self.branch.load(excess, sigma)).abs() / sigma;
-        let unforeseen = (x[self.multiplier].max(0.0) - soft.predicted).abs();
+        let unforeseen = (self.impulse(x).max(-soft.most) - soft.predicted).abs();
         [
             off * soft.softness.mobility,
             unforeseen * soft.softness.compliance,
@@ -221,8 +253,9 @@ impl Row {
 
     /// Makes the multiplier of a solution the next prediction.
     pub(super) fn update_prediction(&mut self, x: &[f64]) {
+        let impulse = self.impulse(x);
         if let Some(soft) = &mut self.softened {
-            soft.predicted = x[self.multiplier].max(0.0);
+            soft.predict(impulse);
         }
     }
 
@@ -336,7 +369,8 @@ pub(super) fn rows(world: &World, linearisation: &Linearisation, layout: &Layout
 }
 
 /// `g = |d| - l0`, `G = [-t, t]`, `eps = l0 / (E A)`, with the direction `t` that the step is linear about. A
-/// segment without length has no direction: its row does not count.
+/// segment without length has no direction: its row does not count. It pushes no more than
+/// [`Wire::largest_push`].
 fn stretch(
     wire: &Wire,
     segment: usize,
@@ -353,8 +387,10 @@ fn stretch(
     let nodes = &wire.nodes[segment..segment + 2];
     let sliding = nodes[1].slide - nodes[0].slide;
     let speed = (nodes[1].velocity - nodes[0].velocity).dot(&t) - sliding;
-    let slack = wire.segments[segment].tension <= 0.0 && length < rest;
-    let counts = length > 0.0 && !(material.is_chain() && slack);
+    let most = settings.step * wire.largest_push(settings.step);
+    let law = ConstitutiveLaw::LimitedPush { most };
+    let tension = wire.segments[segment].tension;
+    let is_buckled = length < rest && settings.step * tension <= -most;
     Row {
         multiplier,
         terms: smallvec![(start, -along), (end, along)],
@@ -364,15 +400,12 @@ fn stretch(
         damping: material.stretch_damping,
         sigma: spook.sigma,
         target: spook.target(length - rest, speed),
-        law: if material.is_chain() {
-            ConstitutiveLaw::TensionOnly
-        } else {
-            ConstitutiveLaw::Linear
-        },
-        branch: if counts {
-            Branch::ACTIVE
-        } else {
+        law,
+        branch: if length == 0.0 {
             Branch::INACTIVE
+        } else {
+            let excess = if is_buckled { -1.0 } else { 1.0 } * f64::INFINITY;
+            law.branch(excess, spook.sigma)
         },
         softened: None,
     }

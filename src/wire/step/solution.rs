@@ -202,7 +202,7 @@ fn solve(
     phases: &mut Phases,
 ) -> Result<Vec<Solved>, Reason> {
     let weight = |(island, _): &(Island, Option<Structure>)| {
-        let iterates = island.iterates(world);
+        let iterates = island.iterates();
         if iterates { island.things(world) } else { 0 }
     };
     let weights: Vec<usize> = islands.iter().map(weight).collect();
@@ -236,7 +236,7 @@ impl Solved {
         let wires = self.island.wires.iter();
         let tensions = wires.map(|&wire| {
             let stretch = rows.by_ref().take(world.wires[wire].segments.len());
-            let impulses = stretch.map(|row| self.candidate.x[row.multiplier]);
+            let impulses = stretch.map(|row| row.impulse(&self.candidate.x));
             (wire, impulses.collect())
         });
         tensions.collect()

@@ -142,7 +142,8 @@ impl World {
     /// Contacts are swept while the same segments pull; then it is found which pull and slide under
     /// these impulses, until that changes nothing. Friction may let it change for ever: after
     /// [`ROUNDS`], or when the budget is spent, the impulses stay as they are, and the record has the
-    /// residual of the contacts.
+    /// residual of the contacts. With more than a few contacts, which segments push with all they can would
+    /// change with every round: there all but those of chains push with whatever they have to.
     fn solve_with_swept_contacts(
         &self,
         system: &mut System,
@@ -152,6 +153,9 @@ impl World {
         phases: &mut Phases,
     ) -> Result<Candidate, Reason> {
         let mut clock = Clock::start();
+        if contacts.len() >= *FORMED.start() {
+            system.rows.iter_mut().for_each(|row| row.let_push());
+        }
         system.factor()?;
         budget.spend(system.multiplications());
         phases.factor += clock.lap();
