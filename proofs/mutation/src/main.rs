@@ -67,7 +67,10 @@ struct Options {
     /// Count the mutants, and run no test
     #[arg(long)]
     list: bool,
-    /// The project; what is built goes to its `target/mutation`
+    /// Built by the profile of tests, with little optimisation and all checks: that takes less time for few mutants
+    #[arg(long)]
+    dev: bool,
+    /// The project; what is kept is in its `target/mutation`
     #[arg(long, default_value = ".")]
     project: PathBuf,
 }
@@ -80,6 +83,7 @@ const CERTIFIED: Subject = Subject {
     sources: &["src/certified"],
     tested: &["tunnelproof"],
     features: "tunnelproof/rayon",
+    profile: "release",
     answers: include_str!("certified.rs.txt"),
 };
 const JUDGES: Subject = Subject {
@@ -97,6 +101,7 @@ const JUDGES: Subject = Subject {
     ],
     tested: &["tunnelproof", "tunnelproof-reference"],
     features: "",
+    profile: "release",
     answers: include_str!("judges.rs.txt"),
 };
 
@@ -202,6 +207,8 @@ fn main() -> Result<()> {
         "judges" => (JUDGES, JUDGES_TESTS, ""),
         other => bail!("no subject {other}"),
     };
+    let profile = if options.dev { "dev" } else { subject.profile };
+    let subject = Subject { profile, ..subject };
     // Files alone are built apart, so that what has all mutants is kept.
     let part = if options.file.is_empty() {
         ""

@@ -60,7 +60,8 @@ fn programs(
     let output = cargo(tree)
         .args([
             "test",
-            "--release",
+            "--profile",
+            subject.profile,
             "--no-run",
             "--message-format",
             "json",

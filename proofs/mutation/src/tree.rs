@@ -23,6 +23,8 @@ pub struct Subject {
     pub tested: &'static [&'static str],
     /// The features of the package that are on.
     pub features: &'static str,
+    /// The profile that it is built by.
+    pub profile: &'static str,
     /// The source of the test that asks for answers.
     pub answers: &'static str,
 }
@@ -148,6 +150,8 @@ pub fn mutate(project: &Path, tree: &Path, subject: &Subject, part: &str) -> Res
     let written = sources.iter().map(|source| &*source.name);
     let written = written.chain(lib.to_str()).collect();
     copy(project, tree, &written)?;
+    let manifest = fs::read_to_string(project.join("Cargo.toml"))?;
+    put(&tree.join("Cargo.toml"), without_lints(&manifest)?.as_bytes())?;
     let names = sources
         .iter()
         .flat_map(|source| constants(&source.file))
@@ -242,13 +246,22 @@ struct Place {
     is_primary: bool,
 }
 
+/// A manifest that allows everything that is not an error.
+fn without_lints(manifest: &str) -> Result<String> {
+    const OPENING: &str = "[workspace.lints.rust]\n";
+    let (before, lints) = manifest.split_once(OPENING).context("no lints")?;
+    let (_, after) = lints.split_once("[package]").context("no package")?;
+    Ok(format!("{before}{OPENING}warnings = \"allow\"\n\n[package]{after}"))
+}
+
 /// The mutants that the compiler refuses.
 fn refused(tree: &Path, subject: &Subject) -> Result<BTreeSet<u32>> {
     let package = tree.join(subject.package);
     let output = cargo(tree)
         .args([
             "check",
-            "--release",
+            "--profile",
+            subject.profile,
             "--lib",
             "--message-format",
             "json",
@@ -297,12 +310,11 @@ fn refused(tree: &Path, subject: &Subject) -> Result<BTreeSet<u32>> {
     Ok(refused)
 }
 
-/// Cargo for the copy: without lints, and with a folder of its own to build in.
+/// Cargo for the copy. It builds in the project's `target`, three folders up, where what it depends on is built once.
 pub fn cargo(tree: &Path) -> Command {
     let mut command = Command::new("cargo");
     command
         .current_dir(tree)
-        .env("RUSTFLAGS", "--cap-lints=allow")
-        .env("CARGO_TARGET_DIR", tree.with_file_name("build"));
+        .env("CARGO_TARGET_DIR", tree.join("../../.."));
     command
 }
