@@ -120,29 +120,33 @@ fn what_scripted_bodies_do_is_work_and_no_gain() {
     assert!(energy.largest_gain < 0.01 * lifted, "{energy:?}");
 }
 
-/// A winch that lets wire out over a load that stands on the ground: 0.5 m too much in a second, straight from above.
+/// A winch that sets a load of 300 kg down and lets 1 m of wire out over it, straight from above.
 fn let_out_over_a_load(radius: f64, rate: f64) -> String {
     format!(
-        "title = \"let out over a load\"\nduration = 3\n[settings]\nstep = {}\n\
+        "title = \"let out over a load\"\nduration = 6\n[settings]\nstep = {}\n\
          [[bodies]]\nname = \"hook\"\nshape = {{ box = {{ half = [0.4, 0.4, 0.2] }} }}\nposition = [0, 0, 6.2]\n\
-         [[bodies]]\nname = \"crate\"\nshape = {{ box = {{ half = [0.5, 0.5, 0.5] }} }}\nposition = [0, 0, 0.5]\n\
+         [[bodies]]\nname = \"crate\"\nshape = {{ box = {{ half = [0.5, 0.5, 0.5] }} }}\nposition = [0, 0, 1.5]\n\
          drive = {{ dynamic = {{ density = 300 }} }}\n\
          [[bodies]]\nname = \"ground\"\nshape = \"plane\"\nposition = [0, 0, 0]\n\
          [[wires]]\nname = \"wire\"\nmaterial = {{ radius = {radius} }}\nresolution = 0.25\n\
          route = [{{ eye = {{ body = \"crate\", local = [0, 0, 0.5] }} }}, {{ eye = {{ body = \"hook\", local = [0, 0, -0.2] }} }}]\n\
-         reel = [{{ from = 0.5, speed = 0.25 }}, {{ from = 1, speed = 0.5 }}, {{ from = 1.75, speed = 0 }}]\n",
+         reel = [{{ from = 0.5, speed = 0.25 }}, {{ from = 1, speed = 0.5 }}, {{ from = 4, speed = 0.25 }}, {{ from = 4.5, speed = 0 }}]\n",
         1.0 / rate
     )
 }
 
-/// Without a limit to what segments push the winch does some 20 kJ at 1/30 s.
+/// Without a limit to what segments push the winch does 192 kJ with 3 mm of steel at 1/30 s and 6.1 kJ at 1/60 s, and 201 kJ come
+/// from nothing in a step.
 #[test]
 fn wire_that_is_let_out_over_a_load_buckles() {
-    for (radius, work) in [(0.003, 20.0..100.0), (0.006, 150.0..700.0)] {
+    for (radius, work, gain) in [
+        (0.003, -2900.0..-2600.0, 10.0),
+        (0.006, -2500.0..-1500.0, 80.0),
+    ] {
         for rate in [30.0, 60.0, 240.0] {
             let energy = run(&let_out_over_a_load(radius, rate)).energy;
             assert!(work.contains(&energy.work), "{radius} {rate}: {energy:?}");
-            assert!(energy.largest_gain < 5.0, "{radius} {rate}: {energy:?}");
+            assert!(energy.largest_gain < gain, "{radius} {rate}: {energy:?}");
         }
     }
 }

@@ -151,7 +151,10 @@ pub fn mutate(project: &Path, tree: &Path, subject: &Subject, part: &str) -> Res
     let written = written.chain(lib.to_str()).collect();
     copy(project, tree, &written)?;
     let manifest = fs::read_to_string(project.join("Cargo.toml"))?;
-    put(&tree.join("Cargo.toml"), without_lints(&manifest)?.as_bytes())?;
+    put(
+        &tree.join("Cargo.toml"),
+        without_lints(&manifest)?.as_bytes(),
+    )?;
     let names = sources
         .iter()
         .flat_map(|source| constants(&source.file))
@@ -251,7 +254,9 @@ fn without_lints(manifest: &str) -> Result<String> {
     const OPENING: &str = "[workspace.lints.rust]\n";
     let (before, lints) = manifest.split_once(OPENING).context("no lints")?;
     let (_, after) = lints.split_once("[package]").context("no package")?;
-    Ok(format!("{before}{OPENING}warnings = \"allow\"\n\n[package]{after}"))
+    Ok(format!(
+        "{before}{OPENING}warnings = \"allow\"\n\n[package]{after}"
+    ))
 }
 
 /// The mutants that the compiler refuses.
