@@ -23,10 +23,12 @@ use tunnelproof_reference::certify::table::grouped;
 
 mod balance;
 mod behind;
+mod overlaps;
 mod table;
 
 pub use balance::EnergyBalance;
 pub use behind::Behind;
+pub use overlaps::Overlap;
 pub use table::StepTable;
 
 /// No continuous detection at all: wires get contacts where they overlap at the end of a step. In
@@ -116,6 +118,9 @@ pub struct Run<'a> {
     pub mode: Mode,
 }
 
+/// So many overlaps are shown.
+const OVERLAPS: usize = 5;
+
 /// What happened in a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Summary {
@@ -133,6 +138,8 @@ pub struct Summary {
     pub wall_collision: f64,
     /// Of this, the narrow phase: tests of pairs, and the contacts that come of them.
     pub wall_narrow: f64,
+    /// What stands in each other at the start of the scene, the deepest first.
+    pub overlaps: Vec<Overlap>,
     /// Pairs that the broad phase named.
     pub named: usize,
     /// Of these, excluded as too slow.
@@ -267,6 +274,9 @@ impl Run<'_> {
             summary.wall += started.elapsed().as_secs_f64();
             match record {
                 Ok(record) => {
+                    if record.step == 0 {
+                        summary.overlaps = overlaps::overlaps(&record, &world, self.scene);
+                    }
                     summary.add(&record);
                     behind::add(&mut summary.behind, &record, &world, self.scene);
                     observe(&world, &collisions, &record)?;
@@ -459,6 +469,12 @@ impl fmt::Display for Summary {
         }
         for (name, value) in rows {
             writeln!(f, "  {name:<22}{value}")?;
+        }
+        for overlap in self.overlaps.iter().take(OVERLAPS) {
+            writeln!(f, "  {:<22}{overlap}", "overlap at the start")?;
+        }
+        if let more @ 1.. = self.overlaps.len().saturating_sub(OVERLAPS) {
+            writeln!(f, "  {:<22}and {more} more", "")?;
         }
         for behind in &self.behind {
             writeln!(f, "  {:<22}{behind}", "behind its script")?;

@@ -12,9 +12,9 @@ pub struct EnergyBalance {
     pub start: f64,
     /// At the end.
     pub end: f64,
-    /// What scripted bodies did.
+    /// What scripted bodies and reels did.
     pub work: f64,
-    /// The most that came from nothing in one step: by how much energy grew beyond what scripted bodies did.
+    /// The most that came from nothing in one step: by how much energy grew beyond that.
     pub largest_gain: f64,
     /// The time at the end of that step, in s; none if energy never grew.
     pub gained_at: Option<f64>,
@@ -48,7 +48,10 @@ impl EnergyBalance {
 impl fmt::Display for EnergyBalance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [start, end, work] = [self.start, self.end, self.work].map(joules);
-        write!(f, "from {start} to {end}, scripted bodies did {work}")
+        write!(
+            f,
+            "from {start} to {end}, scripted bodies and reels did {work}"
+        )
     }
 }
 

@@ -1,0 +1,121 @@
+//! What stands in each other where a run starts.
+
+use std::fmt;
+
+use serde::Serialize;
+use tunnelproof::wire::{ContactSite, StepRecord, World};
+
+use crate::scenes::Scene;
+
+/// The part of a wire's radius by which it may stand in something.
+const OF_RADIUS: f64 = 0.1;
+
+/// How far two bodies may stand in each other, in m.
+const OF_BODIES: f64 = 1e-3;
+
+/// Two wires or bodies whose surfaces are in each other at the start: contacts push them apart, and that takes and gives
+/// energy.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Overlap {
+    /// Their names in the scene, and where on a wire.
+    pub between: [String; 2],
+    /// How deep, in m.
+    pub depth: f64,
+}
+
+/// Those of the first step of a scene, the deepest of every two, and the deepest first.
+pub(super) fn overlaps(record: &StepRecord, world: &World, scene: &Scene) -> Vec<Overlap> {
+    let mut deepest: Vec<([usize; 2], Overlap)> = Vec::new();
+    for contact in &record.contacts {
+        let sites = [contact.contact.a, contact.contact.b];
+        let depth = -contact.contact.gap;
+        if depth <= allowed(sites, world) {
+            continue;
+        }
+        let mut pair = sites.map(|site| number(site, world));
+        pair.sort_unstable();
+        let between = sites.map(|site| name(site, scene));
+        let overlap = Overlap { between, depth };
+        match deepest.iter_mut().find(|(of, _)| *of == pair) {
+            None => deepest.push((pair, overlap)),
+            Some((_, known)) if depth > known.depth => *known = overlap,
+            Some(_) => {}
+        }
+    }
+    deepest.sort_by(|(_, a), (_, b)| b.depth.total_cmp(&a.depth));
+    deepest.into_iter().map(|(_, overlap)| overlap).collect()
+}
+
+/// How deep two may stand in each other without a word: a contact holds its load by a little of that.
+fn allowed(sites: [ContactSite; 2], world: &World) -> f64 {
+    let radii = sites.into_iter().filter_map(|site| match site {
+        ContactSite::Wire { wire, .. } => Some(world.wires()[wire.0].material().radius),
+        _ => None,
+    });
+    let thinnest = radii.reduce(f64::min);
+    thinnest.map_or(OF_BODIES, |radius| OF_RADIUS * radius)
+}
+
+/// Wires first, then bodies, then the world.
+fn number(site: ContactSite, world: &World) -> usize {
+    match site {
+        ContactSite::Wire { wire, .. } => wire.0,
+        ContactSite::Body { body, .. } => world.wires().len() + body.0,
+        ContactSite::World => usize::MAX,
+    }
+}
+
+fn name(site: ContactSite, scene: &Scene) -> String {
+    match site {
+        ContactSite::Wire { wire, arc } => format!("{} at {arc:.3} m", scene.wires[wire.0].name),
+        ContactSite::Body { body, .. } => scene.bodies[body.0].name.clone(),
+        ContactSite::World => "the world".to_owned(),
+    }
+}
+
+impl fmt::Display for Overlap {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [one, other] = &self.between;
+        write!(f, "{one} and {other}: {:.3} mm", 1e3 * self.depth)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tunnelproof::wire::Mode;
+
+    use crate::scenes::{Scene, SceneError};
+    use crate::simulate::{Narrow, Run};
+
+    /// What is said of a rope that starts so high over a box, and of a ball that starts so high over it.
+    fn said(rope: f64, ball: f64) -> Vec<String> {
+        let text = format!(
+            "title = \"laid\"\nduration = 0.1\n\
+             [[bodies]]\nname = \"box\"\nshape = {{ box = {{ half = [1, 1, 0.5] }} }}\nposition = [0, 0, -0.5]\n\
+             [[bodies]]\nname = \"ball\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nposition = [0.7, 0.7, {ball}]\n\
+             drive = {{ dynamic = {{ density = 1000 }} }}\n\
+             [[wires]]\nname = \"rope\"\nresolution = 0.25\nmaterial = {{ radius = 0.01, bend_modulus = 3e8 }}\n\
+             route = [{{ free = [-0.5, 0, {rope}] }}, {{ free = [0.5, 0, {rope}] }}]\n"
+        );
+        let scene = Scene::from_toml(&text).unwrap();
+        let narrow = Narrow::Certified.phase();
+        let run = Run {
+            scene: &scene,
+            narrow: &*narrow,
+            mode: Mode::Guard,
+        };
+        let summary = run.go(|_, _| Ok::<(), SceneError>(())).unwrap();
+        summary.overlaps.iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn what_stands_in_a_body_at_the_start_is_named_the_deepest_first() {
+        assert!(said(0.01, 0.1).is_empty());
+        assert!(said(0.0095, 0.0995).is_empty());
+        let [rope, ball] = &said(0.004, 0.097)[..] else {
+            panic!("two overlaps");
+        };
+        assert!(rope.starts_with("rope at ") && rope.ends_with(" m and box: 6.000 mm"));
+        assert!(["box and ball: 3.000 mm", "ball and box: 3.000 mm"].contains(&ball.as_str()));
+    }
+}
