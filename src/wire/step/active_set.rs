@@ -60,9 +60,15 @@ pub(super) fn leaves_hard_branch(rows: &[Row], x: &[f64]) -> bool {
     leaves(rows.iter().filter(hard), x)
 }
 
-fn leaves<'a>(mut changing: impl Iterator<Item = &'a Row> + Clone, x: &[f64]) -> bool {
+fn leaves<'a>(changing: impl Iterator<Item = &'a Row> + Clone, x: &[f64]) -> bool {
+    let is_left = |row: &Row, accepted| row.branch.is_left(row.excess(x), accepted);
+    // Mostly none is, and then it does not matter by how much one might be.
+    if !changing.clone().any(|row| is_left(row, 0.0)) {
+        return false;
+    }
     let accepted = accepted(changing.clone(), x);
-    changing.any(|row| row.branch.is_left(row.excess(x), accepted))
+    let mut changing = changing;
+    changing.any(|row| is_left(row, accepted))
 }
 
 /// What the excess of rows may be off by.

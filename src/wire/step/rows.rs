@@ -337,19 +337,21 @@ pub(super) fn normal_row(settings: &Settings, contact: &ContactConstraint, speed
 pub(super) fn rows(world: &World, linearisation: &Linearisation, layout: &Layout) -> Vec<Row> {
     let mut rows = Vec::with_capacity(layout.stretch.len() + 3 * layout.bend.len());
     for (at, (wire, &first)) in world.wires.iter().zip(&layout.first_node).enumerate() {
+        let step = world.settings.step;
+        let most = step * wire.largest_push(step);
         for segment in 0..wire.segments.len() {
             let multiplier = layout.stretch[rows.len()];
             let ends = [first + segment, first + segment + 1];
             let carriers = ends.map(|node| layout.nodes[node]);
             let along = linearisation.of(at, segment).along;
-            let mut row = stretch(wire, segment, along, carriers, multiplier, &world.settings);
+            let mut row = stretch(wire, segment, along, carriers, multiplier, most, step);
             // Arc length that moves over its nodes changes what the segment is unstretched.
             let slides = ends.into_iter().zip([1.0, -1.0]);
             row.slides = slides
                 .filter_map(|(node, value)| layout.slides[node].map(|column| (column, value)))
                 .collect();
             if segment + 1 == wire.segments.len() {
-                row.fed = wire.reel_speed(world.time(), world.settings.step);
+                row.fed = wire.reel_speed(world.time(), step);
             }
             rows.push(row);
         }
@@ -369,28 +371,27 @@ pub(super) fn rows(world: &World, linearisation: &Linearisation, layout: &Layout
 }
 
 /// `g = |d| - l0`, `G = [-t, t]`, `eps = l0 / (E A)`, with the direction `t` that the step is linear about. A
-/// segment without length has no direction: its row does not count. It pushes no more than
-/// [`Wire::largest_push`].
+/// segment without length has no direction: its row does not count. It pushes with `most` N s at
+/// most, from [`Wire::largest_push`].
 fn stretch(
     wire: &Wire,
     segment: usize,
     along: Vector,
     [start, end]: [Carrier; 2],
     multiplier: usize,
-    settings: &Settings,
+    most: f64,
+    step: f64,
 ) -> Row {
     let (t, length) = unit(&wire.span(segment));
     let rest = wire.rest_length(segment);
     let material = &wire.material;
     let compliance = rest / material.stretch_stiffness();
-    let spook = Spook::new(compliance, material.stretch_damping, settings.step);
+    let spook = Spook::new(compliance, material.stretch_damping, step);
     let nodes = &wire.nodes[segment..segment + 2];
     let sliding = nodes[1].slide - nodes[0].slide;
     let speed = (nodes[1].velocity - nodes[0].velocity).dot(&t) - sliding;
-    let most = settings.step * wire.largest_push(settings.step);
     let law = ConstitutiveLaw::LimitedPush { most };
-    let tension = wire.segments[segment].tension;
-    let is_buckled = length < rest && settings.step * tension <= -most;
+    let is_buckled = length < rest && step * wire.segments[segment].tension <= -most;
     Row {
         multiplier,
         terms: smallvec![(start, -along), (end, along)],
