@@ -174,15 +174,16 @@ fn sliding(wire: &Wire) -> f64 {
 /// Of every segment the lesser of `T^2 / (2 k)` with the tension of the last step and `k g^2 / 2` as it lies: what damping
 /// added to a force is no energy, nor is a hair of which there was no force. Bending and twist are as the wire lies.
 fn of_forces(wire: &Wire, step: f64) -> f64 {
+    let push = wire.largest_push(step);
     let segments = wire.segments.iter().enumerate();
     let stretch = segments.map(|(at, segment)| {
         let rest = wire.rest_length(at);
         let stiffness = wire.material.stretch_stiffness() / rest;
         let longer = wire.span(at).norm() - rest;
-        let beyond = buckled(wire, at, longer, step);
+        let beyond = buckled(wire, at, longer, push);
         let elastic = stiffness * (longer.abs() - beyond);
         let force = segment.tension.abs().min(elastic);
-        force * force / (2.0 * stiffness) + wire.largest_push(step) * beyond
+        force * force / (2.0 * stiffness) + push * beyond
     });
     let bends = (1..wire.segments.len()).map(|node| bending(wire, node));
     stretch.sum::<f64>() + bends.sum::<f64>() + wire.twist_energy()
@@ -192,14 +193,15 @@ fn of_forces(wire: &Wire, step: f64) -> f64 {
 /// the force at which it buckles, none for a chain.
 fn elastic(wire: &Wire, step: f64) -> f64 {
     let material = &wire.material;
+    let push = wire.largest_push(step);
     let mut energy = 0.0;
     for segment in 0..wire.segments.len() {
         let rest = wire.rest_length(segment);
         let longer = wire.span(segment).norm() - rest;
-        let beyond = buckled(wire, segment, longer, step);
+        let beyond = buckled(wire, segment, longer, push);
         let elastic = longer.abs() - beyond;
         energy += elastic * elastic * material.stretch_stiffness() / (2.0 * rest);
-        energy += wire.largest_push(step) * beyond;
+        energy += push * beyond;
         if segment > 0 {
             energy += bending(wire, segment);
         }
@@ -208,10 +210,10 @@ fn elastic(wire: &Wire, step: f64) -> f64 {
 }
 
 /// By how much a segment that is `longer` than unstretched, or shorter where that is negative, is shorter than where it
-/// buckles, in m.
-fn buckled(wire: &Wire, segment: usize, longer: f64, step: f64) -> f64 {
+/// buckles under its largest push, in m.
+fn buckled(wire: &Wire, segment: usize, longer: f64, push: f64) -> f64 {
     let rest = wire.rest_length(segment);
-    let strain = wire.largest_push(step) / wire.material.stretch_stiffness();
+    let strain = push / wire.material.stretch_stiffness();
     (-longer - strain * rest).max(0.0)
 }
 

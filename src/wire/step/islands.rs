@@ -101,8 +101,7 @@ impl Island {
         BodyId(number(&self.bodies, body.0))
     }
 
-    /// Whether more than one factorisation and one solve may be needed: it has contacts, chains or
-    /// contact nodes.
+    /// Whether more than one factorisation and one solve may be needed: it has contacts or wires.
     pub(super) fn iterates(&self) -> bool {
         !self.contacts.is_empty() || !self.wires.is_empty()
     }

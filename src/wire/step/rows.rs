@@ -405,7 +405,11 @@ fn stretch(
         branch: if length == 0.0 {
             Branch::INACTIVE
         } else {
-            let excess = if is_buckled { -1.0 } else { 1.0 } * f64::INFINITY;
+            let excess = if is_buckled {
+                f64::NEG_INFINITY
+            } else {
+                f64::INFINITY
+            };
             law.branch(excess, spook.sigma)
         },
         softened: None,
