@@ -1,4 +1,4 @@
-//! The scene of a crane, whose winch hauls a rope in and lets it out.
+//! The scene of a crane, whose reel hauls a rope in and lets it out, and that of a winch with a drum.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -8,6 +8,7 @@ use tunnelproof::wire::{Collisions, Mode, World};
 use tunnelproof_cli::scenes::Scene;
 
 const CRANE: &str = include_str!("../scenes/crane.toml");
+const WINCH: &str = include_str!("../scenes/winch.toml");
 
 fn start(text: &str) -> (Scene, World, Collisions<'static>) {
     let scene = Scene::from_toml(text).unwrap();
@@ -53,6 +54,30 @@ fn crane_lifts_a_crate_over_the_wall_and_sets_it_down() {
         energy - first < work && energy - first > work - 600.0,
         "{energy} {first} {work}"
     );
+}
+
+/// The drum turns by 10.5 rad with wire of 10 mm on 300 mm, and back, whatever the step.
+#[test]
+fn winch_lifts_a_crate_and_lowers_it_again() {
+    for rate in [30.0, 60.0, 240.0] {
+        let step = format!("[settings]\nstep = {}\n\n[[bodies]]", 1.0 / rate);
+        let (scene, mut world, mut collisions) = start(&WINCH.replacen("[[bodies]]", &step, 1));
+        let mut energy = world.energy_halfway().total();
+        let (mut most, mut places) = (0.0f64, Vec::new());
+        for _ in 0..scene.steps() {
+            let record = world.step_colliding(&mut collisions, &[]).unwrap();
+            let now = record.energy.total();
+            most = most.max(now - energy - record.work);
+            energy = now;
+            places.push(world.bodies()[2].position());
+        }
+        let at = |time: f64| places[(time * rate) as usize - 1];
+        let [hangs, lifted, lowered] = [2.5, 14.5, 27.0].map(at);
+        let lift = lifted.z - hangs.z;
+        assert!((lift - 10.5 * 0.31).abs() < 0.02, "{rate}: {lift}");
+        assert!((lowered.z - hangs.z).abs() < 0.015, "{rate}: {lowered}");
+        assert!(most < 3.0, "{rate}: {most} J from nothing");
+    }
 }
 
 /// A state in the middle of a lift goes on to the bit, and with another reel it says so.

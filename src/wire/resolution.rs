@@ -27,7 +27,7 @@ pub struct Remesh {
     /// Whether the node in the middle is taken out or put in.
     pub kind: RemeshKind,
     /// The nodes before, in and after the middle. The wire sweeps this triangle. For a node put in
-    /// it is as flat as rounding allows.
+    /// it is as flat as rounding allows, but for a contact node that is put onto the surface of its body.
     pub triangle: [Point; 3],
     /// Their arc lengths in m.
     pub arcs: [f64; 3],
@@ -145,7 +145,7 @@ fn is_folded(wire: &Wire, node: usize) -> bool {
 
 /// Whether an end of a wire that resists twist would be clamped without a node: what clamps it is its
 /// route alone.
-fn joins_a_clamp(wire: &Wire, node: usize) -> bool {
+pub(super) fn joins_a_clamp(wire: &Wire, node: usize) -> bool {
     let is_beside_end = node == 1 || node + 2 == wire.nodes.len();
     is_beside_end
         && wire.material.twist_modulus > 0.0
@@ -216,7 +216,7 @@ pub(super) fn remesh(wire: usize, kind: RemeshKind, nodes: &[Node; 3]) -> Remesh
 /// neighbour, it takes that; what moves as it is prescribed takes none. Along a wire that slides
 /// over a neighbour momentum stays in the wire. The end at a reel takes none: the wire moves on over
 /// it.
-fn take_out(world: &mut World, at: usize, node: usize, remesh_from: u64) {
+pub(super) fn take_out(world: &mut World, at: usize, node: usize, remesh_from: u64) {
     let wire = &mut world.wires[at];
     let half = wire.material.mass_per_length() / 2.0;
     let sides = [(node - 1, node - 1, node), (node + 1, node, node - 1)].map(

@@ -2,7 +2,8 @@
 
 use tunnelproof::query::EdgeEdge;
 use tunnelproof::wire::{
-    ContactConstraint, ContactSite, NodeKind, Remesh, RemeshKind, SegmentId, StepRecord, WireId,
+    BodyId, ContactConstraint, ContactSite, NodeKind, Remesh, RemeshKind, SegmentId, StepRecord,
+    WireId,
 };
 
 use super::aside::{Held, Node, Passages, passages};
@@ -25,6 +26,11 @@ pub(super) struct Meeting {
     pub(super) id: SegmentId,
     pub(super) query: EdgeEdge,
     pub(super) passages: Passages,
+}
+
+/// Whether a body carries a node of this kind.
+fn is_on(kind: &NodeKind, body: BodyId) -> bool {
+    kind.carrier().is_some_and(|(carrier, _)| carrier == body)
 }
 
 impl Wires {
@@ -69,7 +75,7 @@ impl Wires {
                     .zip(&next.arcs)
                     .position(|(n, arc)| n.arc != *arc)
             };
-            let kind = || (0..here.len()).find(|&k| !self.may_become(wire, k, &next.kinds[k]));
+            let kind = || (0..here.len()).find(|&k| !self.may_become(wire, k, &next.kinds));
             let (field, at) = match arc() {
                 Some(at) => (Field::Arcs, at),
                 None => (Field::Kinds, kind()?),
@@ -81,16 +87,20 @@ impl Wires {
     }
 
     /// Whether a node may be of this kind in the next step: of its own one, or a contact node where it
-    /// was free and a contact with the body pushed on the wire nearer than at its neighbours.
-    fn may_become(&self, wire: usize, node: usize, next: &NodeKind) -> bool {
+    /// was free and a contact with the body pushed on the wire nearer than at its neighbours, or wire comes onto the body
+    /// there.
+    fn may_become(&self, wire: usize, node: usize, next_kinds: &[NodeKind]) -> bool {
         let nodes = &self.nodes[wire];
-        let kind = &nodes[node].kind;
+        let (kind, next) = (&nodes[node].kind, &next_kinds[node]);
         let (NodeKind::Free, NodeKind::Contact { body, friction, .. }) = (kind, next) else {
             return kind == next;
         };
         let (Some(before), Some(after)) = (node.checked_sub(1), nodes.get(node + 1)) else {
             return false;
         };
+        if self.comes_onto(wire, node, *body, next_kinds) {
+            return true;
+        }
         let is_beside = |arc: f64| nodes[before].arc < arc && arc < after.arc;
         self.pushing
             .iter()
@@ -100,6 +110,17 @@ impl Wires {
                 }
                 _ => false,
             })
+    }
+
+    /// Whether a body carries a neighbour of a node, here and in the next step.
+    fn comes_onto(&self, wire: usize, node: usize, body: BodyId, next: &[NodeKind]) -> bool {
+        let neighbours = [node.checked_sub(1), Some(node + 1)];
+        neighbours.into_iter().flatten().any(|k| {
+            let here = self.nodes[wire].get(k).map(|node| &node.kind);
+            [here, next.get(k)]
+                .iter()
+                .all(|kind| kind.is_some_and(|kind| is_on(kind, body)))
+        })
     }
 
     /// The wires that do not start there in the next step.
@@ -130,11 +151,21 @@ impl Wires {
         let corners = corners
             .iter()
             .map(|&k| (change.triangle[k], change.arcs[k]));
-        let is_free = |nodes: &[Node]| nodes.len() < 3 || nodes[1].kind == NodeKind::Free;
+        // A body may lose a contact node beside another node that it carries.
+        let may_go = |nodes: &[Node]| match nodes {
+            [before, middle, after] => match middle.kind {
+                NodeKind::Free => true,
+                NodeKind::Contact { body, .. } => {
+                    [before, after].iter().any(|node| is_on(&node.kind, body))
+                }
+                _ => false,
+            },
+            _ => true,
+        };
         let mut windows = wire.windows(corners.len());
         let place = windows.position(|nodes| {
             let places = nodes.iter().map(|node| (node.at, node.arc));
-            places.eq(corners.clone()) && is_free(nodes)
+            places.eq(corners.clone()) && may_go(nodes)
         });
         place.filter(|_| change.arcs.is_sorted_by(|a, b| a < b))
     }

@@ -726,6 +726,64 @@ fn audit_finds_a_pin_that_moves() {
     assert!(!report.is_clean());
 }
 
+/// A drum that turns by a radian, and lifts a ball.
+const DRUM: &str = r#"
+title = "drum"
+duration = 1
+bodies = [
+  { name = "drum", shape = { cylinder = { radius = 0.3, half_height = 0.5 } }, position = [0, 0, 0], turn = { axis = [1, 0, 0], degrees = 90 }, drive = { kinematic = [{ from = 0, velocity = [0, 0, 0], angular_velocity = [0, -1, 0] }] } },
+  { name = "ball", shape = { sphere = { radius = 0.1 } }, position = [0.31, 0, -2.1], drive = { dynamic = { density = 1000 } } },
+]
+
+[[wires]]
+name = "rope"
+material = { radius = 0.01, bend_modulus = 0 }
+resolution = 0.1
+route = [{ eye = { body = "drum", local = [0.31, 0, 0] } }, { eye = { body = "ball", local = [0, 0, 0.1] } }]
+"#;
+
+#[test]
+fn audit_takes_wire_that_comes_onto_a_drum() {
+    let is_contact = |kind: &NodeKind| matches!(kind, NodeKind::Contact { .. });
+    let honest = tampered(DRUM, |records| {
+        let count = |record: &StepRecord| {
+            record.wires[0]
+                .kinds
+                .iter()
+                .filter(|kind| is_contact(kind))
+                .count()
+        };
+        assert!(records.iter().map(count).max().unwrap() > 3);
+        assert!(records.iter().all(|record| {
+            record
+                .contacts
+                .iter()
+                .all(|contact| contact.normal_force() == 0.0)
+        }));
+    });
+    assert!(honest.is_exact() && honest.is_clean());
+    // Not where the body carries no neighbour.
+    let forged = tampered(DRUM, |records| {
+        for record in records {
+            let kinds = &mut record.wires[0].kinds;
+            let last = kinds.iter().rposition(is_contact);
+            if let Some(last) = last.filter(|last| last + 3 < kinds.len()) {
+                kinds[last + 2] = kinds[last];
+            }
+        }
+    });
+    let altered = |what: &What| {
+        matches!(
+            what,
+            What::Altered {
+                field: Field::Kinds,
+                ..
+            }
+        )
+    };
+    assert!(found(&forged).iter().any(altered));
+}
+
 #[test]
 fn audit_finds_contact_nodes_that_come_and_go_without_a_reason() {
     let is_contact = |kind: &NodeKind| matches!(kind, NodeKind::Contact { .. });

@@ -11,7 +11,8 @@ use nalgebra::UnitQuaternion;
 
 use super::boxes::Boxes;
 use super::collision_shape::{CollisionShape, PlacedShape};
-use super::manifold::{Collider, along, contacts_of, join, leave_out_ends, things};
+use super::ends::Ends;
+use super::manifold::{Collider, Manifolds, along, contacts_of, join, leave_out_ends, things};
 use crate::broad::Method;
 use crate::parallel::mapped;
 use crate::query::Point;
@@ -25,8 +26,9 @@ use crate::wire::world::World;
 /// Where the keys of contacts with bodies start.
 pub(in crate::wire) const KEYS: u64 = 3 << 62;
 
-/// As a part of a wire's radius: by how much deeper a wire may come into a body as a node is taken out.
-const HAIR: f64 = 1.0 / 16.0;
+/// As a part of a wire's radius: by how much deeper a wire may come into a body as a node is taken out, and by how much it
+/// is pushed off a core at a time.
+pub(super) const HAIR: f64 = 1.0 / 16.0;
 
 /// How many pairs a thread tests at a time.
 const SHARE: usize = 64;
@@ -36,6 +38,8 @@ pub(super) struct BodyContacts {
     boxes: Boxes,
     /// Of each body.
     forms: Vec<CollisionShape>,
+    /// Where wires touched bodies beside nodes that these carry, as the step started.
+    pub(super) beside: Vec<ContactConstraint>,
     pub(super) known: KnownContacts,
 }
 
@@ -62,6 +66,7 @@ impl BodyContacts {
         BodyContacts {
             boxes: Boxes::new(method),
             forms: Vec::new(),
+            beside: Vec::new(),
             known: KnownContacts::default(),
         }
     }
@@ -78,6 +83,7 @@ impl BodyContacts {
         friction: f64,
     ) -> Result<(Vec<ContactConstraint>, usize), CollisionError> {
         self.learn(world)?;
+        self.beside.clear();
         if world.bodies.is_empty() {
             return Ok((Vec::new(), 0));
         }
@@ -85,25 +91,44 @@ impl BodyContacts {
         let moving = moving(world, &self.forms, &segments);
         let boxes = moving.iter().map(|m| m.placed.aabb(m.travel));
         self.boxes.place(boxes)?;
-        let keep = |[a, b]: [usize; 2]| is_pair(world, [moving[a].thing, moving[b].thing]);
-        let mut found = Vec::new();
+        let ends = Ends::new(world, &self.forms);
+        let keep = |[a, b]: [usize; 2]| is_pair(world, &ends, [moving[a].thing, moving[b].thing]);
+        let mut manifolds = Manifolds::default();
         let pairs = self.boxes.pairs(keep);
         // Bodies come first: A is a segment or the later body.
         let of =
             |at: usize| [pairs[at].second(), pairs[at].first()].map(|item| &moving[item.index()]);
         let spots = mapped(pairs.len(), SHARE, |at| {
             let [a, b] = of(at);
-            a.placed.touches(&b.placed, a.travel + b.travel)
+            let reach = a.travel + b.travel;
+            if let (Collider::Segment(id), Collider::Body(body)) = (a.thing, b.thing)
+                && let Some(part) = ends.beyond(world, id, body)
+            {
+                let piece = CollisionShape::of_segment(&part, id.of(world).material.radius);
+                let middle = nalgebra::center(&part[0], &part[1]);
+                let placed = piece.at(&middle, &UnitQuaternion::identity());
+                return placed.touches(&b.placed, reach);
+            }
+            a.placed.touches(&b.placed, reach)
         });
         for (at, spots) in spots.into_iter().enumerate() {
             let things = of(at).map(|moving| moving.thing);
-            contacts_of(world, things, spots, friction, &mut found);
+            contacts_of(world, &ends, things, spots, friction, &mut manifolds);
         }
         let tested = pairs.len();
-        leave_out_ends(world, &mut found);
-        let mut contacts = join(found);
+        leave_out_ends(world, &mut manifolds.found);
+        self.beside = manifolds.beside;
+        let mut contacts = join(manifolds.found);
         self.known.name(&mut contacts);
         Ok((contacts, tested))
+    }
+
+    /// How far a point is from the surface of a body in m, below 0 inside.
+    pub(super) fn distance(&self, world: &World, body: BodyId, point: &Point) -> f64 {
+        let placed = &world.bodies[body.0];
+        let form = &self.forms[body.0];
+        form.at(&placed.position, &placed.orientation)
+            .distance(point)
     }
 
     /// Bodies that were added since the last step.
@@ -283,9 +308,9 @@ fn moving<'f>(
     bodies.chain(segments).collect()
 }
 
-/// Whether two things are a pair to test: a segment and a body of which it is no end and that does
+/// Whether two things are a pair to test: a segment and a body in which it does not end and that does
 /// not carry both of its nodes, or two bodies of which forces move one.
-fn is_pair(world: &World, pair: [Collider; 2]) -> bool {
+fn is_pair(world: &World, ends: &Ends, pair: [Collider; 2]) -> bool {
     match pair {
         [Collider::Body(a), Collider::Body(b)] => {
             [a, b].iter().any(|body| world.bodies[body.0].dynamic)
@@ -293,8 +318,7 @@ fn is_pair(world: &World, pair: [Collider; 2]) -> bool {
         [Collider::Body(body), Collider::Segment(id)]
         | [Collider::Segment(id), Collider::Body(body)] => {
             let is_on = id.nodes(world).map(|node| node.kind.is_on(body));
-            let is_end = id.nodes(world).iter().any(|node| node.kind.is_eye(body));
-            !is_end && is_on != [true; 2]
+            is_on != [true; 2] && !ends.is_inside(id, body)
         }
         [Collider::Segment(_), Collider::Segment(_)] => false,
     }

@@ -6,6 +6,7 @@
 //! that touches the core or is inside it where the step starts is left out, for as long as that is
 //! so.
 
+use super::body_contacts::HAIR;
 use super::body_motion::{BodyWay, SegmentWay, Stage, between, into_body};
 use super::boxes::Boxes;
 use super::core_boxes::{self, Bounds, CornerBoxes};
@@ -583,9 +584,9 @@ impl BodyHit {
     }
 
     /// A contact by which the wire stays on its side of the body where the motion ends: as far from
-    /// the core as the surface and the wire's radius are. The end of a wire at its own body, which
-    /// has no contact with the surface, is held off the core and not pushed out of the surface. None
-    /// if the wire does not come from anywhere.
+    /// the core as the surface and the wire's radius are. What is in the surface already is held off the core, and pushed
+    /// out by no more than a hair: the contacts with the surface push it out, where it has any. None if the wire does not
+    /// come from anywhere.
     pub(super) fn row(
         &self,
         world: &World,
@@ -606,8 +607,6 @@ impl BodyHit {
         let arrives = ended.position + ended.orientation * self.local;
         let apart = normal.dot(&(place - arrives + straight));
         let gap = apart - inset - wire.material.radius;
-        let mut nodes = self.segment.nodes(world).into_iter();
-        let is_end = nodes.any(|node| node.kind.is_eye(self.body));
         Some(ContactConstraint {
             key,
             a: self.site.into(),
@@ -616,7 +615,7 @@ impl BodyHit {
                 local: self.local,
             },
             normal,
-            gap: if is_end { gap.max(0.0) } else { gap },
+            gap: gap.max(-HAIR * wire.material.radius),
             friction,
         })
     }

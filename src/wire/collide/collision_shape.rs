@@ -127,6 +127,14 @@ impl PlacedShape<'_> {
         Aabb::new(low.into(), high.into())
     }
 
+    /// How far a point is from its surface in m, below 0 inside.
+    pub(super) fn distance(&self, point: &Point) -> f64 {
+        let point = to_library(&point.coords);
+        let nearest = self.form.shape.project_point(&self.pose, point, false);
+        let apart = (nearest.point - point).length();
+        if nearest.is_inside { -apart } else { apart }
+    }
+
     /// Whether two pieces of a midline, from the first corner over the second to the third, do not
     /// meet it, but the triangle does that straightening them sweeps.
     pub(super) fn is_swept(&self, corners: &[Point; 3]) -> bool {

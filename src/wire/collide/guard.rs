@@ -311,7 +311,7 @@ impl StepCallbacks for Guard<'_, '_> {
         contacts: &[ContactRecord],
     ) -> Vec<ContactNodeInsertion> {
         if self.collisions.settings.contact_nodes {
-            contact_node_insertion::insertions(world, contacts, &self.collisions.obstacles.known)
+            contact_node_insertion::insertions(world, contacts, &self.collisions.obstacles)
         } else {
             Vec::new()
         }

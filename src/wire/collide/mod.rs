@@ -47,6 +47,7 @@ mod contact_node_insertion;
 mod core_boxes;
 mod core_pairs;
 mod detect;
+mod ends;
 mod guard;
 mod islands;
 mod manifold;

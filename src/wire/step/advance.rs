@@ -80,10 +80,12 @@ impl World {
         self.cache.structures = solution.structures(self);
         phases.commit = clock.lap();
         record.slides = capstan::slides(self, &slid);
-        record.slides.extend(contact_nodes::release(self));
         let torsions = torsions(self);
+        let left = contact_nodes::release(self, watch, &mut record.remeshes);
+        record.slides.extend(left);
         let insertions = watch.contact_nodes(self, &record.contacts);
-        record.remeshes = contact_nodes::insert(self, &insertions, watch);
+        let inserted = contact_nodes::insert(self, &insertions, watch);
+        record.remeshes.extend(inserted);
         record.remeshes.extend(resolution::adapt(self, watch));
         torsion::follow_changes(self, &torsions);
         phases.resolution = clock.lap();

@@ -5,7 +5,9 @@ use crate::wire::model::wire::LEAST;
 use crate::wire::model::wire::TENSION_HISTORY;
 use crate::wire::model::{BodyId, Node, NodeKind, Wire, WireId};
 use crate::wire::record::Slide;
-use crate::wire::resolution::{Remesh, RemeshGuard, RemeshKind, put_in, remesh};
+use crate::wire::resolution::{
+    Remesh, RemeshGuard, RemeshKind, joins_a_clamp, put_in, remesh, take_out,
+};
 use crate::wire::vector::{Vector, unit};
 use crate::wire::world::World;
 
@@ -21,7 +23,13 @@ pub(in crate::wire) struct ContactNodeInsertion {
     pub(in crate::wire) friction: f64,
     /// Unit vector along the surface and across the wire.
     pub(in crate::wire) aside: Vector,
+    /// How far out of the body from the straight wire, in m.
+    pub(in crate::wire) lift: f64,
 }
+
+/// Between two contact nodes whose normals are at no larger angle than this, in rad, wire that comes onto a body needs no
+/// other one.
+const NEAR: f64 = 0.25;
 
 /// Gives wires contact nodes where bodies bend them. A free node that is near is attached to the
 /// body; elsewhere a new node is put in, if `guard` permits it.
@@ -51,7 +59,9 @@ pub(super) fn insert(
         let [first, last] = ends.map(|node| wire.velocity_at(node, segment));
         let [start, end] = ends.map(|node| wire.nodes[node]);
         let node = Node {
-            position: start.position + wire.span(segment) * parameter,
+            position: start.position
+                + wire.span(segment) * parameter
+                + insertion.normal * insertion.lift,
             velocity: first.lerp(&last, parameter),
             arc: insertion.arc,
             kind: NodeKind::Free,
@@ -65,9 +75,43 @@ pub(super) fn insert(
         if guard.permits(world, &change) {
             put_in(&mut world.wires[insertion.wire.0], segment, node);
             changes.push(change);
+            changes.extend(thin_out(world, insertion.wire, segment + 1, guard));
         }
     }
     changes
+}
+
+/// Takes out the contact node beside one that was put in, if the next one on the same body is near enough without it: the
+/// node at which wire comes onto a body moves on with the wire.
+fn thin_out(
+    world: &mut World,
+    id: WireId,
+    new: usize,
+    guard: &mut dyn RemeshGuard,
+) -> Option<Remesh> {
+    let wire = &world.wires[id.0];
+    let normal = |node: usize| match wire.nodes.get(node)?.kind {
+        NodeKind::Contact {
+            body,
+            normal,
+            aside: Some(_),
+            ..
+        } => Some((body, normal)),
+        _ => None,
+    };
+    let is_near = |node: usize| {
+        let (Some((body, here)), Some((other, there))) = (normal(new), normal(node)) else {
+            return false;
+        };
+        body == other && here.angle(&there) <= NEAR
+    };
+    let before = new
+        .checked_sub(2)
+        .filter(|&node| is_near(node) && is_near(node + 1))
+        .map(|node| node + 1);
+    let after = (is_near(new + 1) && is_near(new + 2)).then_some(new + 1);
+    let node = before.or(after)?;
+    try_take_out(world, id.0, node, guard)
 }
 
 /// The node that is too near to a place of a wire for another one there.
@@ -107,14 +151,24 @@ fn attached(
 }
 
 /// Frees the nodes that leave: where the wire turns away from the body or slips off sideways, near a
-/// free end, and where nodes crowd.
-pub(super) fn release(world: &mut World) -> Vec<Slide> {
+/// free end, and where nodes crowd. An adaptive wire that leaves a body from one of its contact nodes to the next one loses
+/// the node, if `guard` permits it: as a free node it would hold the wire on the curve between the two.
+pub(super) fn release(
+    world: &mut World,
+    guard: &mut dyn RemeshGuard,
+    changes: &mut Vec<Remesh>,
+) -> Vec<Slide> {
     let mut slides = Vec::new();
+    let mut unwound = Vec::new();
     for at in 0..world.wires.len() {
         for node in contact_nodes(&world.wires[at]) {
             let wire = &world.wires[at];
-            let is_pulled = is_pulled_off(world, at, node) || is_pulled_aside(world, at, node);
+            let is_off = is_pulled_off(world, at, node);
+            let is_pulled = is_off || is_pulled_aside(world, at, node);
             if is_pulled || runs_out(wire, node) || is_crowded(wire, node) {
+                if is_off && wire.resolution.adaptive && is_last_of_row(wire, node) {
+                    unwound.push((at, node));
+                }
                 detach(&mut world.wires[at], node);
                 slides.push(Slide {
                     wire: WireId(at),
@@ -125,7 +179,39 @@ pub(super) fn release(world: &mut World) -> Vec<Slide> {
             }
         }
     }
+    for (at, node) in unwound.into_iter().rev() {
+        changes.extend(try_take_out(world, at, node, guard));
+    }
     slides
+}
+
+/// Whether the body carries the node on just one side of a contact node.
+fn is_last_of_row(wire: &Wire, node: usize) -> bool {
+    let NodeKind::Contact { body, .. } = wire.nodes[node].kind else {
+        return false;
+    };
+    let [before, after] = [node - 1, node + 1].map(|beside| wire.nodes[beside].kind.is_on(body));
+    before != after
+}
+
+/// Takes a node out, if `guard` permits it.
+fn try_take_out(
+    world: &mut World,
+    at: usize,
+    node: usize,
+    guard: &mut dyn RemeshGuard,
+) -> Option<Remesh> {
+    let wire = &world.wires[at];
+    if joins_a_clamp(wire, node) {
+        return None;
+    }
+    let nodes = [node - 1, node, node + 1].map(|node| wire.nodes[node]);
+    let change = remesh(at, RemeshKind::Merge, &nodes);
+    guard.permits(world, &change).then(|| {
+        let until = world.steps + TENSION_HISTORY as u64;
+        take_out(world, at, node, until);
+        change
+    })
 }
 
 /// The wire turns away from the body: its pull on the node has a component out of it.
