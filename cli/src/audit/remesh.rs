@@ -86,22 +86,34 @@ impl Wires {
         altered.collect()
     }
 
-    /// Whether a node may be of this kind in the next step: of its own one, or a contact node where it
-    /// was free and a contact with the body pushed on the wire nearer than at its neighbours, or wire comes onto the body
-    /// there.
-    fn may_become(&self, wire: usize, node: usize, next_kinds: &[NodeKind]) -> bool {
+    /// Whether a node may be of the kind that it has in the next step: of its own one, or a contact node where it was free.
+    /// Then it is one of some in a row that the body carries in the next step. One of these it carries here, and the wire
+    /// comes onto it beside that one; or a contact with the body pushed on the wire nearer than at the neighbours of the row.
+    fn may_become(&self, wire: usize, node: usize, next: &[NodeKind]) -> bool {
         let nodes = &self.nodes[wire];
-        let (kind, next) = (&nodes[node].kind, &next_kinds[node]);
-        let (NodeKind::Free, NodeKind::Contact { body, friction, .. }) = (kind, next) else {
-            return kind == next;
+        let (NodeKind::Free, NodeKind::Contact { body, friction, .. }) =
+            (&nodes[node].kind, &next[node])
+        else {
+            return nodes[node].kind == next[node];
         };
-        let (Some(before), Some(after)) = (node.checked_sub(1), nodes.get(node + 1)) else {
+        if node == 0 || node + 1 == nodes.len() {
             return false;
-        };
-        if self.comes_onto(wire, node, *body, next_kinds) {
+        }
+        let is_carried = |k: &usize| is_on(&next[*k], *body);
+        let first = (0..=node).rev().take_while(is_carried).last();
+        let last = (node..next.len()).take_while(is_carried).last();
+        let (first, last) = (first.unwrap_or(node), last.unwrap_or(node));
+        if nodes[first..=last]
+            .iter()
+            .any(|node| is_on(&node.kind, *body))
+        {
             return true;
         }
-        let is_beside = |arc: f64| nodes[before].arc < arc && arc < after.arc;
+        let before = first.checked_sub(1).map(|before| nodes[before].arc);
+        let after = nodes.get(last + 1).map(|after| after.arc);
+        let is_beside = |arc: f64| {
+            before.is_none_or(|before| before < arc) && after.is_none_or(|after| arc < after)
+        };
         self.pushing
             .iter()
             .any(|contact| match (contact.a, contact.b) {
@@ -110,17 +122,6 @@ impl Wires {
                 }
                 _ => false,
             })
-    }
-
-    /// Whether a body carries a neighbour of a node, here and in the next step.
-    fn comes_onto(&self, wire: usize, node: usize, body: BodyId, next: &[NodeKind]) -> bool {
-        let neighbours = [node.checked_sub(1), Some(node + 1)];
-        neighbours.into_iter().flatten().any(|k| {
-            let here = self.nodes[wire].get(k).map(|node| &node.kind);
-            [here, next.get(k)]
-                .iter()
-                .all(|kind| kind.is_some_and(|kind| is_on(kind, body)))
-        })
     }
 
     /// The wires that do not start there in the next step.

@@ -11,8 +11,7 @@ use nalgebra::UnitQuaternion;
 
 use super::boxes::Boxes;
 use super::collision_shape::{CollisionShape, PlacedShape};
-use super::ends::Ends;
-use super::manifold::{Collider, Manifolds, along, contacts_of, join, leave_out_ends, things};
+use super::manifold::{Collider, along, contacts_of, join, leave_out_ends, things};
 use crate::broad::Method;
 use crate::parallel::mapped;
 use crate::query::Point;
@@ -38,8 +37,6 @@ pub(super) struct BodyContacts {
     boxes: Boxes,
     /// Of each body.
     forms: Vec<CollisionShape>,
-    /// Where wires touched bodies beside nodes that these carry, as the step started.
-    pub(super) beside: Vec<ContactConstraint>,
     pub(super) known: KnownContacts,
 }
 
@@ -66,7 +63,6 @@ impl BodyContacts {
         BodyContacts {
             boxes: Boxes::new(method),
             forms: Vec::new(),
-            beside: Vec::new(),
             known: KnownContacts::default(),
         }
     }
@@ -83,7 +79,6 @@ impl BodyContacts {
         friction: f64,
     ) -> Result<(Vec<ContactConstraint>, usize), CollisionError> {
         self.learn(world)?;
-        self.beside.clear();
         if world.bodies.is_empty() {
             return Ok((Vec::new(), 0));
         }
@@ -91,44 +86,31 @@ impl BodyContacts {
         let moving = moving(world, &self.forms, &segments);
         let boxes = moving.iter().map(|m| m.placed.aabb(m.travel));
         self.boxes.place(boxes)?;
-        let ends = Ends::new(world, &self.forms);
-        let keep = |[a, b]: [usize; 2]| is_pair(world, &ends, [moving[a].thing, moving[b].thing]);
-        let mut manifolds = Manifolds::default();
+        let keep = |[a, b]: [usize; 2]| is_pair(world, [moving[a].thing, moving[b].thing]);
+        let mut found = Vec::new();
         let pairs = self.boxes.pairs(keep);
         // Bodies come first: A is a segment or the later body.
         let of =
             |at: usize| [pairs[at].second(), pairs[at].first()].map(|item| &moving[item.index()]);
         let spots = mapped(pairs.len(), SHARE, |at| {
             let [a, b] = of(at);
-            let reach = a.travel + b.travel;
-            if let (Collider::Segment(id), Collider::Body(body)) = (a.thing, b.thing)
-                && let Some(part) = ends.beyond(world, id, body)
-            {
-                let piece = CollisionShape::of_segment(&part, id.of(world).material.radius);
-                let middle = nalgebra::center(&part[0], &part[1]);
-                let placed = piece.at(&middle, &UnitQuaternion::identity());
-                return placed.touches(&b.placed, reach);
-            }
-            a.placed.touches(&b.placed, reach)
+            a.placed.touches(&b.placed, a.travel + b.travel)
         });
         for (at, spots) in spots.into_iter().enumerate() {
             let things = of(at).map(|moving| moving.thing);
-            contacts_of(world, &ends, things, spots, friction, &mut manifolds);
+            contacts_of(world, things, spots, friction, &mut found);
         }
         let tested = pairs.len();
-        leave_out_ends(world, &mut manifolds.found);
-        self.beside = manifolds.beside;
-        let mut contacts = join(manifolds.found);
+        leave_out_ends(world, &mut found);
+        let mut contacts = join(found);
         self.known.name(&mut contacts);
         Ok((contacts, tested))
     }
 
-    /// How far a point is from the surface of a body in m, below 0 inside.
-    pub(super) fn distance(&self, world: &World, body: BodyId, point: &Point) -> f64 {
+    /// The shape of a body where it is.
+    pub(super) fn placed(&self, world: &World, body: BodyId) -> PlacedShape<'_> {
         let placed = &world.bodies[body.0];
-        let form = &self.forms[body.0];
-        form.at(&placed.position, &placed.orientation)
-            .distance(point)
+        self.forms[body.0].at(&placed.position, &placed.orientation)
     }
 
     /// Bodies that were added since the last step.
@@ -308,9 +290,9 @@ fn moving<'f>(
     bodies.chain(segments).collect()
 }
 
-/// Whether two things are a pair to test: a segment and a body in which it does not end and that does
+/// Whether two things are a pair to test: a segment and a body of which it is no end and that does
 /// not carry both of its nodes, or two bodies of which forces move one.
-fn is_pair(world: &World, ends: &Ends, pair: [Collider; 2]) -> bool {
+fn is_pair(world: &World, pair: [Collider; 2]) -> bool {
     match pair {
         [Collider::Body(a), Collider::Body(b)] => {
             [a, b].iter().any(|body| world.bodies[body.0].dynamic)
@@ -318,7 +300,8 @@ fn is_pair(world: &World, ends: &Ends, pair: [Collider; 2]) -> bool {
         [Collider::Body(body), Collider::Segment(id)]
         | [Collider::Segment(id), Collider::Body(body)] => {
             let is_on = id.nodes(world).map(|node| node.kind.is_on(body));
-            is_on != [true; 2] && !ends.is_inside(id, body)
+            let is_end = id.nodes(world).iter().any(|node| node.kind.is_eye(body));
+            !is_end && is_on != [true; 2]
         }
         [Collider::Segment(_), Collider::Segment(_)] => false,
     }

@@ -4,11 +4,10 @@
 //! contact node there it turns, and sticks or slides as far as the capstan bound goes. The node
 //! leaves where the wire turns away from the body, or ends (`step/contact_nodes.rs`).
 
-use super::body_contacts::BodyContacts;
-use crate::wire::contact::{ContactConstraint, ContactSite};
+use super::body_contacts::KnownContacts;
+use crate::wire::contact::ContactSite;
 use crate::wire::model::{BodyId, Wire};
 use crate::wire::record::ContactRecord;
-use crate::wire::site::WireSite;
 use crate::wire::step::contact_nodes::{self, ContactNodeInsertion};
 use crate::wire::vector::{Vector, unit};
 use crate::wire::world::World;
@@ -21,147 +20,93 @@ const TURN: f64 = 0.02;
 /// that slips off at once.
 const ASIDE: f64 = 0.5;
 
-/// By how much a node is put out of the body at most where wire comes onto it, as a part of the way to the next node.
-const LIFT: f64 = 0.1;
-
-/// Where bodies bend adaptive wires that pull, in the order of the contacts; then where wires come onto bodies beside nodes
-/// that these carry. Contacts of guard mode, which keep what is inside a body or ends on it out of its core, do not count.
+/// Where bodies bend adaptive wires that pull, in the order of the contacts. Those of guard mode, which keep what is
+/// inside a body or ends on it out of its core, do not count.
 pub(super) fn insertions(
     world: &World,
     records: &[ContactRecord],
-    obstacles: &BodyContacts,
+    known: &KnownContacts,
 ) -> Vec<ContactNodeInsertion> {
-    let found = obstacles.known.found();
+    let found = known.found();
     let pushing = records
         .iter()
         .filter(|record| found.contains(&record.contact.key) && record.normal_force() > 0.0);
-    let pushed = pushing.filter_map(|record| {
-        let bend = Bend::of(world, &record.contact, None)?;
-        (record.contact.gap > -bend.wire.material.radius && bend.stops(world, record))
-            .then(|| bend.insertion())
-    });
-    let beside = obstacles.beside.iter();
-    let beside =
-        beside.filter_map(|contact| Some(Bend::of(world, contact, Some(obstacles))?.insertion()));
-    pushed.chain(beside).collect()
+    pushing
+        .filter_map(|record| insertion(world, record))
+        .collect()
 }
 
-/// A place where a body bends a wire.
-struct Bend<'a> {
-    contact: &'a ContactConstraint,
-    wire: &'a Wire,
-    site: WireSite,
-    body: BodyId,
-    local: Vector,
-    /// How far from the straight wire the node will be, in m.
-    lift: f64,
-    /// Unit vector out of the curve.
-    out: Vector,
-    /// Unit vector along the surface and across the wire.
-    aside: Vector,
+fn insertion(world: &World, record: &ContactRecord) -> Option<ContactNodeInsertion> {
+    let contact = &record.contact;
+    let (ContactSite::Wire { wire: id, arc }, ContactSite::Body { body, local }) =
+        (contact.a, contact.b)
+    else {
+        return None;
+    };
+    let wire = &world.wires[id.0];
+    let (segment, parameter) = wire.at(arc);
+    let on_surface = contact.gap > -wire.material.radius;
+    if !(wire.resolution.adaptive && on_surface) || wire.segments[segment].tension <= 0.0 {
+        return None;
+    }
+    // Where the node will be, and the nodes between which it turns the wire.
+    let (place, [before, after]) = match contact_nodes::node_near(wire, arc) {
+        Some(node) => (wire.nodes[node].position, [node.checked_sub(1)?, node + 1]),
+        None => {
+            let place = wire.nodes[segment].position + wire.span(segment) * parameter;
+            (place, beside(wire, segment, body))
+        }
+    };
+    let [before, after] = [wire.nodes.get(before)?, wire.nodes.get(after)?];
+    let ways = [before, after].map(|node| node.position - place);
+    let along = wire.span(segment);
+    let friction = contact.friction;
+    let [out, aside] = turn(&ways, &contact.normal, &along, friction)?;
+    // Sideways, friction can stop it within this step.
+    let mass = wire.material.mass_per_length() * wire.rest_length(segment) / 2.0;
+    let velocity = velocity_at(wire, segment, parameter) - world.bodies[body.0].velocity_at(&local);
+    let stopped = friction * record.normal_force() * world.settings.step;
+    let stays = mass * velocity.dot(&aside).abs() <= stopped;
+    stays.then_some(ContactNodeInsertion {
+        wire: id,
+        arc,
+        body,
+        place,
+        normal: out,
+        friction,
+        aside,
+    })
 }
 
-impl<'a> Bend<'a> {
-    /// The place of a contact, if a node there turns the wire, which pulls, and does not slip off sideways at once. Beside a
-    /// node that the body carries, a node there would be outside of the body, onto which the wire comes: its shape is among
-    /// these obstacles.
-    fn of(
-        world: &'a World,
-        contact: &'a ContactConstraint,
-        beside_node: Option<&BodyContacts>,
-    ) -> Option<Self> {
-        let (ContactSite::Wire { wire: id, arc }, ContactSite::Body { body, local }) =
-            (contact.a, contact.b)
-        else {
-            return None;
-        };
-        let wire = &world.wires[id.0];
-        let (segment, parameter) = wire.at(arc);
-        if !wire.resolution.adaptive || wire.segments[segment].tension <= 0.0 {
-            return None;
-        }
-        let ends = [segment, segment + 1].map(|node| &wire.nodes[node].kind);
-        if beside_node.is_some() && !ends.iter().any(|kind| kind.is_on(body)) {
-            return None;
-        }
-        let place = wire.nodes[segment].position + wire.span(segment) * parameter;
-        let (place, between, lift) = match (contact_nodes::node_near(wire, arc), beside_node) {
-            (Some(node), _) => (
-                wire.nodes[node].position,
-                [node.checked_sub(1)?, node + 1],
-                0.0,
-            ),
-            (None, None) => (place, beside(wire, segment, body), 0.0),
-            (None, Some(obstacles)) => {
-                let velocity = velocity_at(wire, segment, parameter)
-                    - world.bodies[body.0].velocity_at(&local);
-                if velocity.dot(&contact.normal) > 0.0 {
-                    return None;
-                }
-                let depth = wire.material.radius - obstacles.distance(world, body, &place);
-                // As far as it hardly stretches the wire.
-                let apart = wire.span(segment).norm() * parameter.min(1.0 - parameter);
-                let lift = depth.clamp(0.0, LIFT * apart);
-                (place, beside(wire, segment, body), lift)
-            }
-        };
-        let direction = |node: usize| {
-            let way = wire.nodes.get(node)?.position - place;
-            Some((way - contact.normal * lift).normalize())
-        };
-        let [before, after] = [direction(between[0])?, direction(between[1])?];
-        // Down on one side, and not as far up on the other: over an edge, not beside one.
-        let slopes = [before, after].map(|direction| direction.dot(&contact.normal));
-        let out = -(before + after);
-        let bent = slopes[0].min(slopes[1]) <= -TURN && out.dot(&contact.normal) >= TURN;
-        // The normal is across the segment to rounding.
-        let (aside, _) = unit(&contact.normal.cross(&wire.span(segment)));
-        let pressing =
-            out.dot(&contact.normal) * contact_nodes::pressing_by_pull(&[-before, after]);
-        let held = out.dot(&aside).abs() <= ASIDE * contact.friction * pressing;
-        (bent && held).then(|| Bend {
-            contact,
-            wire,
-            site: WireSite { wire: id, arc },
-            body,
-            local,
-            lift,
-            out: out.normalize(),
-            aside,
-        })
-    }
-
-    /// Whether friction can stop the wire sideways within this step.
-    fn stops(&self, world: &World, record: &ContactRecord) -> bool {
-        let (segment, parameter) = self.wire.at(self.site.arc);
-        let mass = self.wire.material.mass_per_length() * self.wire.rest_length(segment) / 2.0;
-        let velocity = velocity_at(self.wire, segment, parameter)
-            - world.bodies[self.body.0].velocity_at(&self.local);
-        let stopped = self.contact.friction * record.normal_force() * world.settings.step;
-        mass * velocity.dot(&self.aside).abs() <= stopped
-    }
-
-    fn insertion(&self) -> ContactNodeInsertion {
-        ContactNodeInsertion {
-            wire: self.site.wire,
-            arc: self.site.arc,
-            body: self.body,
-            normal: self.out,
-            friction: self.contact.friction,
-            aside: self.aside,
-            lift: self.lift,
-        }
-    }
+/// How a node on a body turns a wire: unit vectors out of the curve, and along the surface across the wire. The ways go to
+/// the places between which it does, the normal is that of the body, and the wire runs along a vector across it. None
+/// if the wire is not bent over the body there, or would slip off sideways at once.
+pub(super) fn turn(
+    ways: &[Vector; 2],
+    normal: &Vector,
+    along: &Vector,
+    friction: f64,
+) -> Option<[Vector; 2]> {
+    let [before, after] = ways.map(|way| way.normalize());
+    // Down on one side, and not as far up on the other: over an edge, not beside one.
+    let slopes = [before, after].map(|direction| direction.dot(normal));
+    let out = -(before + after);
+    let bent = slopes[0].min(slopes[1]) <= -TURN && out.dot(normal) >= TURN;
+    // The normal is across the wire to rounding.
+    let (aside, _) = unit(&normal.cross(along));
+    let pressing = out.dot(normal) * contact_nodes::pressing_by_pull(&[-before, after]);
+    let held = out.dot(&aside).abs() <= ASIDE * friction * pressing;
+    (bent && held).then(|| [out.normalize(), aside])
 }
 
-fn velocity_at(wire: &Wire, segment: usize, parameter: f64) -> Vector {
+pub(super) fn velocity_at(wire: &Wire, segment: usize, parameter: f64) -> Vector {
     let [start, end] = [segment, segment + 1].map(|node| wire.nodes[node].velocity);
     start.lerp(&end, parameter)
 }
 
 /// The nodes before and after a segment and its neighbours, as far as no other place of the body is
 /// between.
-fn beside(wire: &Wire, segment: usize, body: BodyId) -> [usize; 2] {
+pub(super) fn beside(wire: &Wire, segment: usize, body: BodyId) -> [usize; 2] {
     let is_on = |node: usize| wire.nodes[node].kind.is_on(body);
     let last = wire.nodes.len() - 1;
     let before = segment.saturating_sub(usize::from(!is_on(segment)));

@@ -11,7 +11,7 @@ use super::parts::Parts;
 use super::segment::pair_at;
 use super::thickness::Thickness;
 use super::wire_contacts::{WireContact, WireContacts};
-use super::{body_remesh, contact_node_insertion, remesh};
+use super::{body_remesh, contact_node_insertion, remesh, winding};
 use crate::wire::Vector;
 use crate::wire::contact::ContactConstraint;
 use crate::wire::error::CollisionError;
@@ -311,7 +311,16 @@ impl StepCallbacks for Guard<'_, '_> {
         contacts: &[ContactRecord],
     ) -> Vec<ContactNodeInsertion> {
         if self.collisions.settings.contact_nodes {
-            contact_node_insertion::insertions(world, contacts, &self.collisions.obstacles)
+            contact_node_insertion::insertions(world, contacts, &self.collisions.obstacles.known)
+        } else {
+            Vec::new()
+        }
+    }
+
+    fn winding(&self, world: &World) -> Vec<ContactNodeInsertion> {
+        let settings = &self.collisions.settings;
+        if settings.contact_nodes && settings.bodies {
+            winding::insertions(world, &self.collisions.obstacles, settings.friction)
         } else {
             Vec::new()
         }

@@ -3,7 +3,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::collision_shape::ManifoldPoint;
-use super::ends::Ends;
 use crate::query::Point;
 use crate::wire::Vector;
 use crate::wire::contact::{ContactConstraint, ContactSite};
@@ -22,29 +21,20 @@ pub(super) enum Collider {
 /// A contact and the segment that it is on, if it is on one.
 pub(super) type Found = (Option<SegmentId>, ContactConstraint);
 
-/// What is found between things and bodies.
-#[derive(Default)]
-pub(super) struct Manifolds {
-    pub(super) found: Vec<Found>,
-    /// Where a wire touches the body beside a node that the body carries, and may need another one.
-    pub(super) beside: Vec<ContactConstraint>,
-}
-
 /// By how much deeper in the body a wire may lie with the distance from a contact node: as chords do of a curve that turns
 /// by twice this between its nodes.
-const CHORD: f64 = 0.125;
+pub(super) const CHORD: f64 = 0.125;
 
 /// Adds the contacts of one pair. On a segment, a place between two others counts only if it is
 /// deeper. In the half that a contact node on this body ends the node holds the wire, which turns there as a curve does
 /// that the body has between: so only its midline is kept out of what is deeper than chords, and next to the node nothing
-/// is. A segment that ends on this body has no contacts with it. What touches beside nodes is named apart.
+/// is.
 pub(super) fn contacts_of(
     world: &World,
-    ends: &Ends,
     [a, b]: [Collider; 2],
     spots: Vec<ManifoldPoint>,
     friction: f64,
-    Manifolds { found, beside }: &mut Manifolds,
+    found: &mut Vec<Found>,
 ) {
     const DEEPER: f64 = 1e-9;
     let Collider::Body(other) = b else { return };
@@ -61,25 +51,11 @@ pub(super) fn contacts_of(
         found.extend(contacts.into_iter().map(|contact| (None, contact)));
         return;
     };
-    let radius = id.of(world).material.radius;
-    if let Some(end) = ends.of(id, other) {
-        let is_apart =
-            |contact: &ContactConstraint| end.apart(world, id, arc(contact)) > 2.0 * radius;
-        beside.extend(
-            contacts
-                .into_iter()
-                .filter(|contact| contact.gap <= -end.depth && is_apart(contact)),
-        );
-        return;
-    }
     contacts.retain_mut(
         |contact| match from_contact_node(world, id, other, arc(contact)) {
             None => true,
             Some(apart) => {
-                if contact.gap <= 0.0 && apart > 2.0 * radius {
-                    beside.push(*contact);
-                }
-                contact.gap += radius + CHORD * apart;
+                contact.gap += id.of(world).material.radius + CHORD * apart;
                 apart > LEAST * id.of(world).resolution.length
             }
         },

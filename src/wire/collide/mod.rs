@@ -10,7 +10,8 @@
 //! stay on their place of the material and slide with the closest points (`touch`). What a crossing
 //! leads to is the [`Mode`]. How far apart thick wires are kept is in `thickness`, and what moves less so that
 //! they are, in `islands` and `parts`. Contacts with bodies are found where a step starts (`body_contacts`), by
-//! a collision library (`collision_shape`). Besides, midlines are tested continuously against the
+//! a collision library (`collision_shape`); where these bend a wire, and where it comes onto a body that turns, it gets contact
+//! nodes (`contact_node_insertion`, `winding`). Besides, midlines are tested continuously against the
 //! cores of bodies (`body_detect`), and cores against each other (`core_pairs`): no motion that is made
 //! lets them touch.
 //!
@@ -47,7 +48,6 @@ mod contact_node_insertion;
 mod core_boxes;
 mod core_pairs;
 mod detect;
-mod ends;
 mod guard;
 mod islands;
 mod manifold;
@@ -57,6 +57,7 @@ mod parts;
 mod remesh;
 mod segment;
 mod thickness;
+mod winding;
 mod wire_contacts;
 
 #[cfg(test)]

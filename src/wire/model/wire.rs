@@ -58,6 +58,11 @@ impl NodeKind {
         self.carrier().is_some_and(|(carrier, _)| carrier == body)
     }
 
+    /// Whether it is fixed to this body.
+    pub(in crate::wire) fn is_eye(&self, body: BodyId) -> bool {
+        matches!(self, NodeKind::Eye { .. }) && self.is_on(body)
+    }
+
     /// The body and the point of it that carry the node, if one does.
     pub fn carrier(&self) -> Option<(BodyId, Vector)> {
         match *self {

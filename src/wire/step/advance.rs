@@ -23,6 +23,9 @@ use crate::wire::world::World;
 /// A step is solved again as long as that may take one part in so many of what the first solve took.
 const AGAIN: usize = 4;
 
+/// How many contact nodes a wire gets at most in a step beside one that a body carries.
+const WINDINGS: usize = 8;
+
 impl World {
     /// Does one step with the contacts given. Every change of resolution is permitted.
     ///
@@ -86,6 +89,14 @@ impl World {
         let insertions = watch.contact_nodes(self, &record.contacts);
         let inserted = contact_nodes::insert(self, &insertions, watch);
         record.remeshes.extend(inserted);
+        for _ in 0..WINDINGS {
+            let insertions = watch.winding(self);
+            let inserted = contact_nodes::insert(self, &insertions, watch);
+            if inserted.is_empty() {
+                break;
+            }
+            record.remeshes.extend(inserted);
+        }
         record.remeshes.extend(resolution::adapt(self, watch));
         torsion::follow_changes(self, &torsions);
         phases.resolution = clock.lap();

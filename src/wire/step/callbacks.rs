@@ -34,6 +34,11 @@ pub(in crate::wire) trait StepCallbacks: RemeshGuard {
     ) -> Vec<ContactNodeInsertion> {
         Vec::new()
     }
+
+    /// Where wires that come onto bodies beside nodes that these carry get another one.
+    fn winding(&self, _world: &World) -> Vec<ContactNodeInsertion> {
+        Vec::new()
+    }
 }
 
 /// What becomes of a motion.

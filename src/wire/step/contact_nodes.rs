@@ -1,6 +1,7 @@
 //! Attaches nodes to bodies as contact nodes, and releases them.
 
 use super::capstan::{contact_nodes, directions, half_turn_between};
+use crate::query::Point;
 use crate::wire::model::wire::LEAST;
 use crate::wire::model::wire::TENSION_HISTORY;
 use crate::wire::model::{BodyId, Node, NodeKind, Wire, WireId};
@@ -18,13 +19,13 @@ pub(in crate::wire) struct ContactNodeInsertion {
     /// The place on the wire, in m.
     pub(in crate::wire) arc: f64,
     pub(in crate::wire) body: BodyId,
+    /// Where a new node is put in.
+    pub(in crate::wire) place: Point,
     /// Unit normal out of the body.
     pub(in crate::wire) normal: Vector,
     pub(in crate::wire) friction: f64,
     /// Unit vector along the surface and across the wire.
     pub(in crate::wire) aside: Vector,
-    /// How far out of the body from the straight wire, in m.
-    pub(in crate::wire) lift: f64,
 }
 
 /// Between two contact nodes whose normals are at no larger angle than this, in rad, wire that comes onto a body needs no
@@ -59,9 +60,7 @@ pub(super) fn insert(
         let [first, last] = ends.map(|node| wire.velocity_at(node, segment));
         let [start, end] = ends.map(|node| wire.nodes[node]);
         let node = Node {
-            position: start.position
-                + wire.span(segment) * parameter
-                + insertion.normal * insertion.lift,
+            position: insertion.place,
             velocity: first.lerp(&last, parameter),
             arc: insertion.arc,
             kind: NodeKind::Free,

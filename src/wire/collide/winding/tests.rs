@@ -42,6 +42,20 @@ fn prism(sides: usize) -> Shape {
 /// A drum around y that turns at this speed from 1 s to 5 s and back from 5 s to 9 s, with a load of 100 kg on 8 m of wire
 /// that hangs off its side and ends on the drum, this far from its axis.
 fn drum(shape: Shape, material: Material, speed: f64, eye: f64, step: f64) -> World {
+    drum_of(shape, material, 0.1, eye, step, |phase| {
+        vec![phase(1.0, speed), phase(5.0, -speed), phase(9.0, 0.0)]
+    })
+}
+
+/// The same with wire of a resolution, and phases of the drum made of times and speeds.
+fn drum_of(
+    shape: Shape,
+    material: Material,
+    resolution: f64,
+    eye: f64,
+    step: f64,
+    phases: impl FnOnce(&dyn Fn(f64, f64) -> Phase) -> Vec<Phase>,
+) -> World {
     let mut world = World::new(Settings {
         step,
         ..Settings::default()
@@ -54,7 +68,7 @@ fn drum(shape: Shape, material: Material, speed: f64, eye: f64, step: f64) -> Wo
     };
     let plan = BodyPlan {
         orientation: UnitQuaternion::from_axis_angle(&Vector::x_axis(), FRAC_PI_2),
-        drive: Drive::Kinematic(vec![phase(1.0, speed), phase(5.0, -speed), phase(9.0, 0.0)]),
+        drive: Drive::Kinematic(phases(&phase)),
         ..BodyPlan::fixed(shape, Point::origin())
     };
     let drum = world.add_body(plan).unwrap();
@@ -67,7 +81,7 @@ fn drum(shape: Shape, material: Material, speed: f64, eye: f64, step: f64) -> Wo
     let ends = [(drum, Vector::x() * eye), (load, Vector::z() * radius)];
     let route = ends.map(|(body, local)| Stop::Eye { body, local }).to_vec();
     world
-        .add_wire(&WirePlan::new(material, 0.1, route).adaptive())
+        .add_wire(&WirePlan::new(material, resolution, route).adaptive())
         .unwrap();
     world
 }
@@ -132,14 +146,14 @@ fn wire_winds_up_on_a_drum_and_off() {
             let carried: Vec<_> = nodes
                 .filter(|node| matches!(node.kind, NodeKind::Contact { .. }))
                 .collect();
-            // At most a quarter of a radian apart, and one more at either end.
+            // At most a quarter of a radian apart; the prism has its edges every 0.13 rad.
             assert!(
                 carried.len() >= (4.0 * turned) as usize,
                 "{case}: {}",
                 carried.len()
             );
             assert!(
-                carried.len() <= (6.0 * turned) as usize + 4,
+                carried.len() <= (8.0 * turned) as usize + 4,
                 "{case}: {}",
                 carried.len()
             );
@@ -154,6 +168,50 @@ fn wire_winds_up_on_a_drum_and_off() {
             assert!(back.abs() < still, "{case}: {back}");
             assert!(gain < 2.0, "{case}: {gain} J");
         }
+    }
+}
+
+/// At up to a third of a radian in a step, on thin drums and with coarse segments.
+#[test]
+fn fast_drums_and_thin_ones_wind_wire_up_at_their_surface() {
+    for (radius, wire, resolution, speed, step) in [
+        (0.3, 0.01, 0.1, -8.0, 1.0 / 60.0),
+        (0.3, 0.01, 0.2, -10.0, 1.0 / 30.0),
+        (1.0, 0.02, 0.2, -4.0, 1.0 / 60.0),
+        (0.03, 0.01, 0.1, -1.0, 1.0 / 60.0),
+        (0.06, 0.008, 0.1, -2.0, 1.0 / 240.0),
+        (0.3, 0.01, 1.0, -1.0, 1.0 / 60.0),
+    ] {
+        let case = format!("{radius} {wire} {resolution} {speed} {step}");
+        let half_height = 0.5;
+        let shape = Shape::Cylinder {
+            radius,
+            half_height,
+        };
+        let out = radius + wire;
+        let material = Material::steel(wire).chain();
+        let mut world = drum_of(shape, material, resolution, out, step, |phase| {
+            // Five radians, at half of the speed at first and at last.
+            let time = 5.0 / -speed;
+            let last = 1.0 + 1.5 * time;
+            vec![
+                phase(1.0, speed / 2.0),
+                phase(1.0 + time / 2.0, speed),
+                phase(last - time / 2.0, speed / 2.0),
+                phase(last, 0.0),
+            ]
+        });
+        let mut collisions = Collisions::default();
+        run(&mut world, &mut collisions, 1.0);
+        let start = world.bodies()[1].position();
+        let until = world.time() + 1.5 * 5.0 / -speed + 1.0;
+        let gain = run(&mut world, &mut collisions, until);
+        let lifted = world.bodies()[1].position().z - start.z;
+        assert!(
+            (lifted - 5.0 * out).abs() < 0.03 * 5.0 * out,
+            "{case}: {lifted}"
+        );
+        assert!(gain < 10.0, "{case}: {gain} J");
     }
 }
 
