@@ -2,7 +2,8 @@
 //!
 //! A contact there would push the wire off with the leverage of the whole leg. So the wire gets another contact node
 //! where its surface is deepest in the body, put out to where it touches, and then the next one where it is deepest
-//! after that. A wire may start on a body, or at a point inside of it: what comes from inside is one with the body.
+//! after that. A wire may start on a body, or at a point inside of it: what comes from inside is one with the body, and what was
+//! inside before the step stays as it is.
 
 use super::body_contacts::BodyContacts;
 use super::collision_shape::{CollisionShape, PlacedShape};
@@ -21,7 +22,8 @@ use nalgebra::UnitQuaternion;
 /// wire's radius.
 const ROUNDING: f64 = 1e-6;
 
-/// By how much a node is put out of the body at most, as a part of the way to the nearer end of its segment.
+/// By how much a node is put out of the body at most, as a part of the way to the nearer end of its segment: more would
+/// stretch the wire by more than a twentieth.
 const LIFT: f64 = 0.35;
 
 /// Where adaptive wires come onto bodies: at most one place for each end of a segment.
@@ -119,11 +121,20 @@ impl Deepest {
         let local = body
             .orientation
             .inverse_transform_vector(&(self.place - body.position));
-        let velocity = velocity_at(wire, id.segment, self.parameter) - body.velocity_at(&local);
+        let [own, of_body] = [
+            velocity_at(wire, id.segment, self.parameter),
+            body.velocity_at(&local),
+        ];
         let apart = (end - start).norm() * self.parameter.min(1.0 - self.parameter);
-        // Wire that is slack or goes off a body lies as deep in it as chords between its nodes.
-        let comes_on = wire.segments[id.segment].tension > 0.0 && velocity.dot(&self.normal) <= 0.0;
-        if !comes_on && self.depth < CHORD * apart {
+        // Wire that is slack or goes off a body lies as deep in it as chords between its nodes. Deeper, a contact would
+        // push it with leverage.
+        let comes_on =
+            wire.segments[id.segment].tension > 0.0 && (own - of_body).dot(&self.normal) <= 0.0;
+        let is_deep = self.depth >= CHORD * apart;
+        // Where it is deeper than it came in this step, it was in the body before.
+        let came = world.settings.step * (own.norm() + of_body.norm());
+        let was_inside = self.depth > 2.0 * wire.material.radius + came;
+        if !(comes_on || is_deep) || was_inside {
             return None;
         }
         let place = self.place + self.normal * self.depth.min(LIFT * apart);
