@@ -118,18 +118,15 @@ fn merge(world: &mut World, at: usize, guard: &mut dyn RemeshGuard, changes: &mu
             wire.resolution.adaptive && this.remesh_from <= world.steps && !is_folded(wire, node);
         let is_used_up = is_used_up(world, at, node, wanted);
         let is_asked = is_used_up || may_change && short;
-        if this.kind == NodeKind::Free && is_asked && !joins_a_clamp(wire, node) {
-            let nodes = [node - 1, node, node + 1].map(|i| wire.nodes[i]);
-            let change = remesh(at, RemeshKind::Merge, &nodes);
-            if guard.permits(world, &change) {
-                let remesh_from = world.steps + TENSION_HISTORY as u64;
-                take_out(world, at, node, remesh_from);
-                changes.push(change);
-                if is_used_up {
-                    // The next node may have to follow, on either side.
-                    node = (node - 1).max(1);
-                    continue;
-                }
+        if this.kind == NodeKind::Free
+            && is_asked
+            && let Some(change) = try_take_out(world, at, node, guard)
+        {
+            changes.push(change);
+            if is_used_up {
+                // The next node may have to follow, on either side.
+                node = (node - 1).max(1);
+                continue;
             }
         }
         node += 1;
@@ -145,7 +142,7 @@ fn is_folded(wire: &Wire, node: usize) -> bool {
 
 /// Whether an end of a wire that resists twist would be clamped without a node: what clamps it is its
 /// route alone.
-pub(super) fn joins_a_clamp(wire: &Wire, node: usize) -> bool {
+fn joins_a_clamp(wire: &Wire, node: usize) -> bool {
     let is_beside_end = node == 1 || node + 2 == wire.nodes.len();
     is_beside_end
         && wire.material.twist_modulus > 0.0
@@ -211,12 +208,32 @@ pub(super) fn remesh(wire: usize, kind: RemeshKind, nodes: &[Node; 3]) -> Remesh
     }
 }
 
+/// Takes a node out, unless an end would be clamped without it, if `guard` permits it.
+pub(super) fn try_take_out(
+    world: &mut World,
+    at: usize,
+    node: usize,
+    guard: &mut dyn RemeshGuard,
+) -> Option<Remesh> {
+    let wire = &world.wires[at];
+    if joins_a_clamp(wire, node) {
+        return None;
+    }
+    let nodes = [node - 1, node, node + 1].map(|node| wire.nodes[node]);
+    let change = remesh(at, RemeshKind::Merge, &nodes);
+    guard.permits(world, &change).then(|| {
+        let remesh_from = world.steps + TENSION_HISTORY as u64;
+        take_out(world, at, node, remesh_from);
+        change
+    })
+}
+
 /// Takes a node out. Each neighbour takes over the mass of the segment beyond the node, half of it,
 /// and the momentum that comes with it, so linear momentum stays. Where a dynamic body carries a
 /// neighbour, it takes that; what moves as it is prescribed takes none. Along a wire that slides
 /// over a neighbour momentum stays in the wire. The end at a reel takes none: the wire moves on over
 /// it.
-pub(super) fn take_out(world: &mut World, at: usize, node: usize, remesh_from: u64) {
+fn take_out(world: &mut World, at: usize, node: usize, remesh_from: u64) {
     let wire = &mut world.wires[at];
     let half = wire.material.mass_per_length() / 2.0;
     let sides = [(node - 1, node - 1, node), (node + 1, node, node - 1)].map(

@@ -148,16 +148,19 @@ impl PlacedShape<'_> {
     pub(super) fn deepens(&self, corners: &[Point; 3], radius: f64) -> f64 {
         let [a, b, c] = *corners;
         let depth = |ends: [Point; 2]| {
-            let piece = CollisionShape::of_segment(&ends, radius);
-            let middle = nalgebra::center(&ends[0], &ends[1]);
-            let spots = piece
-                .at(&middle, &UnitQuaternion::identity())
-                .touches(self, 0.0);
-            spots
+            self.touched_by(&ends, radius)
                 .iter()
                 .fold(0.0_f64, |depth, spot| depth.max(-spot.gap))
         };
         depth([a, c]) - depth([a, b]).max(depth([b, c]))
+    }
+
+    /// Where a straight piece of wire touches it; the first of the two is the wire.
+    pub(super) fn touched_by(&self, ends: &[Point; 2], radius: f64) -> Vec<ManifoldPoint> {
+        let piece = CollisionShape::of_segment(ends, radius);
+        let middle = nalgebra::center(&ends[0], &ends[1]);
+        let placed = piece.at(&middle, &UnitQuaternion::identity());
+        placed.touches(self, 0.0)
     }
 
     /// Whether a shape in the world meets it.

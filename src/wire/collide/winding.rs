@@ -6,7 +6,6 @@
 //! inside before the step stays as it is.
 
 use super::body_contacts::BodyContacts;
-use super::collision_shape::{CollisionShape, PlacedShape};
 use super::contact_node_insertion::{beside, turn, velocity_at};
 use super::manifold::CHORD;
 use crate::query::Point;
@@ -16,7 +15,6 @@ use crate::wire::model::{BodyId, NodeKind, WireId};
 use crate::wire::site::SegmentId;
 use crate::wire::step::contact_nodes::ContactNodeInsertion;
 use crate::wire::world::World;
-use nalgebra::UnitQuaternion;
 
 /// By how much deeper than on the surface the midline may be where a wire does not come from inside, as a part of the
 /// wire's radius.
@@ -90,16 +88,17 @@ impl Deepest {
             return None;
         }
         let piece = [from, to].map(|parameter| start + span * parameter);
-        let spots = touches(&placed, &piece, radius);
-        let inside = spots.into_iter().map(|(point, normal)| {
-            let parameter = ((point - start).dot(&span) / (length * length)).clamp(from, to);
+        let spots = placed.touched_by(&piece, radius);
+        let inside = spots.into_iter().map(|spot| {
+            let parameter =
+                ((spot.points[0] - start).dot(&span) / (length * length)).clamp(from, to);
             let place = start + span * parameter;
             Deepest {
                 body,
                 parameter,
                 place,
                 depth: radius - placed.distance(&place),
-                normal,
+                normal: spot.normal,
             }
         });
         let deepest = inside.max_by(|a, b| a.depth.total_cmp(&b.depth))?;
@@ -155,19 +154,6 @@ impl Deepest {
             aside,
         })
     }
-}
-
-/// Where a straight piece of wire touches a body: places on its surface, and unit normals out of the body.
-fn touches(body: &PlacedShape<'_>, piece: &[Point; 2], radius: f64) -> Vec<(Point, Vector)> {
-    let middle = nalgebra::center(&piece[0], &piece[1]);
-    let shape = CollisionShape::of_segment(piece, radius);
-    let spots = shape
-        .at(&middle, &UnitQuaternion::identity())
-        .touches(body, 0.0);
-    spots
-        .into_iter()
-        .map(|spot| (spot.points[0], spot.normal))
-        .collect()
 }
 
 #[cfg(test)]

@@ -6,9 +6,7 @@ use crate::wire::model::wire::LEAST;
 use crate::wire::model::wire::TENSION_HISTORY;
 use crate::wire::model::{BodyId, Node, NodeKind, Wire, WireId};
 use crate::wire::record::Slide;
-use crate::wire::resolution::{
-    Remesh, RemeshGuard, RemeshKind, joins_a_clamp, put_in, remesh, take_out,
-};
+use crate::wire::resolution::{Remesh, RemeshGuard, RemeshKind, put_in, remesh, try_take_out};
 use crate::wire::vector::{Vector, unit};
 use crate::wire::world::World;
 
@@ -191,26 +189,6 @@ fn is_last_of_row(wire: &Wire, node: usize) -> bool {
     };
     let [before, after] = [node - 1, node + 1].map(|beside| wire.nodes[beside].kind.is_on(body));
     before != after
-}
-
-/// Takes a node out, if `guard` permits it.
-fn try_take_out(
-    world: &mut World,
-    at: usize,
-    node: usize,
-    guard: &mut dyn RemeshGuard,
-) -> Option<Remesh> {
-    let wire = &world.wires[at];
-    if joins_a_clamp(wire, node) {
-        return None;
-    }
-    let nodes = [node - 1, node, node + 1].map(|node| wire.nodes[node]);
-    let change = remesh(at, RemeshKind::Merge, &nodes);
-    guard.permits(world, &change).then(|| {
-        let until = world.steps + TENSION_HISTORY as u64;
-        take_out(world, at, node, until);
-        change
-    })
 }
 
 /// The wire turns away from the body: its pull on the node has a component out of it.
