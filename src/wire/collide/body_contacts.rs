@@ -101,7 +101,10 @@ impl BodyContacts {
             contacts_of(world, things, spots, friction, &mut found);
         }
         let tested = pairs.len();
-        leave_out_ends(world, &mut found);
+        let inside = |body: BodyId, point: &Point, depth: f64| {
+            self.placed(world, body).distance(point) < -depth
+        };
+        leave_out_ends(world, inside, &mut found);
         let mut contacts = join(found);
         self.known.name(&mut contacts);
         Ok((contacts, tested))

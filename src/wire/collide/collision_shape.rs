@@ -132,7 +132,14 @@ impl PlacedShape<'_> {
         let point = to_library(&point.coords);
         let nearest = self.form.shape.project_point(&self.pose, point, false);
         let apart = (nearest.point - point).length();
-        if nearest.is_inside { -apart } else { apart }
+        // The library finds no direction from the centre of a ball.
+        if apart.is_nan() {
+            -self.form.extent
+        } else if nearest.is_inside {
+            -apart
+        } else {
+            apart
+        }
     }
 
     /// Whether two pieces of a midline, from the first corner over the second to the third, do not

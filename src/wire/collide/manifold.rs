@@ -130,8 +130,13 @@ fn arc(contact: &ContactConstraint) -> f64 {
 
 /// Leaves out the ends of wires: from a node that is fixed to a body, whatever of the wire
 /// penetrates this body without a gap is one with it. So a wire may come from a point inside of a
-/// body.
-pub(super) fn leave_out_ends(world: &World, found: &mut Vec<Found>) {
+/// body. Where that point is `inside` by more than the wire is thick, the node at which the wire comes out is left out as
+/// well: it would be pushed out along the wire, against its tension.
+pub(super) fn leave_out_ends(
+    world: &World,
+    inside: impl Fn(BodyId, &Point, f64) -> bool,
+    found: &mut Vec<Found>,
+) {
     let mut deep: BTreeSet<(BodyId, SegmentId)> = BTreeSet::new();
     for (segment, contact) in found.iter() {
         if let (Some(segment), ContactSite::Body { body, .. }, true) =
@@ -141,6 +146,7 @@ pub(super) fn leave_out_ends(world: &World, found: &mut Vec<Found>) {
         }
     }
     let mut ends = BTreeSet::new();
+    let mut exits = BTreeSet::new();
     for (w, wire) in world.wires.iter().enumerate() {
         for (n, node) in wire.nodes.iter().enumerate() {
             let NodeKind::Eye { body, .. } = node.kind else {
@@ -151,12 +157,24 @@ pub(super) fn leave_out_ends(world: &World, found: &mut Vec<Found>) {
                 (body, SegmentId { wire, segment })
             };
             let is_deep = |segment: &usize| deep.contains(&at(*segment));
-            ends.extend((n + 1..).take_while(is_deep).map(at));
-            ends.extend((0..n.saturating_sub(1)).rev().take_while(is_deep).map(at));
+            let after: Vec<usize> = (n + 1..).take_while(is_deep).collect();
+            let before = (0..n.saturating_sub(1)).rev().take_while(is_deep);
+            let before: Vec<usize> = before.collect();
+            if inside(body, &node.position, wire.material.radius) {
+                let last = wire.nodes.len() - 1;
+                let out = [n + 1 + after.len(), n.saturating_sub(1 + before.len())];
+                for node in out.into_iter().filter(|&node| node > 0 && node < last) {
+                    exits.insert((body, w, wire.nodes[node].arc.to_bits()));
+                }
+            }
+            ends.extend(after.into_iter().chain(before).map(at));
         }
     }
-    found.retain(|(segment, contact)| match (segment, contact.b) {
-        (Some(segment), ContactSite::Body { body, .. }) => !ends.contains(&(body, *segment)),
+    found.retain(|(segment, contact)| match (segment, contact.a, contact.b) {
+        (Some(segment), ContactSite::Wire { wire, arc }, ContactSite::Body { body, .. }) => {
+            let is_exit = exits.contains(&(body, wire.0, arc.to_bits()));
+            !is_exit && !ends.contains(&(body, *segment))
+        }
         _ => true,
     });
 }

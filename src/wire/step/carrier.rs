@@ -2,6 +2,7 @@
 
 use smallvec::SmallVec;
 
+use super::linearisation::{Linearisation, prescribed_arm};
 use super::order::Block;
 use super::transverse::SteepNode;
 use crate::wire::model::wire::Clamp;
@@ -99,7 +100,12 @@ const UNSET: usize = usize::MAX;
 
 impl Layout {
     /// Numbers blocks in the order given, each followed by the rows that it can eliminate.
-    pub(super) fn new(world: &World, order: &[Block], steep: &[SteepNode]) -> Self {
+    pub(super) fn new(
+        world: &World,
+        linearisation: &Linearisation,
+        order: &[Block],
+        steep: &[SteepNode],
+    ) -> Self {
         let mut layout = Layout::carried(world);
         for at in steep {
             layout.steep[layout.first_node[at.wire] + at.node] = Some(UNSET);
@@ -112,7 +118,7 @@ impl Layout {
                 Block::Body(at) => layout.bodies[at] = Some(layout.take(6)),
             }
         }
-        layout.rest(world);
+        layout.rest(world, linearisation);
         layout
     }
 
@@ -175,7 +181,7 @@ impl Layout {
 
     /// Numbers what slides and the rows that no free node took, and ties the nodes of bodies to
     /// them.
-    fn rest(&mut self, world: &World) {
+    fn rest(&mut self, world: &World, linearisation: &Linearisation) {
         for at in 0..self.slides.len() {
             if self.slides[at].is_some() {
                 self.slides[at] = Some(self.take(2));
@@ -204,18 +210,17 @@ impl Layout {
         for (wire, &first) in world.wires.iter().zip(&self.first_node) {
             for (i, node) in wire.nodes.iter().enumerate() {
                 if let Some((body, local)) = node.kind.carrier() {
-                    self.nodes[first + i] = self.body(world, body, &local);
+                    let arm = linearisation.arm(world, body, &local);
+                    self.nodes[first + i] = self.body(world, body, arm);
                 }
             }
         }
     }
 
-    fn body(&self, world: &World, id: BodyId, local: &Vector) -> Carrier {
-        let body = &world.bodies[id.0];
-        let arm = body.arm(local);
+    fn body(&self, world: &World, id: BodyId, arm: Vector) -> Carrier {
         match self.bodies[id.0] {
             Some(first) => Carrier::Body(first, arm),
-            None => Carrier::Prescribed(prescribed(world, id, local)),
+            None => Carrier::Prescribed(prescribed(world, id, &arm)),
         }
     }
 
@@ -254,7 +259,8 @@ impl Layout {
         match *place {
             ContactSite::World => SmallVec::new(),
             ContactSite::Body { body, local } => {
-                let carrier = self.body(world, body, &local);
+                let arm = world.bodies[body.0].arm(&local);
+                let carrier = self.body(world, body, arm);
                 SmallVec::from_slice(&[(carrier, 1.0)])
             }
             ContactSite::Wire { wire, arc } => {
@@ -282,13 +288,13 @@ pub(super) fn velocity_of(world: &World, place: &ContactSite) -> Vector {
 }
 
 /// The velocity that is prescribed in the step of a point of a body, 0 of a dynamic one.
-fn prescribed(world: &World, id: BodyId, local: &Vector) -> Vector {
+fn prescribed(world: &World, id: BodyId, arm: &Vector) -> Vector {
     let body = &world.bodies[id.0];
     if body.dynamic {
         return Vector::zeros();
     }
     let (velocity, spin) = body.prescribed(world.time(), world.settings.step);
-    velocity + spin.cross(&body.arm(local))
+    velocity + spin.cross(arm)
 }
 
 /// What prescribed velocities do by contacts with these impulses on their places A, in J.
@@ -298,12 +304,14 @@ pub(super) fn work_of_contacts(
     impulses: &[Vector],
 ) -> f64 {
     let of_node = |node: &Node| match node.kind.carrier() {
-        Some((body, local)) => prescribed(world, body, &local),
+        Some((body, local)) => prescribed(world, body, &prescribed_arm(world, body, &local)),
         None => Vector::zeros(),
     };
     let of = |place: &ContactSite| match *place {
         ContactSite::World => Vector::zeros(),
-        ContactSite::Body { body, local } => prescribed(world, body, &local),
+        ContactSite::Body { body, local } => {
+            prescribed(world, body, &world.bodies[body.0].arm(&local))
+        }
         ContactSite::Wire { wire, arc } => {
             let wire = &world.wires[wire.0];
             let (segment, parameter) = wire.at(arc);

@@ -1,47 +1,76 @@
 //! What the equations of a step are linear about.
 //!
-//! A row of stretch counts velocities along its segment, and what keeps a step stable beside [short
-//! segments](super::transverse) follows from their tensions. Both are taken as they are where the step
-//! starts. That is not enough where a slack wire is caught. Its tension is many times what it was, so that
-//! the next step may not be stable; and its nodes go far sideways, which makes segments longer than the row
-//! has it: by a hundredth of a segment, it may be, that a stiff wire pays back with more energy than there
-//! was.
+//! A row of stretch counts velocities along its segment, a point of a body moves across its arm from the
+//! centre of mass, and what keeps a step stable beside [short segments](super::transverse) follows from
+//! their tensions. All are taken as they are where the step starts. That is not enough where a slack wire is
+//! caught, or a body turns by much. The tension is many times what it was, so that the next step may
+//! not be stable; nodes go far sideways, and points of bodies along arcs, so that segments become longer
+//! than their rows have it: by a hundredth, it may be, that a stiff wire pays back with more energy than
+//! there was.
 //!
 //! So the solution is looked at. A segment that is too short for the tension that it got, if that is
-//! [`GROWTH`] times what it was, has that from now on. One whose length is another one than its row says
-//! has the *mean direction* of the step,
+//! [`GROWTH`] times what it was, has that from now on. One that is stretched by another length than its row
+//! says has the *mean direction* of the step,
 //!
 //! ```text
 //! t = (s + s+) / (|s| + |s+|),   t (s+ - s) = |s+| - |s|
 //! ```
 //!
 //! with the vectors `s` and `s+` from end to end before and after the step, with which the row has the
-//! length right. Then the step is solved again, at most [`ROUNDS`] times.
+//! length right. A body that carries points which come out elsewhere than their rows have it has the mean
+//! of its arms in the step,
 //!
-//! Directions are followed where nothing touches. Contacts are linear about the start as well, and
-//! what is between two of them would be asked to go two ways.
+//! ```text
+//! A r,   A = I + (1 - cos a) / a^2 [a] + (a - sin a) / a^3 [a]^2,   a x (A r) = R r - r
+//! ```
+//!
+//! with the rotation `R` by the vector `a`, and its matrix `[a]` of the product `a x`: the points move as far as
+//! they do, and forces do the work that they do. Segments on such a body have their mean directions
+//! as well: what is between two of its points would seem to change its length otherwise.
+//!
+//! Then the step is solved again. That is Newton's method: where a segment goes aside by `w` more than was
+//! thought, its tension pulls it back with `h T / (|s| + |s+|) P w`, in its *geometric stiffness* (`P`
+//! takes the part across). It is there for the difference alone, so that nothing is damped by it at the end. A solution
+//! is accepted if the [energy](Followed::error) of what its lengths are off by is less than before; else half
+//! of the way to it is tried. After [`ROUNDS`], or when the budget is spent, the best stands.
+//!
+//! Of a body whose motion is prescribed the turn is known from the start.
 
-use super::rows::Row;
+use nalgebra::Matrix3;
+
+use super::carrier::Carrier;
+use super::system::System;
 use super::transverse::is_short;
-use crate::wire::model::Wire;
+use crate::wire::model::{BodyId, Node, Wire};
 use crate::wire::vector::{Vector, unit};
 use crate::wire::world::World;
 
 /// How often a step is solved again.
-pub(super) const ROUNDS: usize = 4;
+pub(super) const ROUNDS: usize = 6;
 
 /// How much larger than it was a tension may be. The theory allows `1 / s^2`, but that would damp whatever is pulled
 /// in a jerk.
 const GROWTH: f64 = 4.0;
 
-/// How much longer or shorter than its row says a segment may be after the step, as a part of its length.
+/// How far a segment may be from what its row says after the step, as a part of its length. Forces along mean directions
+/// damp what swings by `omega^2 h / 4` a second, so what a step follows well is left as it is.
 const OFF: f64 = 2e-2;
 
-/// A chain that is shorter than this part of its length is slack, whatever its row says.
-const SLACK: f64 = 0.99;
+/// How fast it may get there, in m/s: a heavy load on a long segment would come back as fast.
+const SPEED: f64 = 0.5;
 
-/// Of each segment, by wires.
-pub(super) struct Linearisation(Vec<Vec<Linearised>>);
+/// Below this angle in rad series are exact to the last bits.
+const SMALL: f64 = 1e-2;
+
+/// What the equations of a step are linear about.
+#[derive(Clone)]
+pub(super) struct Linearisation {
+    /// By wires and segments.
+    segments: Vec<Vec<Linearised>>,
+    /// By bodies: what takes arms as they are where the step starts to their means; none if they are taken
+    /// as they start.
+    turns: Vec<Option<Matrix3<f64>>>,
+}
 
 /// What the equations of a segment are linear about.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,65 +79,256 @@ pub(super) struct Linearised {
     pub(super) tension: f64,
     /// The direction, by which its row counts velocities; zero if the segment has no length.
     pub(super) along: Vector,
+    /// What pulls it back across that direction, from a solution on.
+    pub(super) geometric: Option<GeometricStiffness>,
+}
+
+/// `h T / (|s| + |s+|)` in kg, and how the end of the segment goes from its start in m/s where it has no effect.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct GeometricStiffness {
+    pub(super) stiffness: f64,
+    pub(super) way: Vector,
+}
+
+/// Where a solution leads.
+pub(super) struct Followed {
+    /// What it is linear about to be solved again.
+    pub(super) next: Linearisation,
+    /// What the lengths of segments that rows do not know of would be in elastic energy, in J.
+    pub(super) error: f64,
+    /// Whether there is a reason to solve again.
+    pub(super) is_off: bool,
 }
 
 impl Linearisation {
     /// About the start of the step: directions as they are there, and the largest tensions of the last
-    /// steps.
+    /// steps. Bodies whose motion is prescribed turn as they will.
     pub(super) fn at_start(world: &World) -> Self {
+        let bodies = (0..world.bodies.len()).map(BodyId);
+        let turns: Vec<Option<Vector>> = bodies.map(|body| prescribed_turn(world, body)).collect();
         let wires = world.wires.iter().map(|wire| {
             let segments = wire.segments.iter().enumerate();
-            let of = segments.map(|(at, segment)| Linearised {
-                tension: segment.largest_tension(),
-                along: unit(&wire.span(at)).0,
+            let of = segments.map(|(at, segment)| {
+                let span = wire.span(at);
+                let on = carriers(wire, at);
+                let turn = on[0].filter(|_| on[0] == on[1]).and_then(|on| turns[on.0]);
+                Linearised {
+                    tension: segment.largest_tension(),
+                    along: match turn {
+                        Some(turn) => mean_direction(&span, &turned(&turn, &span)),
+                        None => unit(&span).0,
+                    },
+                    geometric: None,
+                }
             });
             of.collect()
         });
-        Linearisation(wires.collect())
+        Linearisation {
+            segments: wires.collect(),
+            turns: turns
+                .iter()
+                .map(|turn| turn.as_ref().map(mean_turn))
+                .collect(),
+        }
+    }
+
+    /// The same to start from with other contacts, where no solution is known: of an island that has other bodies, none of
+    /// which carries a node or is moved by forces.
+    pub(super) fn of_bodies(&self, before: &[usize], bodies: &[usize]) -> Self {
+        let turn = |body| {
+            before
+                .binary_search(body)
+                .ok()
+                .and_then(|at| self.turns[at])
+        };
+        let without_solution = |own: &Linearised| Linearised {
+            geometric: None,
+            ..*own
+        };
+        let segments = self.segments.iter();
+        Linearisation {
+            segments: segments
+                .map(|own| own.iter().map(without_solution).collect())
+                .collect(),
+            turns: bodies.iter().map(turn).collect(),
+        }
     }
 
     /// That of a segment of a wire.
     pub(super) fn of(&self, wire: usize, segment: usize) -> &Linearised {
-        &self.0[wire][segment]
+        &self.segments[wire][segment]
     }
 
-    /// Follows a solution, given the rows of stretch in their order, and whether anything touches.
-    /// Returns whether it was followed before: whether nothing is to be solved again.
-    pub(super) fn follow(&mut self, world: &World, rows: &[Row], touches: bool, x: &[f64]) -> bool {
-        let mut is_followed = true;
-        let mut rows = rows.iter();
-        for (at, (wire, own)) in world.wires.iter().zip(&mut self.0).enumerate() {
-            for ((segment, own), row) in own.iter_mut().enumerate().zip(rows.by_ref()) {
-                let tension = row.impulse(x) / world.settings.step;
+    /// From a body's centre of mass to a point of it that carries a node.
+    pub(super) fn arm(&self, world: &World, body: BodyId, local: &Vector) -> Vector {
+        let arm = world.bodies[body.0].arm(local);
+        match &self.turns[body.0] {
+            Some(turn) => turn * arm,
+            None => arm,
+        }
+    }
+
+    /// A part of the way to another one.
+    pub(super) fn towards(&self, other: &Self, part: f64) -> Self {
+        if part == 1.0 {
+            return other.clone();
+        }
+        let mut between = other.clone();
+        let from = self.segments.iter().flatten();
+        for (to, from) in between.segments.iter_mut().flatten().zip(from) {
+            to.along = to.along * part + from.along * (1.0 - part);
+        }
+        for (to, from) in between.turns.iter_mut().zip(&self.turns) {
+            if let Some(to) = to {
+                *to = *to * part + from.unwrap_or_else(Matrix3::identity) * (1.0 - part);
+            }
+        }
+        between
+    }
+
+    /// Follows the solution `x` of a system that is linear about this.
+    pub(super) fn follow(&self, world: &World, system: &System, x: &[f64]) -> Followed {
+        let step = world.settings.step;
+        let turns = system.layout.bodies.iter();
+        let turns = turns.map(|first| first.map(|at| Carrier::Free(at + 3).velocity(x) * step));
+        let turns: Vec<Option<Vector>> = turns.collect();
+        // How far a node comes out beside where its rows have it.
+        let aside = |node: &Node| {
+            let (body, local) = node.kind.carrier()?;
+            let turn = turns[body.0]?;
+            let arm = mean_turn(&turn) * world.bodies[body.0].arm(&local);
+            Some((body, turn.cross(&(arm - self.arm(world, body, &local)))))
+        };
+        let mut followed = Followed {
+            next: self.clone(),
+            error: 0.0,
+            is_off: false,
+        };
+        let mut is_turned = vec![false; turns.len()];
+        // Where segments go that may have to be followed.
+        let mut paths = Vec::new();
+        let mut rows = system.rows.iter();
+        for (at, wire) in world.wires.iter().enumerate() {
+            let push = wire.largest_push(step);
+            for (segment, row) in (0..wire.segments.len()).zip(rows.by_ref()) {
+                let own = &self.segments[at][segment];
+                let tension = row.impulse(x) / step;
                 // Before the first step no tension is known.
                 let is_more = world.steps > 0 && tension > GROWTH * own.tension;
                 if is_more && is_short(world, at, segment, tension) {
-                    own.tension = tension;
-                    is_followed = false;
+                    followed.next.segments[at][segment].tension = tension;
+                    followed.is_off = true;
                 }
-                let way = row.way(x) * world.settings.step;
-                if !touches && let Some(along) = own.turned(wire, segment, &way) {
-                    own.along = along;
-                    is_followed = false;
+                let rest = wire.rest_length(segment);
+                let allowed = f64::min(OFF * rest, SPEED * step);
+                let asides = [segment, segment + 1].map(|node| aside(&wire.nodes[node]));
+                for (body, aside) in asides.iter().flatten() {
+                    is_turned[body.0] |= aside.norm() > allowed;
                 }
+                let [from, to] = asides.map(|aside| aside.map_or_else(Vector::zeros, |of| of.1));
+                let span = wire.span(segment);
+                let way = row.way(x);
+                let end = span + way * step + to - from;
+                let Some(off) = own.off(wire, segment, push, &(end - span)) else {
+                    continue;
+                };
+                let stiffness = wire.material.stretch_stiffness() / rest;
+                followed.error += stiffness * off * off / 2.0;
+                let on = carriers(wire, segment);
+                let is_off = off > allowed;
+                if !is_off && on == [None; 2] {
+                    continue;
+                }
+                let along = mean_direction(&span, &end);
+                let pulls = tension > 0.0 && along != Vector::zeros();
+                let next = Linearised {
+                    tension: followed.next.segments[at][segment].tension,
+                    along,
+                    geometric: pulls.then(|| GeometricStiffness {
+                        stiffness: step * step * tension / (span.norm() + end.norm()),
+                        way,
+                    }),
+                };
+                paths.push((at, segment, on, is_off, next));
             }
         }
-        is_followed
+        for (wire, segment, on, is_off, next) in paths {
+            if is_off || on.into_iter().flatten().any(|body| is_turned[body.0]) {
+                followed.next.segments[wire][segment] = next;
+                followed.is_off = true;
+            }
+        }
+        let bodies = followed.next.turns.iter_mut().zip(&turns);
+        for ((next, turn), _) in bodies.zip(is_turned).filter(|(_, is_turned)| *is_turned) {
+            *next = turn.as_ref().map(mean_turn);
+            followed.is_off = true;
+        }
+        followed
     }
 }
 
 impl Linearised {
-    /// The mean direction of a segment whose end goes this way from its start, if its row has another length.
-    fn turned(&self, wire: &Wire, segment: usize, way: &Vector) -> Option<Vector> {
+    /// By how much a segment whose end goes this way from its start is stretched by another length than its row
+    /// has. What it is shorter by than its largest push asks for does not count; none if it has no length, or
+    /// is so short by the row as well.
+    fn off(&self, wire: &Wire, segment: usize, push: f64, way: &Vector) -> Option<f64> {
         let rest = wire.rest_length(segment);
-        let start = wire.span(segment);
-        let end = start + way;
-        let [before, after] = [start, end].map(|span| span.norm());
-        let is_slack = wire.material.is_chain() && after < SLACK * rest;
-        let off = after - before - self.along.dot(way);
-        let is_off = before > 0.0 && !is_slack && off.abs() > OFF * rest;
-        is_off.then(|| (start + end) / (before + after))
+        let least = -push * rest / wire.material.stretch_stiffness();
+        let span = wire.span(segment);
+        let before = span.norm();
+        let lengths = [(span + way).norm(), before + self.along.dot(way)];
+        let [after, by_row] = lengths.map(|length| (length - rest).max(least));
+        let counts = before > 0.0 && (after > least || by_row > least);
+        counts.then(|| (after - by_row).abs())
     }
+}
+
+/// By what a body turns whose motion is prescribed.
+fn prescribed_turn(world: &World, body: BodyId) -> Option<Vector> {
+    let (body, step) = (&world.bodies[body.0], world.settings.step);
+    (!body.dynamic).then(|| body.prescribed(world.time(), step).1 * step)
+}
+
+/// What [`Linearisation::arm`] is whatever the solution, if the motion of the body is prescribed.
+pub(super) fn prescribed_arm(world: &World, body: BodyId, local: &Vector) -> Vector {
+    let arm = world.bodies[body.0].arm(local);
+    prescribed_turn(world, body).map_or(arm, |turn| mean_turn(&turn) * arm)
+}
+
+/// The bodies that carry the ends of a segment.
+fn carriers(wire: &Wire, segment: usize) -> [Option<BodyId>; 2] {
+    [segment, segment + 1].map(|node| wire.nodes[node].kind.carrier().map(|(body, _)| body))
+}
+
+/// `(s + s+) / (|s| + |s+|)`, zero if both are.
+fn mean_direction(start: &Vector, end: &Vector) -> Vector {
+    let lengths = start.norm() + end.norm();
+    if lengths > 0.0 {
+        (start + end) / lengths
+    } else {
+        Vector::zeros()
+    }
+}
+
+/// A vector after a rotation by the vector `turn`, in rad.
+fn turned(turn: &Vector, vector: &Vector) -> Vector {
+    vector + turn.cross(&(mean_turn(turn) * vector))
+}
+
+/// The mean of the rotations by parts of the vector `turn`, in rad, from none to all of it.
+fn mean_turn(turn: &Vector) -> Matrix3<f64> {
+    let angle = turn.norm();
+    let square = angle * angle;
+    // The next terms are below 1e-12 of the first ones.
+    let (first, second) = if angle < SMALL {
+        let first = 0.5 - square / 24.0 * (1.0 - square / 30.0);
+        (first, 1.0 / 6.0 - square / 120.0 * (1.0 - square / 42.0))
+    } else {
+        let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+        ((1.0 - cos) / square, (angle - sin) / (square * angle))
+    };
+    let cross = turn.cross_matrix();
+    Matrix3::identity() + cross * first + cross * cross * second
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use super::budget::Budget;
 use super::carrier::work_of_contacts;
 use super::energy_limit;
 use super::islands::{Island, islands};
-use super::linearisation::{Linearisation, ROUNDS};
+use super::linearisation::{Followed, Linearisation, ROUNDS};
 use super::motion::Velocities;
 use super::solve_step::Candidate;
 use super::start::Start;
@@ -29,11 +29,67 @@ pub(super) struct Solution {
     islands: Vec<Solved>,
 }
 
+/// An island that is to be solved, with what is known of it from before: the structure of its system, and what its
+/// equations were linear about with other contacts.
+struct Unsolved {
+    island: Island,
+    structure: Option<Structure>,
+    linearisation: Option<Linearisation>,
+}
+
+/// A solution, what it is linear about, and where it leads.
+struct Attempt {
+    linearisation: Linearisation,
+    system: System,
+    candidate: Candidate,
+    followed: Followed,
+}
+
+impl Attempt {
+    /// [Follows](super::linearisation) a solution while that makes it better, given what solves about another
+    /// linearisation.
+    fn follow(
+        self,
+        budget: &mut Budget,
+        mut solve: impl FnMut(Linearisation, &mut Budget) -> Result<Attempt, Reason>,
+    ) -> Attempt {
+        let mut best = self;
+        let mut part = 1.0;
+        for _ in 0..ROUNDS {
+            if !best.followed.is_off || best.candidate.solver.cut_short || budget.is_spent() {
+                break;
+            }
+            let trial = best.linearisation.towards(&best.followed.next, part);
+            let mut share = budget.part(SOLVE);
+            let again = solve(trial, &mut share);
+            budget.take_back(share);
+            // What cannot be solved is as it was before.
+            let Ok(mut again) = again else { break };
+            let solvers = [&best, &again].map(|attempt| &attempt.candidate.solver);
+            let factorisations = solvers[0].factorisations + solvers[1].factorisations;
+            let is_cut_short = solvers[1].cut_short;
+            if !is_cut_short && again.followed.error <= best.followed.error {
+                std::mem::swap(&mut best, &mut again);
+                part = f64::min(2.0 * part, 1.0);
+            } else {
+                part /= 2.0;
+            }
+            best.candidate.solver.factorisations = factorisations;
+            if is_cut_short {
+                break;
+            }
+        }
+        best
+    }
+}
+
 /// An island and its solution, which numbers wires and bodies as the island does.
 pub(super) struct Solved {
     pub(super) island: Island,
     pub(super) system: System,
     pub(super) candidate: Candidate,
+    /// What it is linear about.
+    linearisation: Linearisation,
 }
 
 impl Solution {
@@ -50,11 +106,15 @@ impl Solution {
         budget: &mut Budget,
         phases: &mut Phases,
     ) -> Result<Self, Reason> {
-        let take = |island: Island| {
+        let unsolved = |island: Island| {
             let structure = structures.remove(&island.key(world));
-            (island, structure)
+            Unsolved {
+                island,
+                structure,
+                linearisation: None,
+            }
         };
-        let unsolved = islands(world, contacts).into_iter().map(take).collect();
+        let unsolved = islands(world, contacts).into_iter().map(unsolved).collect();
         let islands = solve(world, unsolved, contacts, start, budget, phases)?;
         Ok(Solution { islands })
     }
@@ -86,8 +146,19 @@ impl Solution {
             {
                 continue;
             }
+            let same = before
+                .as_ref()
+                .filter(|own| own.island.members(world).eq(island.members(world)));
+            let linearisation = same.map(|own| {
+                own.linearisation
+                    .of_bodies(&own.island.bodies, &island.bodies)
+            });
             let structure = before.and_then(|before| before.system.take_structure());
-            unsolved.push((island, structure));
+            unsolved.push(Unsolved {
+                island,
+                structure,
+                linearisation,
+            });
         }
         let solved = solve(world, unsolved, contacts, start, budget, phases)?;
         let mut is_solved = vec![false; world.wires.len() + world.bodies.len()];
@@ -195,29 +266,22 @@ impl Solution {
 /// have anything to find.
 fn solve(
     world: &World,
-    islands: Vec<(Island, Option<Structure>)>,
+    unsolved: Vec<Unsolved>,
     contacts: &[ContactConstraint],
     start: &Start,
     budget: &mut Budget,
     phases: &mut Phases,
 ) -> Result<Vec<Solved>, Reason> {
-    let weight = |(island, _): &(Island, Option<Structure>)| {
+    let weight = |unsolved: &Unsolved| {
+        let island = &unsolved.island;
         let iterates = island.iterates();
         if iterates { island.things(world) } else { 0 }
     };
-    let weights: Vec<usize> = islands.iter().map(weight).collect();
-    let jobs = islands.into_iter().zip(budget.parts(SOLVE, &weights));
-    let solved = made(jobs.collect(), |((island, structure), mut budget)| {
+    let weights: Vec<usize> = unsolved.iter().map(weight).collect();
+    let jobs = unsolved.into_iter().zip(budget.parts(SOLVE, &weights));
+    let solved = made(jobs.collect(), |(unsolved, mut budget)| {
         let mut phases = Phases::default();
-        let own = Solved::new(
-            world,
-            island,
-            structure,
-            contacts,
-            start,
-            &mut budget,
-            &mut phases,
-        );
+        let own = Solved::new(world, unsolved, contacts, start, &mut budget, &mut phases);
         (own, budget, phases)
     });
     let mut all = Vec::with_capacity(solved.len());
@@ -250,43 +314,47 @@ impl Solved {
 
     fn new(
         world: &World,
-        island: Island,
-        mut structure: Option<Structure>,
+        unsolved: Unsolved,
         contacts: &[ContactConstraint],
         start: &Start,
         budget: &mut Budget,
         phases: &mut Phases,
     ) -> Result<Self, Reason> {
+        let Unsolved {
+            island,
+            mut structure,
+            linearisation,
+        } = unsolved;
         let own = island.world(world);
         let world = own.as_ref().unwrap_or(world);
         let (contacts, start) = (island.contacts(contacts), start.of(&island));
-        let touches = !contacts.is_empty();
-        let mut linearisation = Linearisation::at_start(world);
-        let mut solve = |linearisation: &Linearisation, mut structure, budget: &mut Budget| {
-            world.solve_step(
-                linearisation,
+        let linearisation = linearisation.unwrap_or_else(|| Linearisation::at_start(world));
+        let mut solve = |linearisation: Linearisation, budget: &mut Budget| {
+            let (mut system, candidate) = world.solve_step(
+                &linearisation,
                 &mut structure,
                 &contacts,
                 &start,
                 budget,
                 phases,
-            )
+            )?;
+            structure = system.take_structure();
+            let followed = linearisation.follow(world, &system, &candidate.x);
+            Ok::<_, Reason>(Attempt {
+                linearisation,
+                system,
+                candidate,
+                followed,
+            })
         };
-        let (mut system, mut candidate) = solve(&linearisation, structure.take(), budget)?;
-        let mut is_followed = linearisation.follow(world, &system.rows, touches, &candidate.x);
-        for _ in 0..ROUNDS {
-            if is_followed || budget.is_spent() {
-                break;
-            }
-            let factorisations = candidate.solver.factorisations;
-            // What cannot be solved is as it was before.
-            let Ok(again) = solve(&linearisation, system.take_structure(), budget) else {
-                break;
-            };
-            (system, candidate) = again;
-            candidate.solver.factorisations += factorisations;
-            is_followed = linearisation.follow(world, &system.rows, touches, &candidate.x);
-        }
+        let best = solve(linearisation, budget)?.follow(budget, solve);
+        let Attempt {
+            linearisation,
+            mut system,
+            mut candidate,
+            ..
+        } = best;
+        system.give_structure(structure);
         let work = |of: &Candidate| {
             let by_contacts = work_of_contacts(world, &contacts, &of.swept.impulses);
             system.work_of_rows(&of.x) + by_contacts
@@ -296,6 +364,7 @@ impl Solved {
             island,
             system,
             candidate,
+            linearisation,
         })
     }
 }

@@ -63,7 +63,7 @@ impl System {
         structure: Option<Structure>,
     ) -> Self {
         let inertias = transverse_inertias(world, linearisation);
-        let layout = Layout::new(world, order, &inertias.nodes);
+        let layout = Layout::new(world, linearisation, order, &inertias.nodes);
         let mut rows = rows(world, linearisation, &layout);
         rows.extend(capstan::friction_rows(world, &layout));
         let mut system = System {
@@ -89,6 +89,7 @@ impl System {
         system.add_bodies(world);
         system.add_transverse_inertias();
         system.add_steep_segments();
+        system.add_geometric_stiffness(world, linearisation);
         system.mass_entries = system.triplets.index.len();
         system
     }
@@ -163,6 +164,30 @@ impl System {
             for (columns, momentum) in columns.iter().zip(&momentum) {
                 self.triplets.add_outer(columns, inertia.mass);
                 push(&mut self.right, columns, *momentum);
+            }
+        }
+    }
+
+    /// The [geometric stiffness](super::linearisation) of segments, which is there for what a solution differs from the last
+    /// one.
+    fn add_geometric_stiffness(&mut self, world: &World, linearisation: &Linearisation) {
+        for (at, wire) in world.wires.iter().enumerate() {
+            for segment in 0..wire.segments.len() {
+                let linear = linearisation.of(at, segment);
+                let Some(geometric) = linear.geometric else {
+                    continue;
+                };
+                let node = self.layout.first_node[at] + segment;
+                let [start, end] = [node, node + 1].map(|node| self.layout.nodes[node]);
+                let given = end.prescribed_velocity() - start.prescribed_velocity();
+                for across in perpendicular(&linear.along) {
+                    let mut columns = Columns::new();
+                    start.columns(&-across, &mut columns);
+                    end.columns(&across, &mut columns);
+                    self.triplets.add_outer(&columns, geometric.stiffness);
+                    let impulse = geometric.stiffness * across.dot(&(geometric.way - given));
+                    push(&mut self.right, &columns, impulse);
+                }
             }
         }
     }
@@ -504,6 +529,18 @@ impl System {
     pub(super) fn take_structure(&mut self) -> Option<Structure> {
         self.structure.take()
     }
+
+    /// Takes the structure of another system, for the next one.
+    pub(super) fn give_structure(&mut self, structure: Option<Structure>) {
+        self.structure = structure;
+    }
+}
+
+/// Two unit vectors across a direction and each other.
+fn perpendicular(along: &Vector) -> [Vector; 2] {
+    let along = along.normalize();
+    let first = along.cross(&Vector::ith(along.iamin(), 1.0)).normalize();
+    [first, along.cross(&first)]
 }
 
 fn push(right: &mut [f64], columns: &Columns, impulse: f64) {

@@ -101,7 +101,27 @@ fn point() -> impl Strategy<Value = Point> {
     prop::array::uniform3(-1.2..1.2).prop_map(Point::from)
 }
 
+#[test]
+fn centre_of_a_shape_is_as_deep_as_its_distance_says() {
+    for shape in shapes() {
+        let body = CollisionShape::of_body(&shape).unwrap();
+        let placed = body.at(&Point::origin(), &UnitQuaternion::identity());
+        let deep = placed.distance(&Point::origin());
+        assert_eq!(deep, distance(&shape, &Vector::zeros()), "{shape:?}");
+    }
+}
+
 proptest! {
+    #[test]
+    fn distance_of_a_point_is_that_of_every_shape(point in point()) {
+        for shape in shapes() {
+            let body = CollisionShape::of_body(&shape).unwrap();
+            let placed = body.at(&Point::origin(), &UnitQuaternion::identity());
+            let off = placed.distance(&point) - distance(&shape, &point.coords);
+            prop_assert!(off.abs() < 1e-14, "{shape:?}: {off:e}");
+        }
+    }
+
     #[test]
     fn segment_touches_every_shape_where_its_distance_says(a in point(), b in point()) {
         let ends = [a, b];

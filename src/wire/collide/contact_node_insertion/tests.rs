@@ -130,9 +130,14 @@ fn wire_slides_off_an_edge() {
     let (mut rode, mut left) = (0, 0);
     run(&mut world, FRICTION, 1.0, |world, record| {
         rode += contact_nodes(world).len();
-        left += record.slides.iter().filter(|slide| slide.left).count();
+        for slide in record.slides.iter().filter(|slide| slide.left) {
+            left += 1;
+            // Its last three centimetres, which may come to ride once more.
+            let on = world.wires()[0].nodes()[slide.node].arc;
+            assert!(on < 0.03, "{on} m were left");
+        }
     });
-    assert!(rode > 10 && left == 1, "{rode} {left}");
+    assert!(rode > 10 && (1..=2).contains(&left), "{rode} {left}");
     assert!(contact_nodes(&world).is_empty());
     let heights = |world: &World| {
         let nodes = world.wires()[0].nodes().iter();

@@ -2,6 +2,7 @@ use super::*;
 use crate::query::Point;
 use crate::wire::step::contact_nodes::detach;
 use crate::wire::step::islands::Island;
+use crate::wire::step::linearisation::Linearisation;
 use crate::wire::step::motion::{MotionScales, Velocities};
 use crate::wire::step::order::by_wires;
 use crate::wire::{BodyId, BodyPlan, Drive, Material, Phase, Settings, Shape, Stop, WirePlan};
@@ -223,7 +224,12 @@ fn segments_keep_a_sixteenth_of_their_wire_however_fast_it_slides() {
     let world = over_a_node(FRICTION, 1.0, 0.0);
     let rest = world.wires[0].rest_length(0);
     let farthest = rest * 15.0 / 16.0 / world.settings.step;
-    let layout = Layout::new(&world, &by_wires(&world), &[]);
+    let layout = Layout::new(
+        &world,
+        &Linearisation::at_start(&world),
+        &by_wires(&world),
+        &[],
+    );
     let mut velocities = Velocities::prescribed(&world);
     let island = Island::whole(&world, &[]);
     velocities.take(&world, &island, &layout, &vec![0.0; layout.size]);

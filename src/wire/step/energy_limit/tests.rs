@@ -2,6 +2,7 @@ use super::*;
 use crate::query::Point;
 use crate::wire::record::SolverRecord;
 use crate::wire::step::contact_blocks::Swept;
+use crate::wire::step::linearisation::Linearisation;
 use crate::wire::step::order::by_wires;
 use crate::wire::{BodyPlan, Material, Settings, Shape, Stop, WirePlan};
 
@@ -36,7 +37,12 @@ fn solution(layout: &Layout, speed: f64, contact_residual: f64) -> Candidate {
 
 fn slowed(speed: f64, residual: f64, work: f64) -> (f64, bool) {
     let world = world();
-    let layout = Layout::new(&world, &by_wires(&world), &[]);
+    let layout = Layout::new(
+        &world,
+        &Linearisation::at_start(&world),
+        &by_wires(&world),
+        &[],
+    );
     let mut candidate = solution(&layout, speed, residual);
     slow(&world, &layout, &[], &mut candidate, |_| work);
     let down = -candidate.x[layout.bodies[0].unwrap() + 2];
