@@ -2,7 +2,7 @@
 
 use smallvec::SmallVec;
 
-use super::linearisation::{Linearisation, prescribed_arm};
+use super::linearisation::Linearisation;
 use super::order::Block;
 use super::transverse::SteepNode;
 use crate::wire::model::wire::Clamp;
@@ -303,15 +303,15 @@ pub(super) fn work_of_contacts(
     contacts: &[ContactConstraint],
     impulses: &[Vector],
 ) -> f64 {
+    let of_body =
+        |body: BodyId, local: &Vector| prescribed(world, body, &world.bodies[body.0].arm(local));
     let of_node = |node: &Node| match node.kind.carrier() {
-        Some((body, local)) => prescribed(world, body, &prescribed_arm(world, body, &local)),
+        Some((body, local)) => of_body(body, &local),
         None => Vector::zeros(),
     };
     let of = |place: &ContactSite| match *place {
         ContactSite::World => Vector::zeros(),
-        ContactSite::Body { body, local } => {
-            prescribed(world, body, &world.bodies[body.0].arm(&local))
-        }
+        ContactSite::Body { body, local } => of_body(body, &local),
         ContactSite::Wire { wire, arc } => {
             let wire = &world.wires[wire.0];
             let (segment, parameter) = wire.at(arc);

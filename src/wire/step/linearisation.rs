@@ -34,13 +34,14 @@
 //! is accepted if the [energy](Followed::error) of what its lengths are off by is less than before; else half
 //! of the way to it is tried. After [`ROUNDS`], or when the budget is spent, the best stands.
 //!
-//! Of a body whose motion is prescribed the turn is known from the start.
+//! What contacts of a wire push on is [not followed](Held), nor are bodies whose motion is prescribed.
 
 use nalgebra::Matrix3;
 
 use super::carrier::Carrier;
 use super::system::System;
 use super::transverse::is_short;
+use crate::wire::contact::{ContactConstraint, ContactSite};
 use crate::wire::model::{BodyId, Node, Wire};
 use crate::wire::vector::{Vector, unit};
 use crate::wire::world::World;
@@ -90,6 +91,46 @@ pub(super) struct GeometricStiffness {
     pub(super) way: Vector,
 }
 
+/// What contacts of a wire push on: they are linear about the start as well, and what is between two
+/// things that are would be asked to go two ways.
+pub(super) struct Held {
+    /// By wires and segments: those that are pushed, and those beside them.
+    segments: Vec<Vec<bool>>,
+    /// By bodies.
+    bodies: Vec<bool>,
+}
+
+impl Held {
+    /// By contacts with these impulses.
+    pub(super) fn new(world: &World, contacts: &[ContactConstraint], impulses: &[Vector]) -> Self {
+        let wires = world.wires.iter();
+        let mut held = Held {
+            segments: wires.map(|wire| vec![false; wire.segments.len()]).collect(),
+            bodies: vec![false; world.bodies.len()],
+        };
+        for (contact, impulse) in contacts.iter().zip(impulses) {
+            let places = [&contact.a, &contact.b];
+            let is_wire = |place: &&ContactSite| matches!(place, ContactSite::Wire { .. });
+            if *impulse == Vector::zeros() || !places.iter().any(is_wire) {
+                continue;
+            }
+            for place in places {
+                match *place {
+                    ContactSite::World => {}
+                    ContactSite::Body { body, .. } => held.bodies[body.0] = true,
+                    ContactSite::Wire { wire, arc } => {
+                        let wire = wire.0;
+                        let (segment, _) = world.wires[wire].at(arc);
+                        let end = (segment + 2).min(held.segments[wire].len());
+                        held.segments[wire][segment.saturating_sub(1)..end].fill(true);
+                    }
+                }
+            }
+        }
+        held
+    }
+}
+
 /// Where a solution leads.
 pub(super) struct Followed {
     /// What it is linear about to be solved again.
@@ -102,33 +143,20 @@ pub(super) struct Followed {
 
 impl Linearisation {
     /// About the start of the step: directions as they are there, and the largest tensions of the last
-    /// steps. Bodies whose motion is prescribed turn as they will.
+    /// steps.
     pub(super) fn at_start(world: &World) -> Self {
-        let bodies = (0..world.bodies.len()).map(BodyId);
-        let turns: Vec<Option<Vector>> = bodies.map(|body| prescribed_turn(world, body)).collect();
         let wires = world.wires.iter().map(|wire| {
             let segments = wire.segments.iter().enumerate();
-            let of = segments.map(|(at, segment)| {
-                let span = wire.span(at);
-                let on = carriers(wire, at);
-                let turn = on[0].filter(|_| on[0] == on[1]).and_then(|on| turns[on.0]);
-                Linearised {
-                    tension: segment.largest_tension(),
-                    along: match turn {
-                        Some(turn) => mean_direction(&span, &turned(&turn, &span)),
-                        None => unit(&span).0,
-                    },
-                    geometric: None,
-                }
+            let of = segments.map(|(at, segment)| Linearised {
+                tension: segment.largest_tension(),
+                along: unit(&wire.span(at)).0,
+                geometric: None,
             });
             of.collect()
         });
         Linearisation {
             segments: wires.collect(),
-            turns: turns
-                .iter()
-                .map(|turn| turn.as_ref().map(mean_turn))
-                .collect(),
+            turns: vec![None; world.bodies.len()],
         }
     }
 
@@ -186,11 +214,20 @@ impl Linearisation {
         between
     }
 
-    /// Follows the solution `x` of a system that is linear about this.
-    pub(super) fn follow(&self, world: &World, system: &System, x: &[f64]) -> Followed {
+    /// Follows the solution `x` of a system that is linear about this, but for what contacts [hold](Held).
+    pub(super) fn follow(
+        &self,
+        world: &World,
+        system: &System,
+        held: &Held,
+        x: &[f64],
+    ) -> Followed {
         let step = world.settings.step;
-        let turns = system.layout.bodies.iter();
-        let turns = turns.map(|first| first.map(|at| Carrier::Free(at + 3).velocity(x) * step));
+        let bodies = system.layout.bodies.iter().zip(&held.bodies);
+        let turns = bodies.map(|(first, is_held)| {
+            let first = first.filter(|_| !is_held)?;
+            Some(Carrier::Free(first + 3).velocity(x) * step)
+        });
         let turns: Vec<Option<Vector>> = turns.collect();
         // How far a node comes out beside where its rows have it.
         let aside = |node: &Node| {
@@ -233,10 +270,12 @@ impl Linearisation {
                     continue;
                 };
                 let stiffness = wire.material.stretch_stiffness() / rest;
-                followed.error += stiffness * off * off / 2.0;
+                if !held.segments[at][segment] {
+                    followed.error += stiffness * off * off / 2.0;
+                }
                 let on = carriers(wire, segment);
                 let is_off = off > allowed;
-                if !is_off && on == [None; 2] {
+                if held.segments[at][segment] || !is_off && on == [None; 2] {
                     continue;
                 }
                 let along = mean_direction(&span, &end);
@@ -283,18 +322,6 @@ impl Linearised {
     }
 }
 
-/// By what a body turns whose motion is prescribed.
-fn prescribed_turn(world: &World, body: BodyId) -> Option<Vector> {
-    let (body, step) = (&world.bodies[body.0], world.settings.step);
-    (!body.dynamic).then(|| body.prescribed(world.time(), step).1 * step)
-}
-
-/// What [`Linearisation::arm`] is whatever the solution, if the motion of the body is prescribed.
-pub(super) fn prescribed_arm(world: &World, body: BodyId, local: &Vector) -> Vector {
-    let arm = world.bodies[body.0].arm(local);
-    prescribed_turn(world, body).map_or(arm, |turn| mean_turn(&turn) * arm)
-}
-
 /// The bodies that carry the ends of a segment.
 fn carriers(wire: &Wire, segment: usize) -> [Option<BodyId>; 2] {
     [segment, segment + 1].map(|node| wire.nodes[node].kind.carrier().map(|(body, _)| body))
@@ -308,11 +335,6 @@ fn mean_direction(start: &Vector, end: &Vector) -> Vector {
     } else {
         Vector::zeros()
     }
-}
-
-/// A vector after a rotation by the vector `turn`, in rad.
-fn turned(turn: &Vector, vector: &Vector) -> Vector {
-    vector + turn.cross(&(mean_turn(turn) * vector))
 }
 
 /// The mean of the rotations by parts of the vector `turn`, in rad, from none to all of it.

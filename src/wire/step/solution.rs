@@ -6,7 +6,7 @@ use super::budget::Budget;
 use super::carrier::work_of_contacts;
 use super::energy_limit;
 use super::islands::{Island, islands};
-use super::linearisation::{Followed, Linearisation, ROUNDS};
+use super::linearisation::{Followed, Held, Linearisation, ROUNDS};
 use super::motion::Velocities;
 use super::solve_step::Candidate;
 use super::start::Start;
@@ -339,7 +339,8 @@ impl Solved {
                 phases,
             )?;
             structure = system.take_structure();
-            let followed = linearisation.follow(world, &system, &candidate.x);
+            let held = Held::new(world, &contacts, &candidate.swept.impulses);
+            let followed = linearisation.follow(world, &system, &held, &candidate.x);
             Ok::<_, Reason>(Attempt {
                 linearisation,
                 system,

@@ -80,7 +80,6 @@ fn mean_arm_moves_a_point_as_far_as_the_body_turns() {
         let body = turn_by(&UnitQuaternion::identity(), &turn, 1.0);
         let due = body * arm - arm;
         assert!((moved - due).norm() < 1e-14 * angle.max(1.0), "{angle}");
-        assert_eq!(turned(&turn, &arm), arm + moved);
     }
 }
 
