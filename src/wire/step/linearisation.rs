@@ -226,14 +226,15 @@ impl Linearisation {
         let bodies = system.layout.bodies.iter().zip(&held.bodies);
         let turns = bodies.map(|(first, is_held)| {
             let first = first.filter(|_| !is_held)?;
-            Some(Carrier::Free(first + 3).velocity(x) * step)
+            let turn = Carrier::Free(first + 3).velocity(x) * step;
+            Some((turn, mean_turn(&turn)))
         });
-        let turns: Vec<Option<Vector>> = turns.collect();
+        let turns: Vec<Option<(Vector, Matrix3<f64>)>> = turns.collect();
         // How far a node comes out beside where its rows have it.
         let aside = |node: &Node| {
             let (body, local) = node.kind.carrier()?;
-            let turn = turns[body.0]?;
-            let arm = mean_turn(&turn) * world.bodies[body.0].arm(&local);
+            let (turn, mean) = turns[body.0]?;
+            let arm = mean * world.bodies[body.0].arm(&local);
             Some((body, turn.cross(&(arm - self.arm(world, body, &local)))))
         };
         let mut followed = Followed {
@@ -262,6 +263,9 @@ impl Linearisation {
                 for (body, aside) in asides.iter().flatten() {
                     is_turned[body.0] |= aside.norm() > allowed;
                 }
+                if held.segments[at][segment] {
+                    continue;
+                }
                 let [from, to] = asides.map(|aside| aside.map_or_else(Vector::zeros, |of| of.1));
                 let span = wire.span(segment);
                 let way = row.way(x);
@@ -270,12 +274,10 @@ impl Linearisation {
                     continue;
                 };
                 let stiffness = wire.material.stretch_stiffness() / rest;
-                if !held.segments[at][segment] {
-                    followed.error += stiffness * off * off / 2.0;
-                }
+                followed.error += stiffness * off * off / 2.0;
                 let on = carriers(wire, segment);
                 let is_off = off > allowed;
-                if held.segments[at][segment] || !is_off && on == [None; 2] {
+                if !is_off && on == [None; 2] {
                     continue;
                 }
                 let along = mean_direction(&span, &end);
@@ -299,7 +301,7 @@ impl Linearisation {
         }
         let bodies = followed.next.turns.iter_mut().zip(&turns);
         for ((next, turn), _) in bodies.zip(is_turned).filter(|(_, is_turned)| *is_turned) {
-            *next = turn.as_ref().map(mean_turn);
+            *next = turn.map(|(_, mean)| mean);
             followed.is_off = true;
         }
         followed

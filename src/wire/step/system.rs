@@ -14,7 +14,7 @@ use super::transverse::{SteepSegment, TransverseInertias, transverse_inertias};
 use crate::wire::contact::ContactConstraint;
 use crate::wire::error::Reason;
 use crate::wire::sparse::{Ldl, SparseColumns, Structure, Symmetric, Triplets};
-use crate::wire::vector::Vector;
+use crate::wire::vector::{Vector, frame};
 use crate::wire::world::World;
 
 /// The largest backward error of a solution that is accepted.
@@ -180,7 +180,8 @@ impl System {
                 let node = self.layout.first_node[at] + segment;
                 let [start, end] = [node, node + 1].map(|node| self.layout.nodes[node]);
                 let given = end.prescribed_velocity() - start.prescribed_velocity();
-                for across in perpendicular(&linear.along) {
+                let frame = frame(&linear.along.normalize());
+                for across in [1, 2].map(|row| frame.row(row).transpose()) {
                     let mut columns = Columns::new();
                     start.columns(&-across, &mut columns);
                     end.columns(&across, &mut columns);
@@ -534,13 +535,6 @@ impl System {
     pub(super) fn give_structure(&mut self, structure: Option<Structure>) {
         self.structure = structure;
     }
-}
-
-/// Two unit vectors across a direction and each other.
-fn perpendicular(along: &Vector) -> [Vector; 2] {
-    let along = along.normalize();
-    let first = along.cross(&Vector::ith(along.iamin(), 1.0)).normalize();
-    [first, along.cross(&first)]
 }
 
 fn push(right: &mut [f64], columns: &Columns, impulse: f64) {
