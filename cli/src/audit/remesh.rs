@@ -19,6 +19,33 @@ pub(super) struct Wires {
     radii: Vec<f64>,
     /// The contacts that pushed.
     pushing: Vec<ContactConstraint>,
+    /// Contact nodes that were taken out.
+    gone: Vec<Gone>,
+}
+
+/// A contact node that was taken out, beside no other one that its body carries: it makes place for some that the body
+/// carries in the next step.
+#[derive(Clone, Debug)]
+struct Gone {
+    wire: usize,
+    body: BodyId,
+    /// Of its neighbours, between which it was.
+    arcs: [f64; 2],
+}
+
+impl Gone {
+    /// Whether there is a node that the body carries where it was.
+    fn has_made_place(&self, next: &StepRecord) -> bool {
+        let Some(wire) = next.wires.get(self.wire) else {
+            return false;
+        };
+        let mut nodes = wire.arcs.iter().zip(&wire.kinds);
+        nodes.any(|(&arc, kind)| self.is_around(arc) && is_on(kind, self.body))
+    }
+
+    fn is_around(&self, arc: f64) -> bool {
+        self.arcs[0] <= arc && arc <= self.arcs[1]
+    }
 }
 
 /// A segment that a change passes through, with a witness.
@@ -61,6 +88,7 @@ impl Wires {
             nodes,
             radii: record.wires.iter().map(|wire| wire.radius).collect(),
             pushing: pushing.map(|record| record.contact).collect(),
+            gone: Vec::new(),
         }
     }
 
@@ -87,8 +115,9 @@ impl Wires {
     }
 
     /// Whether a node may be of the kind that it has in the next step: of its own one, or a contact node where it was free.
-    /// Then it is one of some in a row that the body carries in the next step. One of these it carries here, and the wire
-    /// comes onto it beside that one; or a contact with the body pushed on the wire nearer than at the neighbours of the row.
+    /// Then it is one of some in a row that the body carries in the next step. One of these it carries here, or carried one
+    /// between them that is gone, and the wire comes onto it beside that one; or a contact with the body pushed on the wire nearer
+    /// than at the neighbours of the row.
     fn may_become(&self, wire: usize, node: usize, next: &[NodeKind]) -> bool {
         let nodes = &self.nodes[wire];
         let (NodeKind::Free, NodeKind::Contact { body, friction, .. }) =
@@ -109,6 +138,14 @@ impl Wires {
         {
             return true;
         }
+        let row = &nodes[first..=last];
+        let is_for_row = |gone: &Gone| {
+            let is_own = gone.wire == wire && gone.body == *body;
+            is_own && row.iter().any(|node| gone.is_around(node.arc))
+        };
+        if self.gone.iter().any(is_for_row) {
+            return true;
+        }
         let before = first.checked_sub(1).map(|before| nodes[before].arc);
         let after = nodes.get(last + 1).map(|after| after.arc);
         let is_beside = |arc: f64| {
@@ -124,7 +161,7 @@ impl Wires {
             })
     }
 
-    /// The wires that do not start there in the next step.
+    /// The wires that do not start there in the next step, or have lost a contact node without another one in its place.
     pub(super) fn jumped(&self, next: &StepRecord) -> Vec<usize> {
         let count = self.nodes.len().max(next.wires.len());
         let starts = |w: usize| {
@@ -138,7 +175,11 @@ impl Wires {
                 _ => false,
             }
         };
-        (0..count).filter(|&w| !starts(w)).collect()
+        let has_lost = |w: usize| {
+            let mut gone = self.gone.iter().filter(|gone| gone.wire == w);
+            gone.any(|gone| !gone.has_made_place(next))
+        };
+        (0..count).filter(|&w| !starts(w) || has_lost(w)).collect()
     }
 
     /// Where the triangle of a change is: the number of the node before its middle. None if it is not there, or
@@ -152,13 +193,14 @@ impl Wires {
         let corners = corners
             .iter()
             .map(|&k| (change.triangle[k], change.arcs[k]));
-        // A body may lose a contact node beside another node that it carries.
+        // A body may lose a contact node beside another node that it carries, or between nodes of which it may carry one in the
+        // next step: whether it does is seen there.
         let may_go = |nodes: &[Node]| match nodes {
             [before, middle, after] => match middle.kind {
                 NodeKind::Free => true,
-                NodeKind::Contact { body, .. } => {
-                    [before, after].iter().any(|node| is_on(&node.kind, body))
-                }
+                NodeKind::Contact { body, .. } => [before, after]
+                    .iter()
+                    .any(|node| is_on(&node.kind, body) || node.kind == NodeKind::Free),
                 _ => false,
             },
             _ => true,
@@ -313,7 +355,19 @@ impl Wires {
         };
         let wire = &mut self.nodes[change.wire.0];
         match change.kind {
-            RemeshKind::Merge => drop(wire.remove(first + 1)),
+            RemeshKind::Merge => {
+                let neighbours = [wire[first], wire[first + 2]];
+                let gone = wire.remove(first + 1);
+                if let NodeKind::Contact { body, .. } = gone.kind
+                    && !neighbours.iter().any(|node| is_on(&node.kind, body))
+                {
+                    self.gone.push(Gone {
+                        wire: change.wire.0,
+                        body,
+                        arcs: neighbours.map(|node| node.arc),
+                    });
+                }
+            }
             RemeshKind::Split => {
                 wire.insert(first + 1, middle(change));
             }

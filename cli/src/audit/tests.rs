@@ -785,6 +785,63 @@ fn audit_takes_wire_that_comes_onto_a_drum() {
 }
 
 #[test]
+fn audit_lets_a_contact_node_go_only_where_its_body_carries_another_one() {
+    let is_contact = |kind: &NodeKind| matches!(kind, NodeKind::Contact { .. });
+    let jumps = |report: &Report| {
+        let is_jump = |what: &What| matches!(what, What::Jump { .. });
+        found(report).iter().filter(|what| is_jump(what)).count()
+    };
+    // The contact node of the first wire goes after a step, and the next step starts without it.
+    let gone = |neighbour: bool| {
+        tampered(EDGE, |records| {
+            let at = records.iter().position(|record| {
+                let kinds = &record.wires[0].kinds;
+                kinds.iter().any(is_contact) && record.remeshes.is_empty()
+            });
+            let at = at.unwrap();
+            records.truncate(at + 2);
+            let [record, next] = &mut records[at..] else {
+                unreachable!()
+            };
+            record.slides.retain(|slide| slide.wire.0 != 0);
+            next.slides.clear();
+            next.remeshes.clear();
+            next.contacts.clear();
+            let wire = &record.wires[0];
+            let node = wire.kinds.iter().position(is_contact).unwrap();
+            let corners = [node - 1, node, node + 1];
+            record.remeshes.push(Remesh {
+                wire: WireId(0),
+                kind: RemeshKind::Merge,
+                triangle: corners.map(|k| wire.after[k]),
+                arcs: corners.map(|k| wire.arcs[k]),
+            });
+            let (kind, radius) = (wire.kinds[node], wire.radius);
+            let mut nodes: Vec<_> = wire.after.iter().zip(&wire.arcs).zip(&wire.kinds).collect();
+            nodes.remove(node);
+            let places: Vec<_> = nodes.iter().map(|((at, _), _)| **at).collect();
+            let own = WireRecord {
+                radius,
+                arcs: nodes.iter().map(|((_, arc), _)| **arc).collect(),
+                kinds: nodes.iter().map(|(_, kind)| **kind).collect(),
+                before: places.clone(),
+                after: places,
+                tensions: vec![0.0; nodes.len() - 1],
+                ..WireRecord::default()
+            };
+            next.wires[0] = own;
+            if neighbour {
+                next.wires[0].kinds[node] = kind;
+            }
+        })
+    };
+    let (without, with) = (gone(false), gone(true));
+    assert_eq!((jumps(&without), jumps(&with)), (1, 0));
+    let is_altered = |what: &What| matches!(what, What::Altered { .. });
+    assert!(!found(&with).iter().any(is_altered));
+}
+
+#[test]
 fn audit_finds_contact_nodes_that_come_and_go_without_a_reason() {
     let is_contact = |kind: &NodeKind| matches!(kind, NodeKind::Contact { .. });
     let kinds = |report: &Report| {

@@ -73,13 +73,19 @@ impl Thickness {
     /// How far along both wires contacts are one, in m: as far as they are thick. Where thickness is
     /// guarded not farther than half a segment, so that each may have a contact at both ends.
     pub(super) fn spacing(self, world: &World, sites: &[WireSite; 2]) -> f64 {
-        let wires = sites.map(|site| &world.wires[site.wire.0]);
-        let diameter = wires[0].material.radius + wires[1].material.radius;
+        let diameter = self.most_spacing(world, sites);
         if !self.is_guarded() {
             return diameter;
         }
+        let wires = sites.map(|site| &world.wires[site.wire.0]);
         let half = |k: usize| wires[k].rest_length(wires[k].at(sites[k].arc).0) / 2.0;
         diameter.min(half(0)).min(half(1))
+    }
+
+    /// The most that [`spacing`](Self::spacing) can be, in m.
+    pub(super) fn most_spacing(self, world: &World, sites: &[WireSite; 2]) -> f64 {
+        let radius = |site: &WireSite| world.wires[site.wire.0].material.radius;
+        radius(&sites[0]) + radius(&sites[1])
     }
 
     /// The motion of two segments. Its radius is what they have to stay beyond.

@@ -288,8 +288,11 @@ impl WireContact {
         if !(same(0) && same(1)) {
             return false;
         }
-        let spacing = part * thickness.spacing(world, sites);
-        (0..2).all(|k| (self.sites[k].arc - sites[k].arc).abs() <= spacing)
+        let along = [0, 1].map(|k| (self.sites[k].arc - sites[k].arc).abs());
+        let farther = along[0].max(along[1]);
+        // Mostly the first is enough, and the spacing has to be looked for.
+        farther <= part * thickness.most_spacing(world, sites)
+            && farther <= part * thickness.spacing(world, sites)
     }
 
     /// The last direction between the places, from B to A.

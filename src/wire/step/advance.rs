@@ -165,7 +165,7 @@ impl World {
         torsion::follow_motion(self, &torsions);
         let slot = self.steps as usize % TENSION_HISTORY;
         for own in solution.islands() {
-            for (wire, impulses) in own.tensions(self) {
+            for (wire, impulses) in own.tensions() {
                 let segments = &mut self.wires[wire].segments;
                 for (segment, impulse) in segments.iter_mut().zip(impulses) {
                     // T = -lambda / h, and the unknown is -lambda.

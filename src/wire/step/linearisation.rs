@@ -34,7 +34,8 @@
 //! is accepted if the [energy](Followed::error) of what its lengths are off by is less than before; else half
 //! of the way to it is tried. After [`ROUNDS`], or when the budget is spent, the best stands.
 //!
-//! What contacts of a wire push on is [not followed](Held), nor are bodies whose motion is prescribed.
+//! What contacts of a wire push on is linear about the start as well: a [body](Held) that is pushed so is not followed, and a
+//! segment only if it is off by far more. Nor are bodies whose motion is prescribed.
 
 use nalgebra::Matrix3;
 
@@ -59,6 +60,9 @@ const OFF: f64 = 2e-2;
 
 /// How fast it may get there, in m/s: a heavy load on a long segment would come back as fast.
 const SPEED: f64 = 0.5;
+
+/// How many times as much that is for a segment that contacts push on.
+const PUSHED: f64 = 3.0;
 
 /// Below this angle in rad series are exact to the last bits.
 const SMALL: f64 = 1e-2;
@@ -91,8 +95,8 @@ pub(super) struct GeometricStiffness {
     pub(super) way: Vector,
 }
 
-/// What contacts of a wire push on: they are linear about the start as well, and what is between two
-/// things that are would be asked to go two ways.
+/// What contacts of a wire push on: they are linear about the start, and what is between two things of which one is not would be
+/// asked to go two ways.
 pub(super) struct Held {
     /// By wires and segments: those that are pushed, and those beside them.
     segments: Vec<Vec<bool>>,
@@ -139,6 +143,8 @@ pub(super) struct Followed {
     pub(super) error: f64,
     /// Whether there is a reason to solve again.
     pub(super) is_off: bool,
+    /// Whether that is other directions or arms.
+    pub(super) has_other_directions: bool,
 }
 
 impl Linearisation {
@@ -241,6 +247,7 @@ impl Linearisation {
             next: self.clone(),
             error: 0.0,
             is_off: false,
+            has_other_directions: false,
         };
         let mut is_turned = vec![false; turns.len()];
         // Where segments go that may have to be followed.
@@ -263,9 +270,8 @@ impl Linearisation {
                 for (body, aside) in asides.iter().flatten() {
                     is_turned[body.0] |= aside.norm() > allowed;
                 }
-                if held.segments[at][segment] {
-                    continue;
-                }
+                let is_held = held.segments[at][segment];
+                let allowed = if is_held { PUSHED * allowed } else { allowed };
                 let [from, to] = asides.map(|aside| aside.map_or_else(Vector::zeros, |of| of.1));
                 let span = wire.span(segment);
                 let way = row.way(x);
@@ -275,7 +281,11 @@ impl Linearisation {
                 };
                 let stiffness = wire.material.stretch_stiffness() / rest;
                 followed.error += stiffness * off * off / 2.0;
-                let on = carriers(wire, segment);
+                let on = if is_held {
+                    [None; 2]
+                } else {
+                    carriers(wire, segment)
+                };
                 let is_off = off > allowed;
                 if !is_off && on == [None; 2] {
                     continue;
@@ -296,14 +306,15 @@ impl Linearisation {
         for (wire, segment, on, is_off, next) in paths {
             if is_off || on.into_iter().flatten().any(|body| is_turned[body.0]) {
                 followed.next.segments[wire][segment] = next;
-                followed.is_off = true;
+                followed.has_other_directions = true;
             }
         }
         let bodies = followed.next.turns.iter_mut().zip(&turns);
         for ((next, turn), _) in bodies.zip(is_turned).filter(|(_, is_turned)| *is_turned) {
             *next = turn.map(|(_, mean)| mean);
-            followed.is_off = true;
+            followed.has_other_directions = true;
         }
+        followed.is_off |= followed.has_other_directions;
         followed
     }
 }

@@ -24,6 +24,9 @@ use crate::wire::world::World;
 /// again.
 pub(super) const SOLVE: usize = 2;
 
+/// How far from a solution contacts may be, in m/s, for that to be followed: less than what lengths are off by.
+const FAR: f64 = 1e-2;
+
 /// Islands, each with its solution.
 pub(super) struct Solution {
     islands: Vec<Solved>,
@@ -51,35 +54,51 @@ impl Attempt {
     fn follow(
         self,
         budget: &mut Budget,
-        mut solve: impl FnMut(Linearisation, &mut Budget) -> Result<Attempt, Reason>,
+        mut solve: impl FnMut(Linearisation, &Start, &mut Budget) -> Result<Attempt, Reason>,
     ) -> Attempt {
         let mut best = self;
         let mut part = 1.0;
         for _ in 0..ROUNDS {
-            if !best.followed.is_off || best.candidate.solver.cut_short || budget.is_spent() {
+            if !best.followed.is_off || best.is_far() || budget.is_spent() {
                 break;
             }
             let trial = best.linearisation.towards(&best.followed.next, part);
             let mut share = budget.part(SOLVE);
-            let again = solve(trial, &mut share);
+            let again = solve(trial, &best.end(), &mut share);
             budget.take_back(share);
             // What cannot be solved is as it was before.
             let Ok(mut again) = again else { break };
             let solvers = [&best, &again].map(|attempt| &attempt.candidate.solver);
             let factorisations = solvers[0].factorisations + solvers[1].factorisations;
-            let is_cut_short = solvers[1].cut_short;
-            if !is_cut_short && again.followed.error <= best.followed.error {
+            let is_better = !again.is_far() && again.followed.error <= best.followed.error;
+            // Half of the way to larger tensions alone is the same again, and what takes too long does so again.
+            let is_last = again.candidate.solver.cut_short || !best.followed.has_other_directions;
+            if is_better {
                 std::mem::swap(&mut best, &mut again);
                 part = f64::min(2.0 * part, 1.0);
             } else {
                 part /= 2.0;
             }
             best.candidate.solver.factorisations = factorisations;
-            if is_cut_short {
+            if is_last && !is_better {
                 break;
             }
         }
         best
+    }
+
+    /// Whether the search for it ended early, and contacts are [`FAR`] from a solution.
+    fn is_far(&self) -> bool {
+        let solver = &self.candidate.solver;
+        solver.cut_short && solver.contact_residual > FAR
+    }
+
+    /// What it came to, as a prediction for the next.
+    fn end(&self) -> Start {
+        Start {
+            impulses: self.candidate.swept.impulses.clone(),
+            tensions: self.system.tensions(&self.candidate.x).collect(),
+        }
     }
 }
 
@@ -295,15 +314,9 @@ fn solve(
 
 impl Solved {
     /// The tensions of its segments, by wires of the whole world, as impulses in N s.
-    pub(super) fn tensions(&self, world: &World) -> Vec<(usize, Vec<f64>)> {
-        let mut rows = self.system.rows.iter();
-        let wires = self.island.wires.iter();
-        let tensions = wires.map(|&wire| {
-            let stretch = rows.by_ref().take(world.wires[wire].segments.len());
-            let impulses = stretch.map(|row| row.impulse(&self.candidate.x));
-            (wire, impulses.collect())
-        });
-        tensions.collect()
+    pub(super) fn tensions(&self) -> impl Iterator<Item = (usize, Vec<f64>)> {
+        let wires = self.island.wires.iter().copied();
+        wires.zip(self.system.tensions(&self.candidate.x))
     }
 
     /// The torque of each wire that holds twist, by wires of the whole world, as an impulse in N m s.
@@ -329,12 +342,12 @@ impl Solved {
         let world = own.as_ref().unwrap_or(world);
         let (contacts, start) = (island.contacts(contacts), start.of(&island));
         let linearisation = linearisation.unwrap_or_else(|| Linearisation::at_start(world));
-        let mut solve = |linearisation: Linearisation, budget: &mut Budget| {
+        let mut solve = |linearisation: Linearisation, start: &Start, budget: &mut Budget| {
             let (mut system, candidate) = world.solve_step(
                 &linearisation,
                 &mut structure,
                 &contacts,
-                &start,
+                start,
                 budget,
                 phases,
             )?;
@@ -348,7 +361,7 @@ impl Solved {
                 followed,
             })
         };
-        let best = solve(linearisation, budget)?.follow(budget, solve);
+        let best = solve(linearisation, &start, budget)?.follow(budget, solve);
         let Attempt {
             linearisation,
             mut system,

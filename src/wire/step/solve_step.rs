@@ -29,6 +29,12 @@ const IN_SYSTEM: usize = 2;
 /// Factorisations that there have to be enough for, or the contacts are found in another way at once.
 const NEWTON_STEPS: usize = 10;
 
+/// Fewer contacts are swept: they mostly converge soon.
+const MANY: usize = 8;
+
+/// How far contacts that were swept may be from a solution, in m/s, or it is looked for in the system.
+const FAR: f64 = 1e-2;
+
 /// A solution of a step that is not committed yet.
 pub(super) struct Candidate {
     pub(super) x: Vec<f64>,
@@ -82,7 +88,10 @@ impl World {
         let affordable = budget.share(IN_SYSTEM * NEWTON_STEPS);
         let are_many = contacts.len() > *FORMED.end();
         let most = if are_many { affordable } else { usize::MAX };
-        let by_least_degree = order::by_least_degree(self, contacts, most);
+        let most = most.min(order::MOST * contacts.len());
+        let by_least_degree = (contacts.len() >= MANY)
+            .then(|| order::by_least_degree(self, contacts, most))
+            .flatten();
         let hardly_fills = by_least_degree.is_some();
         let by_least_degree = by_least_degree.filter(|(_, cost)| *cost <= affordable);
         phases.assembly += clock.lap();
@@ -121,9 +130,33 @@ impl World {
             *structure = system.take_structure();
             system = self.assemble(linearisation, &order::by_wires(self), structure, phases);
         }
-        let candidate =
+        let swept =
             self.solve_with_swept_contacts(&mut system, contacts, &start.impulses, budget, phases)?;
-        Ok((system, candidate))
+        let least = swept.solver.contact_residual;
+        if least <= FAR || is_tried {
+            return Ok((system, swept));
+        }
+        // What pulls may change with what pushes for ever, where one is found after the other.
+        clock.lap();
+        let order = order::by_least_degree(self, contacts, budget.share(NEWTON_STEPS));
+        phases.assembly += clock.lap();
+        let Some((order, _)) = order else {
+            return Ok((system, swept));
+        };
+        let mut within = self.assemble(linearisation, &order, &mut None, phases);
+        let candidate = self.solve_with_implicit_contacts(
+            &mut within,
+            contacts,
+            start,
+            ContactMethod::InMatrix,
+            budget,
+            phases,
+        );
+        let is_nearer = |candidate: &Candidate| candidate.solver.contact_residual < least;
+        Ok(match candidate.filter(is_nearer) {
+            Some(candidate) => (within, candidate),
+            None => (system, swept),
+        })
     }
 
     fn assemble(

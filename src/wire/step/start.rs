@@ -35,7 +35,7 @@ impl Start {
     pub(super) fn again(world: &World, solution: &Solution, contacts: usize) -> Self {
         let mut tensions = vec![Vec::new(); world.wires.len()];
         for own in solution.islands() {
-            for (wire, solved) in own.tensions(world) {
+            for (wire, solved) in own.tensions() {
                 tensions[wire] = solved;
             }
         }

@@ -463,6 +463,18 @@ impl System {
         impulses
     }
 
+    /// The tensions of the segments of each wire for a solution, as impulses in N s.
+    pub(super) fn tensions(&self, x: &[f64]) -> impl Iterator<Item = Vec<f64>> {
+        let layout = &self.layout;
+        let firsts = layout.first_node.iter().copied();
+        let ends = firsts.clone().skip(1).chain([layout.nodes.len()]);
+        firsts.zip(ends).enumerate().map(|(wire, (first, end))| {
+            let segments = first - wire..end - wire - 1;
+            let stretch = self.rows[segments].iter();
+            stretch.map(|row| row.impulse(x)).collect()
+        })
+    }
+
     /// What prescribed velocities do by the rows of a solution, in J.
     pub(super) fn work_of_rows(&self, x: &[f64]) -> f64 {
         self.rows.iter().map(|row| row.work(x)).sum()
