@@ -214,3 +214,21 @@ fn chain_from_the_centre_of_a_ball_is_not_stretched_by_it() {
     let summary = run(text);
     assert!(summary.energy.largest_gain < 2.0, "{:?}", summary.energy);
 }
+
+/// A net that is caught up with has some dozen contacts, and all of them tie what pulls; of over-the-edge the ball comes to the
+/// edge on a short piece of chain, where what pulls and what pushes is not found one after the other.
+#[test]
+fn scenes_with_few_contacts_gain_no_energy_where_these_tie_what_pulls() {
+    let net = include_str!("../scenes/net.toml");
+    let edge = include_str!("../scenes/over-the-edge.toml");
+    for (scene, rates, most) in [
+        (net, &[60.0, 120.0, 240.0][..], 9.0),
+        (edge, &[30.0, 60.0, 120.0, 240.0], 5.0),
+    ] {
+        for rate in rates {
+            let settings = format!("[settings]\nstep = {}\n\n[[bodies]]", 1.0 / rate);
+            let energy = run(&scene.replacen("[[bodies]]", &settings, 1)).energy;
+            assert!(energy.largest_gain < most, "{rate}: {energy:?}");
+        }
+    }
+}

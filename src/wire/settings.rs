@@ -31,7 +31,7 @@ pub struct Settings {
     /// Most sweeps over contacts that are swept in one solve; usual value 200.
     pub sweeps: usize,
     /// What a step may spend on finding what pulls, pushes, sticks and slides: multiplications for
-    /// each segment and contact, and for 2000 more; usual value 10,000. What contacts and bodies do
+    /// each segment and contact, and for 6000 more; usual value 10,000. What contacts and bodies do
     /// not tie together shares them by its segments and contacts. A step that has spent them ends
     /// with what it has found ([`SolverRecord::cut_short`](super::SolverRecord::cut_short)).
     pub work: usize,

@@ -24,7 +24,7 @@ pub(super) struct Settings {
     /// Most sweeps over contacts that are swept in one solve; usual value 200.
     sweeps: usize,
     /// What a step may spend on finding what pulls, pushes, sticks and slides: multiplications for
-    /// each segment and contact, and for 2000 more; usual value 10,000.
+    /// each segment and contact, and for 6000 more; usual value 10,000.
     work: usize,
     /// Velocity in m/s by which contacts may be off: by which none may change in the last sweep;
     /// usual value 1e-8.

@@ -103,6 +103,7 @@ pub(super) fn find_active_set(
         let is_last = tries == TRIES || budget.is_spent();
         if leaves_branch(&system.rows, &newton) && !is_last {
             let fraction = line_search(system, &x, &newton, 0.0);
+            budget.spend(system.multiplications_of_line_search());
             advance(&mut x, &newton, fraction);
             continue;
         }

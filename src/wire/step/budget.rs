@@ -7,7 +7,7 @@ use crate::wire::contact::ContactConstraint;
 use crate::wire::world::World;
 
 /// What every step may spend, as if there were so many more segments.
-const AT_LEAST: usize = 4000;
+const AT_LEAST: usize = 6000;
 
 /// What is left to spend. Whoever spends looks first whether anything is left, and may then spend
 /// more than that, once.

@@ -398,14 +398,21 @@ impl System {
     /// What the laws of contacts and a line search with them take as long as.
     pub(super) fn multiplications_of_laws(&self) -> usize {
         /// Of a contact.
-        const CONTACT: usize = 500;
+        const CONTACT: usize = 1500;
         CONTACT * self.implicit.len()
+    }
+
+    /// What a line search to the last bit takes as long as.
+    pub(super) fn multiplications_of_line_search(&self) -> usize {
+        /// Of a row.
+        const ROW: usize = 500;
+        ROW * self.rows.len()
     }
 
     /// Multiplications of a [`response`](Self::response), and of what contacts make of it.
     pub(super) fn multiplications_of_response(&self) -> usize {
         /// Of a contact.
-        const CONTACT: usize = 60;
+        const CONTACT: usize = 120;
         let own = CONTACT * self.implicit.len();
         own + self.ldl().map_or(0, Ldl::multiplications_of_solve)
     }
