@@ -8,7 +8,7 @@
 //! wires are on each other's wrong side. That side is counted by crossings, never read from
 //! positions: it is how thesis mode brings wires back.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::segment::{Closest, direction, joined, pair_at, reach};
 use super::thickness::Thickness;
@@ -64,6 +64,30 @@ const ALONG: f64 = 0.1;
 
 type PairSet = BTreeSet<[SegmentId; 2]>;
 
+/// Where in a list the contacts of two wires are, ascending: no others can be at one place.
+#[derive(Default)]
+struct ByWires(BTreeMap<[usize; 2], Vec<usize>>);
+
+impl ByWires {
+    fn new(list: &[WireContact]) -> Self {
+        let mut all = ByWires::default();
+        for (at, touch) in list.iter().enumerate() {
+            all.add(touch, at);
+        }
+        all
+    }
+
+    fn add(&mut self, touch: &WireContact, at: usize) {
+        let wires = touch.sites.map(|site| site.wire.0);
+        self.0.entry(wires).or_default().push(at);
+    }
+
+    fn of(&self, sites: &[WireSite; 2]) -> &[usize] {
+        let wires = sites.map(|site| site.wire.0);
+        self.0.get(&wires).map_or(&[], Vec::as_slice)
+    }
+}
+
 impl WireContacts {
     /// A new contact, not yet among the others.
     pub(super) fn make(&mut self, sites: [WireSite; 2], normal: Vector) -> WireContact {
@@ -87,6 +111,7 @@ impl WireContacts {
         // none that stays at a node.
         let all = std::mem::take(&mut self.list).into_iter();
         let (at_nodes, closest): (Vec<_>, Vec<_>) = all.partition(|touch| touch.at_node.is_some());
+        let mut by_wires = ByWires::default();
         for mut touch in at_nodes.into_iter().chain(closest) {
             let Some(pair) = touch.pair(world) else {
                 continue;
@@ -101,10 +126,14 @@ impl WireContacts {
             if !stays {
                 continue;
             }
-            let mut older = self.list.iter_mut();
-            match older.find(|older| older.is_within(MERGED, world, &touch.sites, thickness)) {
-                Some(older) => older.wrong |= touch.wrong,
-                None => self.list.push(touch),
+            let is_one =
+                |&&at: &&usize| self.list[at].is_within(MERGED, world, &touch.sites, thickness);
+            match by_wires.of(&touch.sites).iter().find(is_one) {
+                Some(&older) => self.list[older].wrong |= touch.wrong,
+                None => {
+                    by_wires.add(&touch, self.list.len());
+                    self.list.push(touch);
+                }
             }
         }
     }
@@ -139,6 +168,7 @@ impl WireContacts {
         let fall = world.settings.gravity.norm() * world.settings.step * world.settings.step;
         let pairs = self.list.iter().filter_map(|touch| touch.pair(world));
         let pairs: PairSet = pairs.collect();
+        let mut by_wires = ByWires::new(&self.list);
         for pair in pairs {
             let directions = pair.map(|segment| {
                 let [start, end] = segment.ends(world);
@@ -152,7 +182,7 @@ impl WireContacts {
                 let sites = beside.sites(world, pair);
                 let touches = beside.distance() <= thickness.touching(world, pair, &sites) + fall;
                 let known = || {
-                    let mut all = self.list.iter();
+                    let mut all = by_wires.of(&sites).iter().map(|&at| &self.list[at]);
                     all.any(|older| {
                         let stays = older.at_node.is_some() || !is_along;
                         stays && older.is_at(world, &sites, thickness)
@@ -162,11 +192,12 @@ impl WireContacts {
                     continue;
                 }
                 if let Some(normal) = direction(&beside.separation) {
-                    let touch = self.make(sites, normal);
-                    self.list.push(WireContact {
+                    let touch = WireContact {
                         at_node: Some(side),
-                        ..touch
-                    });
+                        ..self.make(sites, normal)
+                    };
+                    by_wires.add(&touch, self.list.len());
+                    self.list.push(touch);
                 }
             }
         }
@@ -180,14 +211,12 @@ impl WireContacts {
         new: impl IntoIterator<Item = WireContact>,
     ) {
         let mut taken = self.taken(world);
+        let mut by_wires = ByWires::new(&self.list);
         for touch in new {
             let free = touch.pair(world).is_some_and(|pair| taken.insert(pair));
-            if free
-                && !self
-                    .list
-                    .iter()
-                    .any(|older| older.is_at(world, &touch.sites, thickness))
-            {
+            let is_one = |&at: &usize| self.list[at].is_at(world, &touch.sites, thickness);
+            if free && !by_wires.of(&touch.sites).iter().any(is_one) {
+                by_wires.add(&touch, self.list.len());
                 self.list.push(touch);
             }
         }
@@ -284,8 +313,7 @@ impl WireContact {
         sites: &[WireSite; 2],
         thickness: Thickness,
     ) -> bool {
-        let same = |k: usize| self.sites[k].wire == sites[k].wire;
-        if !(same(0) && same(1)) {
+        if (0..2).any(|k| self.sites[k].wire != sites[k].wire) {
             return false;
         }
         let along = [0, 1].map(|k| (self.sites[k].arc - sites[k].arc).abs());
