@@ -8,7 +8,7 @@ use super::energy_limit;
 use super::islands::{Island, islands};
 use super::linearisation::{Followed, Held, Linearisation, ROUNDS};
 use super::motion::Velocities;
-use super::solve_step::Candidate;
+use super::solve_step::{Candidate, FAR};
 use super::start::Start;
 use super::system::System;
 use crate::parallel::made;
@@ -23,9 +23,6 @@ use crate::wire::world::World;
 /// A solution may spend one part in so many of what is left: so there is something left for solving
 /// again.
 pub(super) const SOLVE: usize = 2;
-
-/// How far from a solution contacts may be, in m/s, for that to be followed: less than what lengths are off by.
-const FAR: f64 = 1e-2;
 
 /// Islands, each with its solution.
 pub(super) struct Solution {

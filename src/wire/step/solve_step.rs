@@ -32,8 +32,9 @@ const NEWTON_STEPS: usize = 10;
 /// Fewer contacts are swept: they mostly converge soon.
 const MANY: usize = 8;
 
-/// How far contacts that were swept may be from a solution, in m/s, or it is looked for in the system.
-const FAR: f64 = 1e-2;
+/// How far contacts may be from a solution, in m/s. Those that were swept are else looked for in the system, and where a search was
+/// cut short the step is not solved again from there.
+pub(super) const FAR: f64 = 1e-2;
 
 /// A solution of a step that is not committed yet.
 pub(super) struct Candidate {
