@@ -2,8 +2,9 @@
 
 use std::error::Error;
 
-use super::{First, Row, Rows, SceneRows, between_wires, pushing, run_guarded};
-use crate::perturb::{USUAL, perturbed};
+use super::{
+    First, Row, Rows, SceneRows, between_wires, from_starts, median, pushing, run_guarded,
+};
 use crate::scenes::Scene;
 use tunnelproof::wire::{BodyId, ContactSite, WireId};
 
@@ -19,20 +20,13 @@ const NAME: &str = "pulling-anchor";
 const STARTS: u64 = 16;
 
 fn rows() -> Rows {
-    let scene = Scene::embedded(NAME)?;
-    let mut first = Outcome::of(&scene)?;
-    let mut caught = vec![first.caught];
-    for seed in 1..STARTS {
-        let other = Outcome::of(&perturbed(&scene, seed, USUAL))?;
-        first.crossed.ours += other.crossed.ours;
-        caught.push(other.caught);
-    }
-    caught.retain(|time| !time.is_nan());
-    caught.sort_by(f64::total_cmp);
-    let median = caught.get(caught.len() / 2).copied().unwrap_or(f64::NAN);
+    let (crossed, starts) = from_starts(&Scene::embedded(NAME)?, STARTS, Outcome::of)?;
+    let caught = starts.iter().map(|start| start.caught);
+    let caught: Vec<f64> = caught.filter(|time| !time.is_nan()).collect();
+    let first = &starts[0];
     let slips = slips(&first.places) as f64;
     Ok(vec![
-        first.crossed,
+        crossed,
         Row::near("the wires collide, s", 8.85, first.collided, 0.5),
         Row::near("slips", 2.0, slips, 1.0),
         Row::between(
@@ -41,13 +35,12 @@ fn rows() -> Rows {
             caught.len() as f64,
             [4.0, 16.0],
         ),
-        Row::near("median of when it is caught, s", 31.6, median, 1.5),
+        Row::near("median of when it is caught, s", 31.6, median(caught), 1.5),
     ])
 }
 
 /// What happens from one start.
 struct Outcome {
-    crossed: Row,
     /// When the wires collide, in s.
     collided: f64,
     /// When the cylinder is caught between them, in s; NaN if it is not.
@@ -57,7 +50,7 @@ struct Outcome {
 }
 
 impl Outcome {
-    fn of(scene: &Scene) -> Result<Self, Box<dyn Error>> {
+    fn of(scene: &Scene) -> Result<(Row, Self), Box<dyn Error>> {
         let (mut collided, mut caught) = (First::never(), First::never());
         let mut places = Vec::new();
         let crossed = run_guarded(scene, |_, record| {
@@ -77,12 +70,12 @@ impl Outcome {
                 caught.note(record);
             }
         })?;
-        Ok(Outcome {
-            crossed,
+        let outcome = Outcome {
             collided: collided.0,
             caught: caught.0,
             places,
-        })
+        };
+        Ok((crossed, outcome))
     }
 }
 

@@ -10,6 +10,7 @@ mod twist;
 
 use std::error::Error;
 
+use crate::perturb::{USUAL, perturbed};
 use crate::scenes::Scene;
 use tunnelproof::certified::Certified;
 use tunnelproof::wire::{ContactRecord, ContactSite, CrossingOutcome, Mode, StepRecord, World};
@@ -99,6 +100,29 @@ fn run_guarded(
     })?;
     let what = "midlines that meet in motions that are made";
     Ok(Row::near(what, 0.0, crossed as f64, 0.0))
+}
+
+/// [`run_guarded`] by `of`, from so many starts: that of the scene, and others that are moved at random by up to [`USUAL`]. The row
+/// is that of all.
+fn from_starts<T>(
+    scene: &Scene,
+    starts: u64,
+    of: impl Fn(&Scene) -> Result<(Row, T), Box<dyn Error>>,
+) -> Result<(Row, Vec<T>), Box<dyn Error>> {
+    let (mut crossed, first) = of(scene)?;
+    let mut all = vec![first];
+    for seed in 1..starts {
+        let (row, other) = of(&perturbed(scene, seed, USUAL))?;
+        crossed.ours += row.ours;
+        all.push(other);
+    }
+    Ok((crossed, all))
+}
+
+/// The upper median; NaN of none.
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 fn outcomes(record: &StepRecord) -> impl Iterator<Item = CrossingOutcome> {

@@ -29,9 +29,6 @@ const IN_SYSTEM: usize = 2;
 /// Factorisations that there have to be enough for, or the contacts are found in another way at once.
 const NEWTON_STEPS: usize = 10;
 
-/// Fewer contacts are swept: they mostly converge soon.
-const MANY: usize = 8;
-
 /// How far contacts may be from a solution, in m/s. Those that were swept are else looked for in the system, and where a search was
 /// cut short the step is not solved again from there.
 pub(super) const FAR: f64 = 1e-2;
@@ -89,10 +86,7 @@ impl World {
         let affordable = budget.share(IN_SYSTEM * NEWTON_STEPS);
         let are_many = contacts.len() > *FORMED.end();
         let most = if are_many { affordable } else { usize::MAX };
-        let most = most.min(order::MOST * contacts.len());
-        let by_least_degree = (contacts.len() >= MANY)
-            .then(|| order::by_least_degree(self, contacts, most))
-            .flatten();
+        let by_least_degree = order::for_contacts(self, contacts, most);
         let hardly_fills = by_least_degree.is_some();
         let by_least_degree = by_least_degree.filter(|(_, cost)| *cost <= affordable);
         phases.assembly += clock.lap();
