@@ -14,8 +14,7 @@ use tunnelproof::query::EdgeEdge;
 use tunnelproof::thesis::Thesis;
 use tunnelproof::wire::state::State;
 use tunnelproof::wire::{
-    BodyCrossingOutcome, CollisionMemory, Collisions, CrossingOutcome, Mode, StepError, StepRecord,
-    World,
+    BodyCrossingOutcome, CollisionMemory, Collisions, CrossingOutcome, Mode, StepRecord, World,
 };
 
 use crate::sweep::Setting;
@@ -24,6 +23,7 @@ use tunnelproof_reference::certify::table::grouped;
 mod balance;
 mod behind;
 mod overlaps;
+mod stopped;
 mod table;
 
 pub use balance::EnergyBalance;
@@ -282,7 +282,7 @@ impl Run<'_> {
                     observe(&world, &collisions, &record)?;
                 }
                 Err(error) => {
-                    summary.stop(&error);
+                    summary.stopped = Some(stopped::said(&error, self.scene));
                     break;
                 }
             }
@@ -298,10 +298,6 @@ impl Summary {
         all.filter(|(case, _)| cases.contains(case))
             .map(|(_, count)| count)
             .sum()
-    }
-
-    fn stop(&mut self, error: &StepError) {
-        self.stopped = Some(error.to_string());
     }
 
     fn add(&mut self, record: &StepRecord) {

@@ -51,7 +51,7 @@ mod world;
 pub use collide::{CollisionMemory, CollisionSettings, Collisions, Mode, PairFilter};
 pub use contact::{ContactConstraint, ContactSite};
 pub use energy::Energy;
-pub use error::{CollisionError, Reason, StepError};
+pub use error::{CollisionError, Part, Reason, StepError};
 pub use model::{
     Body, BodyId, BodyPlan, Drive, MassProperties, Material, Mesh, ModelError, Node, NodeKind,
     Phase, ReelPhase, Resolution, RopePlan, Segment, Shape, Stop, Wire, WireId, WirePlan,

@@ -4,12 +4,13 @@
 //! All mutants are in one build, which is told by its environment which of them is on. So a mutant costs the tests that reach it, and
 //! no compilation.
 
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, HashMap};
 use std::fs::{self, File};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::sync::{Mutex, MutexGuard};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail, ensure};
@@ -53,11 +54,15 @@ struct Options {
     #[arg(long, default_value_t = 2)]
     jobs: usize,
     /// Tests that take longer than this get only mutants that no other test kills
-    #[arg(long, value_name = "S", default_value_t = 8)]
-    longest: u64,
+    #[arg(long, value_name = "S", default_value = "8", value_parser = seconds)]
+    longest: Duration,
     /// For how long each of these is run on a mutant that gives the same exact answers
-    #[arg(long, value_name = "S", default_value_t = 5)]
-    patience: u64,
+    #[arg(long, value_name = "S", default_value = "5", value_parser = seconds)]
+    patience: Duration,
+    /// How many queries of each family a mutant is asked that no quick test kills, and a fifth of that of bodies that turn:
+    /// 100 of the certified path and 50 of the judges if not given
+    #[arg(long, value_name = "N")]
+    queries: Option<u64>,
     /// Only these programs of tests, by their names; the unit tests are "lib"
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     tests: Vec<String>,
@@ -73,6 +78,10 @@ struct Options {
     /// The project; what is kept is in its `target/mutation`
     #[arg(long, default_value = ".")]
     project: PathBuf,
+}
+
+fn seconds(text: &str) -> Result<Duration> {
+    Ok(Duration::try_from_secs_f64(text.parse()?)?)
 }
 
 const AFTER: &str = "\
@@ -230,7 +239,6 @@ fn main() -> Result<()> {
         }
         return Ok(());
     }
-    let longest = Duration::from_secs(options.longest);
     let named = tests
         .iter()
         .copied()
@@ -248,7 +256,14 @@ fn main() -> Result<()> {
         );
     }
     let asker = suite::asker(&tree, &subject)?;
-    let (key, tests) = suite::baseline(&tree, &subject, &arguments, filter, longest, options.jobs)?;
+    let (key, tests) = suite::baseline(
+        &tree,
+        &subject,
+        &arguments,
+        filter,
+        options.longest,
+        options.jobs,
+    )?;
     println!(
         "{} tests, {:.0} s in all",
         tests.len(),
@@ -314,17 +329,19 @@ fn judge(
         }
     }
     let started = Instant::now();
-    let usual = suite::ask(&asker, None, Duration::from_secs(600))?
+    let usual = suite::ask(&asker, None, options.queries, Duration::from_secs(600))?
         .context("the sources as they are give no answers")?;
     let judge = Judge {
         reaching,
         asker,
         usual,
+        queries: options.queries,
         limit: 20 * started.elapsed() + Duration::from_secs(5),
-        patience: Duration::from_secs(options.patience),
+        patience: options.patience,
+        kills: Mutex::new(HashMap::new()),
     };
     let mut hasher = DefaultHasher::new();
-    (key, options.patience).hash(&mut hasher);
+    (key, options.patience, options.queries).hash(&mut hasher);
     let path = tree.with_file_name(format!("results-{:016x}.jsonl", hasher.finish()));
     let mut known = HashMap::new();
     if let Ok(file) = File::open(&path) {
@@ -371,9 +388,12 @@ struct Judge<'a> {
     /// The program that asks for answers, what it says without a mutant, and how long it may take.
     asker: PathBuf,
     usual: Said,
+    queries: Option<u64>,
     limit: Duration,
     /// How long a long test runs on a mutant of which no exact answer differs.
     patience: Duration,
+    /// How many mutants each test killed so far, by the function that is mutated: what killed one kills its neighbours.
+    kills: Mutex<HashMap<String, HashMap<String, usize>>>,
 }
 
 impl Judge<'_> {
@@ -384,13 +404,13 @@ impl Judge<'_> {
         let outcome = |(verdict, by): (Verdict, Option<&Test>)| Outcome {
             id: mutant.id,
             verdict,
-            by: by.map(|test| format!("{} {}", test.target, test.name)),
+            by: by.map(Test::said),
             seconds: started.elapsed().as_secs_f64(),
         };
         if let Some(killed) = self.test(mutant, |test| !test.is_long, None)? {
             return Ok(outcome(killed));
         }
-        let verdict = match suite::ask(&self.asker, Some(mutant.id), self.limit)? {
+        let verdict = match suite::ask(&self.asker, Some(mutant.id), self.queries, self.limit)? {
             Some(said) if said == self.usual && !self.reaching.contains_key(&mutant.site) => {
                 Verdict::Unreached
             }
@@ -400,6 +420,9 @@ impl Judge<'_> {
             _ => Verdict::Wrong,
         };
         let most = (verdict != Verdict::Wrong).then_some(self.patience);
+        if most == Some(Duration::ZERO) {
+            return Ok(outcome((verdict, None)));
+        }
         let killed = self.test(mutant, |test| test.is_long, most)?;
         Ok(outcome(killed.unwrap_or((verdict, None))))
     }
@@ -412,7 +435,12 @@ impl Judge<'_> {
         most: Option<Duration>,
     ) -> Result<Option<(Verdict, Option<&Test>)>> {
         let tests = self.reaching.get(&mutant.site).into_iter().flatten();
-        for test in tests.filter(|test| is_asked(test)) {
+        let mut tests: Vec<_> = tests.filter(|test| is_asked(test)).collect();
+        let place = format!("{} {}", mutant.file, mutant.function);
+        if let Some(kills) = self.kills()?.get(&place) {
+            tests.sort_by_key(|test| Reverse(kills.get(&test.said()).copied()));
+        }
+        for test in tests {
             let ends = Duration::from_secs_f64(5.0 + 10.0 * test.seconds);
             let limit = most.unwrap_or(ends);
             let id = mutant.id.to_string();
@@ -420,12 +448,26 @@ impl Judge<'_> {
                 .context("a test cannot be run")?
             {
                 End::Passed => {}
-                End::Failed => return Ok(Some((Verdict::Killed, Some(test)))),
+                End::Failed => {
+                    let mut kills = self.kills()?;
+                    *kills
+                        .entry(place)
+                        .or_default()
+                        .entry(test.said())
+                        .or_default() += 1;
+                    return Ok(Some((Verdict::Killed, Some(test))));
+                }
                 End::TimedOut if limit < ends || !test.is_done => {}
                 End::TimedOut => return Ok(Some((Verdict::TimedOut, Some(test)))),
             }
         }
         Ok(None)
+    }
+
+    fn kills(&self) -> Result<MutexGuard<'_, HashMap<String, HashMap<String, usize>>>> {
+        self.kills
+            .lock()
+            .map_err(|_| anyhow::anyhow!("a thread failed"))
     }
 }
 

@@ -30,6 +30,13 @@ pub struct Test {
     pub reaches: Vec<u32>,
 }
 
+impl Test {
+    /// Its program and its name.
+    pub fn said(&self) -> String {
+        format!("{} {}", self.target, self.name)
+    }
+}
+
 #[derive(Deserialize)]
 struct Artifact {
     manifest_path: Option<PathBuf>,
@@ -146,7 +153,7 @@ pub fn baseline(
         .map(|test| (stamp(&test.program), &test.name))
         .collect();
     stamps.sort();
-    let key = format!("{stamps:?} {}", longest.as_secs());
+    let key = format!("{stamps:?} {}", longest.as_secs_f64());
     if let Ok(text) = fs::read_to_string(&kept)
         && let Ok((of, tests)) = serde_json::from_str::<(String, Vec<Test>)>(&text)
         && of == key
@@ -275,7 +282,12 @@ pub fn asker(tree: &Path, subject: &Subject) -> Result<PathBuf> {
 }
 
 /// Asks; `None` if there is no answer within the limit.
-pub fn ask(program: &Path, mutant: Option<u32>, limit: Duration) -> Result<Option<Said>> {
+pub fn ask(
+    program: &Path,
+    mutant: Option<u32>,
+    queries: Option<u64>,
+    limit: Duration,
+) -> Result<Option<Said>> {
     let mut command = Command::new(program);
     command
         .args(["--nocapture", "--test-threads", "1"])
@@ -283,6 +295,9 @@ pub fn ask(program: &Path, mutant: Option<u32>, limit: Duration) -> Result<Optio
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
         .stderr(Stdio::null());
+    if let Some(count) = queries {
+        command.env("MUTATION_QUERIES", count.to_string());
+    }
     if let Some(id) = mutant {
         command.env("MUTANT", id.to_string());
     }

@@ -121,8 +121,8 @@ impl World {
         let mut scales = MotionScales::all(self);
         loop {
             let mut motion = self.motion(&solution.velocities(self), &scales);
-            if !motion.is_finite() {
-                return Err(Reason::NotFinite);
+            if let Some(part) = motion.not_finite() {
+                return Err(Reason::NotFinite { part });
             }
             capstan::shorten(self, &mut motion);
             let mut clock = Clock::start();

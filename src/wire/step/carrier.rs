@@ -5,8 +5,9 @@ use smallvec::SmallVec;
 use super::linearisation::Linearisation;
 use super::order::Block;
 use super::transverse::SteepNode;
+use crate::wire::error::Part;
 use crate::wire::model::wire::Clamp;
-use crate::wire::model::{BodyId, Node, NodeKind};
+use crate::wire::model::{BodyId, Node, NodeKind, WireId};
 use crate::wire::world::World;
 use crate::wire::{ContactConstraint, ContactSite, Vector};
 
@@ -153,6 +154,45 @@ impl Layout {
             twist: (world.wires.iter())
                 .map(|wire| wire.holds_twist().then_some(UNSET))
                 .collect(),
+        }
+    }
+
+    /// What an unknown belongs to. That of a stretch is its segment's first node, that of a twist its wire's.
+    pub(super) fn part(&self, unknown: usize) -> Part {
+        let has = |first: Option<usize>, count: usize| {
+            first.is_some_and(|first| (first..first + count).contains(&unknown))
+        };
+        if let Some(body) = self.bodies.iter().position(|first| has(*first, 6)) {
+            return Part::Body(BodyId(body));
+        }
+        let is_of_node = |&at: &usize| {
+            let free = match self.nodes[at] {
+                Carrier::Free(first) => Some(first),
+                _ => None,
+            };
+            has(free, 3)
+                || has(self.steep[at], 3)
+                || has(self.bend[at], 3)
+                || has(self.slides[at], 2)
+        };
+        let wire_of = |at: usize| self.first_node.partition_point(|first| *first <= at) - 1;
+        let node = (0..self.nodes.len()).find(is_of_node).or_else(|| {
+            let segment = self.stretch.iter().position(|at| *at == unknown)?;
+            let starts = self.first_node.iter().enumerate();
+            let before = starts.filter(|(wire, first)| **first - wire <= segment);
+            Some(segment + before.count() - 1)
+        });
+        if let Some(at) = node {
+            let wire = wire_of(at);
+            return Part::Node {
+                wire: WireId(wire),
+                node: at - self.first_node[wire],
+            };
+        }
+        let wire = self.twist.iter().position(|at| *at == Some(unknown));
+        Part::Node {
+            wire: WireId(wire.unwrap_or(0)),
+            node: 0,
         }
     }
 
@@ -324,3 +364,6 @@ pub(super) fn work_of_contacts(
         .map(|(contact, impulse)| impulse.dot(&(of(&contact.b) - of(&contact.a))))
         .sum()
 }
+
+#[cfg(test)]
+mod tests;

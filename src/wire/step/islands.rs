@@ -6,6 +6,7 @@
 //! [spend](super::budget).
 
 use crate::wire::contact::{ContactConstraint, ContactSite};
+use crate::wire::error::{Part, Reason};
 use crate::wire::model::{BodyId, NodeKind, WireId};
 use crate::wire::solver_cache::SolverCache;
 use crate::wire::union_find::UnionFind;
@@ -99,6 +100,26 @@ impl Island {
 
     fn body(&self, body: BodyId) -> BodyId {
         BodyId(number(&self.bodies, body.0))
+    }
+
+    /// Why it has no solution, as the whole world numbers wires and bodies.
+    pub(super) fn reason(&self, of_own: Reason) -> Reason {
+        let whole = |part: Part| match part {
+            Part::Node { wire, node } => Part::Node {
+                wire: WireId(self.wires[wire.0]),
+                node,
+            },
+            Part::Body(body) => Part::Body(BodyId(self.bodies[body.0])),
+        };
+        match of_own {
+            Reason::Pivot { part } => Reason::Pivot { part: whole(part) },
+            Reason::Residual { part, error, limit } => Reason::Residual {
+                part: whole(part),
+                error,
+                limit,
+            },
+            other => other,
+        }
     }
 
     /// Whether more than one factorisation and one solve may be needed: it has contacts or wires.

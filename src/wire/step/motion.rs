@@ -8,7 +8,8 @@ use super::spin::turn;
 use super::stages::{Mover, is_followed, slowed, stages};
 use crate::query::Point;
 use crate::wire::Vector;
-use crate::wire::model::BodyId;
+use crate::wire::error::Part;
+use crate::wire::model::{BodyId, WireId};
 use crate::wire::record::Pose;
 use crate::wire::world::World;
 
@@ -243,23 +244,34 @@ impl BodyMotion {
 }
 
 impl ProposedMotion {
-    /// Whether every number is finite.
-    pub(super) fn is_finite(&self) -> bool {
+    /// The first part of which a number is not finite.
+    pub(super) fn not_finite(&self) -> Option<Part> {
         let is_finite = |v: &Vector| v.iter().all(|x| x.is_finite());
-        let nodes = self.wires.iter().flatten();
-        nodes
-            .map(|(position, velocity)| (&position.coords, velocity))
-            .all(|(position, velocity)| is_finite(position) && is_finite(velocity))
-            && self.slides.iter().all(|slid| slid.speed.is_finite())
-            && self.bodies.iter().all(|body| {
-                let turned = body.orientation.coords.iter().all(|x| x.is_finite());
-                let vectors = [
-                    &body.position.coords,
-                    &body.velocity,
-                    &body.angular_velocity,
-                ];
-                turned && vectors.into_iter().all(is_finite)
+        let bodies = self.bodies.iter().enumerate().map(|(at, body)| {
+            let turned = body.orientation.coords.iter().all(|x| x.is_finite());
+            let vectors = [
+                &body.position.coords,
+                &body.velocity,
+                &body.angular_velocity,
+            ];
+            let is_finite = turned && vectors.into_iter().all(is_finite);
+            (Part::Body(BodyId(at)), is_finite)
+        });
+        let part = |wire: usize, node: usize| Part::Node {
+            wire: WireId(wire),
+            node,
+        };
+        let nodes = self.wires.iter().enumerate().flat_map(|(wire, nodes)| {
+            let nodes = nodes.iter().enumerate();
+            nodes.map(move |(node, (position, velocity))| {
+                let is_finite = is_finite(&position.coords) && is_finite(velocity);
+                (part(wire, node), is_finite)
             })
+        });
+        let slides = self.slides.iter();
+        let slides = slides.map(|slid| (part(slid.wire, slid.node), slid.speed.is_finite()));
+        let mut parts = bodies.chain(nodes).chain(slides);
+        parts.find_map(|(part, is_finite)| (!is_finite).then_some(part))
     }
 
     /// How a body ends.

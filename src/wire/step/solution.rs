@@ -358,7 +358,8 @@ impl Solved {
                 followed,
             })
         };
-        let best = solve(linearisation, &start, budget)?.follow(budget, solve);
+        let first = solve(linearisation, &start, budget).map_err(|reason| island.reason(reason))?;
+        let best = first.follow(budget, solve);
         let Attempt {
             linearisation,
             mut system,

@@ -381,7 +381,9 @@ impl System {
         structure.matrix.fill(&self.triplets.value);
         let factored = structure.ldl.factor(&structure.matrix, &self.is_velocity);
         self.structure = Some(structure);
-        factored.map_err(|unknown| Reason::Pivot { unknown })
+        factored.map_err(|unknown| Reason::Pivot {
+            part: self.layout.part(unknown),
+        })
     }
 
     /// Multiplications of a factorisation and a solve, and what putting the system together takes as
@@ -445,8 +447,22 @@ impl System {
         if error <= RESIDUAL {
             Ok((x, error))
         } else {
-            let limit = RESIDUAL;
-            Err(Reason::Residual { error, limit })
+            // A number that is none spreads to all of a solution: then it is where most was asked for.
+            let sums = structure.matrix.residual_and_magnitude(&right, &x);
+            let off: Vec<f64> = match error.is_nan() {
+                true => (right.iter().zip(&self.is_velocity))
+                    .map(|(impulse, is)| if *is { impulse.abs() } else { 0.0 })
+                    .collect(),
+                false => sums.iter().map(|[residual, _]| residual.abs()).collect(),
+            };
+            let worst = (0..off.len())
+                .rev()
+                .max_by(|&a, &b| off[a].total_cmp(&off[b]));
+            Err(Reason::Residual {
+                part: self.layout.part(worst.unwrap_or(0)),
+                error,
+                limit: RESIDUAL,
+            })
         }
     }
 

@@ -2,7 +2,7 @@ use super::*;
 use crate::query::Point;
 use crate::wire::model::wire::Segment;
 use crate::wire::{
-    BodyId, BodyPlan, ContactSite, Drive, Material, ModelError, Phase, Settings, Shape, Stop,
+    BodyId, BodyPlan, ContactSite, Drive, Material, ModelError, Part, Phase, Settings, Shape, Stop,
     Vector, WireId, WirePlan,
 };
 
@@ -168,13 +168,24 @@ fn failed_step_leaves_the_world_as_it_was() {
         error.to_string(),
         "step 1: contact 0 is refused: there is no body 7: bodies are 0 to 1 (excluded)"
     );
-    // A velocity that overflows in the system: no pivot or solution can be trusted.
-    let mut broken = world.clone();
-    broken.wires[0].nodes[2].velocity.x = f64::MAX;
-    let state = (broken.wires.clone(), broken.bodies.clone(), broken.steps);
-    let error = broken.step(&[]).unwrap_err();
-    assert!(matches!(error.reason, Reason::Residual { .. }), "{error}");
-    assert_eq!((broken.wires, broken.bodies, broken.steps), state);
+    // A velocity that overflows in the system: no pivot or solution can be trusted. The second wire is an island of its own.
+    let mut two = world.clone();
+    let route = pinned_and(Stop::Free(at(0.0, 5.0, 0.0)));
+    let other = WirePlan::new(Material::steel(0.02), 0.5, route);
+    two.add_wire(&other).unwrap();
+    for wire in [WireId(0), WireId(1)] {
+        let mut broken = two.clone();
+        broken.wires[wire.0].nodes[2].velocity.x = f64::MAX;
+        let state = (broken.wires.clone(), broken.bodies.clone(), broken.steps);
+        let error = broken.step(&[]).unwrap_err();
+        let part = Part::Node { wire, node: 2 };
+        assert!(
+            matches!(error.reason, Reason::Residual { part: at, .. } if at == part),
+            "{error}"
+        );
+        assert_eq!(error.involved(), (vec![wire], vec![]));
+        assert_eq!((broken.wires, broken.bodies, broken.steps), state);
+    }
     assert_eq!(
         (world.wires.clone(), world.bodies.clone(), world.steps),
         before
@@ -194,11 +205,12 @@ fn step_that_would_end_beyond_the_numbers_is_refused() {
     for break_it in break_it {
         let mut world = world();
         let body = BodyPlan::dynamic(Shape::Sphere { radius: 0.2 }, 1000.0, at(0.0, 0.0, 0.0));
-        world.add_body(body).unwrap();
+        let body = world.add_body(body).unwrap();
         break_it(&mut world);
         let state = (world.bodies.clone(), world.steps);
         let error = world.step(&[]).unwrap_err();
-        assert_eq!(error.reason, Reason::NotFinite);
+        let part = Part::Body(body);
+        assert_eq!(error.reason, Reason::NotFinite { part });
         assert_eq!((world.bodies, world.steps), state);
     }
 }
