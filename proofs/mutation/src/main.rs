@@ -20,7 +20,7 @@ use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};
 
 use mutant::{Kind, Mutant};
-use suite::{End, Said, Test};
+use suite::{End, Questions, Said, Test};
 use tree::Subject;
 
 mod mutant;
@@ -47,22 +47,31 @@ struct Options {
     /// Only mutants in files with this in their path; the others are built as they are, which takes a small part of the time
     #[arg(long, value_name = "PART", default_value = "")]
     file: String,
-    /// Only the mutant of this number
-    #[arg(long, value_name = "ID", overrides_with = "mutant")]
-    mutant: Option<u32>,
+    /// Only the mutants of these numbers
+    #[arg(
+        long,
+        value_name = "IDS",
+        value_delimiter = ',',
+        overrides_with = "mutant"
+    )]
+    mutant: Vec<u32>,
     /// Threads
     #[arg(long, default_value_t = 2)]
     jobs: usize,
     /// Tests that take longer than this get only mutants that no other test kills
     #[arg(long, value_name = "S", default_value = "8", value_parser = seconds)]
     longest: Duration,
-    /// For how long each of these is run on a mutant that gives the same exact answers
+    /// For how long each of these is run on a mutant that gives the same exact answers; 0 runs none of them on any mutant, so
+    /// that `wrong` says only that no quick test notices
     #[arg(long, value_name = "S", default_value = "5", value_parser = seconds)]
     patience: Duration,
     /// How many queries of each family a mutant is asked that no quick test kills, and a fifth of that of bodies that turn:
     /// 100 of the certified path and 50 of the judges if not given
     #[arg(long, value_name = "N")]
     queries: Option<u64>,
+    /// Do not count the work that answers take: those that cost more, or less, are said to be the same
+    #[arg(long)]
+    no_work: bool,
     /// Only these programs of tests, by their names; the unit tests are "lib"
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     tests: Vec<String>,
@@ -301,7 +310,7 @@ fn wanted(mutants: &[Mutant], options: &Options) -> Vec<Mutant> {
                 .kind
                 .as_deref()
                 .is_none_or(|kind| mutant.kind.name() == kind)
-                && options.mutant.is_none_or(|id| mutant.id == id)
+                && (options.mutant.is_empty() || options.mutant.contains(&mutant.id))
         })
         .cloned()
         .collect();
@@ -329,19 +338,24 @@ fn judge(
         }
     }
     let started = Instant::now();
-    let usual = suite::ask(&asker, None, options.queries, Duration::from_secs(600))?
+    let questions = Questions {
+        program: asker,
+        count: options.queries,
+        has_work: !options.no_work,
+    };
+    let usual = questions
+        .ask(None, Duration::from_secs(600))?
         .context("the sources as they are give no answers")?;
     let judge = Judge {
         reaching,
-        asker,
+        questions,
         usual,
-        queries: options.queries,
         limit: 20 * started.elapsed() + Duration::from_secs(5),
         patience: options.patience,
         kills: Mutex::new(HashMap::new()),
     };
     let mut hasher = DefaultHasher::new();
-    (key, options.patience, options.queries).hash(&mut hasher);
+    (key, options.patience, options.queries, options.no_work).hash(&mut hasher);
     let path = tree.with_file_name(format!("results-{:016x}.jsonl", hasher.finish()));
     let mut known = HashMap::new();
     if let Ok(file) = File::open(&path) {
@@ -385,10 +399,9 @@ fn judge(
 struct Judge<'a> {
     /// The tests that reach a place, the quickest first.
     reaching: HashMap<u32, Vec<&'a Test>>,
-    /// The program that asks for answers, what it says without a mutant, and how long it may take.
-    asker: PathBuf,
+    /// What is asked of the rest, what is said without a mutant, and how long that may take.
+    questions: Questions,
     usual: Said,
-    queries: Option<u64>,
     limit: Duration,
     /// How long a long test runs on a mutant of which no exact answer differs.
     patience: Duration,
@@ -410,7 +423,7 @@ impl Judge<'_> {
         if let Some(killed) = self.test(mutant, |test| !test.is_long, None)? {
             return Ok(outcome(killed));
         }
-        let verdict = match suite::ask(&self.asker, Some(mutant.id), self.queries, self.limit)? {
+        let verdict = match self.questions.ask(Some(mutant.id), self.limit)? {
             Some(said) if said == self.usual && !self.reaching.contains_key(&mutant.site) => {
                 Verdict::Unreached
             }
@@ -419,10 +432,10 @@ impl Judge<'_> {
             Some(said) if said.exact == self.usual.exact => Verdict::Places,
             _ => Verdict::Wrong,
         };
-        let most = (verdict != Verdict::Wrong).then_some(self.patience);
-        if most == Some(Duration::ZERO) {
+        if self.patience.is_zero() {
             return Ok(outcome((verdict, None)));
         }
+        let most = (verdict != Verdict::Wrong).then_some(self.patience);
         let killed = self.test(mutant, |test| test.is_long, most)?;
         Ok(outcome(killed.unwrap_or((verdict, None))))
     }

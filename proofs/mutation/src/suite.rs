@@ -281,47 +281,56 @@ pub fn asker(tree: &Path, subject: &Subject) -> Result<PathBuf> {
         .context("no program asks")
 }
 
-/// Asks; `None` if there is no answer within the limit.
-pub fn ask(
-    program: &Path,
-    mutant: Option<u32>,
-    queries: Option<u64>,
-    limit: Duration,
-) -> Result<Option<Said>> {
-    let mut command = Command::new(program);
-    command
-        .args(["--nocapture", "--test-threads", "1"])
-        .env("MUTATION_WORK", "1")
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null());
-    if let Some(count) = queries {
-        command.env("MUTATION_QUERIES", count.to_string());
-    }
-    if let Some(id) = mutant {
-        command.env("MUTANT", id.to_string());
-    }
-    let mut child = command.spawn()?;
-    let started = Instant::now();
-    while child.try_wait()?.is_none() {
-        if is_over(&child, started, limit) {
-            child.kill()?;
-            child.wait()?;
-            return Ok(None);
+/// What is asked of a mutant.
+pub struct Questions {
+    /// What [asks](asker).
+    pub program: PathBuf,
+    /// How many queries of each family, if that is not left to the program.
+    pub count: Option<u64>,
+    /// Whether work is counted.
+    pub has_work: bool,
+}
+
+impl Questions {
+    /// Asks; `None` if there is no answer within the limit.
+    pub fn ask(&self, mutant: Option<u32>, limit: Duration) -> Result<Option<Said>> {
+        let mut command = Command::new(&self.program);
+        command
+            .args(["--nocapture", "--test-threads", "1"])
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null());
+        if self.has_work {
+            command.env("MUTATION_WORK", "1");
         }
-        std::thread::sleep(Duration::from_millis(5));
+        if let Some(count) = self.count {
+            command.env("MUTATION_QUERIES", count.to_string());
+        }
+        if let Some(id) = mutant {
+            command.env("MUTANT", id.to_string());
+        }
+        let mut child = command.spawn()?;
+        let started = Instant::now();
+        while child.try_wait()?.is_none() {
+            if is_over(&child, started, limit) {
+                child.kill()?;
+                child.wait()?;
+                return Ok(None);
+            }
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        let output = child.wait_with_output()?;
+        let text = String::from_utf8_lossy(&output.stdout);
+        Ok(text.lines().find_map(|line| {
+            let (exact, rest) = line.strip_prefix("said ")?.split_once(' ')?;
+            let (answers, work) = rest.split_once(' ')?;
+            Some(Said {
+                exact: exact.to_owned(),
+                answers: answers.to_owned(),
+                work: work.parse().ok()?,
+            })
+        }))
     }
-    let output = child.wait_with_output()?;
-    let text = String::from_utf8_lossy(&output.stdout);
-    Ok(text.lines().find_map(|line| {
-        let (exact, rest) = line.strip_prefix("said ")?.split_once(' ')?;
-        let (answers, work) = rest.split_once(' ')?;
-        Some(Said {
-            exact: exact.to_owned(),
-            answers: answers.to_owned(),
-            work: work.parse().ok()?,
-        })
-    }))
 }
 
 /// Whether a program has had its time: of processors, so that what else they do does not matter, or ten times that if it waits.

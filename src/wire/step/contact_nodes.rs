@@ -26,6 +26,26 @@ pub(in crate::wire) struct ContactNodeInsertion {
     pub(in crate::wire) aside: Vector,
 }
 
+/// Two contact nodes of other wire or of other turns have to be as far apart as this, in the sum of both radii.
+const APART: f64 = 0.75;
+
+impl ContactNodeInsertion {
+    /// Whether there is a contact node of other wire, or of another turn of the same wire, in whose thickness it would be: the
+    /// body would carry both, and what pushes them apart would push without end.
+    fn is_taken(&self, world: &World) -> bool {
+        let own = &world.wires[self.wire.0];
+        let mut wires = world.wires.iter().enumerate();
+        wires.any(|(at, wire)| {
+            let radii = own.material.radius + wire.material.radius;
+            let is_other =
+                |node: &Node| at != self.wire.0 || (node.arc - self.arc).abs() > 2.0 * radii;
+            let is_in = |node: &Node| (node.position - self.place).norm() < APART * radii;
+            let mut nodes = wire.nodes.iter();
+            nodes.any(|node| node.kind.is_on(self.body) && is_other(node) && is_in(node))
+        })
+    }
+}
+
 /// Between two contact nodes whose normals are at no larger angle than this, in rad, wire that comes onto a body needs no
 /// other one.
 const NEAR: f64 = 0.25;
@@ -39,6 +59,9 @@ pub(super) fn insert(
 ) -> Vec<Remesh> {
     let mut changes = Vec::new();
     for insertion in insertions {
+        if insertion.is_taken(world) {
+            continue;
+        }
         let wire = &world.wires[insertion.wire.0];
         if let Some(node) = node_near(wire, insertion.arc) {
             let last = wire.nodes.len() - 1;
@@ -262,3 +285,6 @@ pub(super) fn detach(wire: &mut Wire, node: usize) {
     node.kind = NodeKind::Free;
     node.velocity -= (before + after) / 2.0 * std::mem::take(&mut node.slide);
 }
+
+#[cfg(test)]
+mod tests;
