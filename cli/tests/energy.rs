@@ -19,6 +19,12 @@ fn run(toml: &str) -> Summary {
     summary
 }
 
+/// A scene at so many steps in a second.
+fn at_rate(scene: &str, rate: f64) -> String {
+    let settings = format!("[settings]\nstep = {}\n\n[[bodies]]", 1.0 / rate);
+    scene.replacen("[[bodies]]", &settings, 1)
+}
+
 /// A rope over two bollards, with a box of 20 kg at its left end and one of `heavy` kg at its right one, at so many steps in
 /// a second.
 fn bollards(heavy: f64, rate: f64) -> String {
@@ -225,10 +231,25 @@ fn scenes_with_few_contacts_gain_no_energy_where_these_tie_what_pulls() {
         (net, &[60.0, 120.0, 240.0][..], 9.0),
         (edge, &[30.0, 60.0, 120.0, 240.0], 5.0),
     ] {
-        for rate in rates {
-            let settings = format!("[settings]\nstep = {}\n\n[[bodies]]", 1.0 / rate);
-            let energy = run(&scene.replacen("[[bodies]]", &settings, 1)).energy;
+        for &rate in rates {
+            let energy = run(&at_rate(scene, rate)).energy;
             assert!(energy.largest_gain < most, "{rate}: {energy:?}");
+        }
+    }
+}
+
+/// Without damping a step takes half of itself: without that the winch gained 1.6e12 J.
+#[test]
+fn wires_without_damping_gain_no_more_energy_than_others() {
+    let winch = include_str!("../scenes/winch.toml");
+    let crane = include_str!("../scenes/crane.toml");
+    let edge = include_str!("../scenes/over-the-edge.toml");
+    for scene in [winch, crane, edge] {
+        let undamped = scene.replace("material = {", "material = { stretch_damping = 0,");
+        assert_ne!(undamped, scene);
+        for rate in [30.0, 60.0, 240.0] {
+            let energy = run(&at_rate(&undamped, rate)).energy;
+            assert!(energy.largest_gain < 15.0, "{rate}: {energy:?}");
         }
     }
 }

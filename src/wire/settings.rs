@@ -23,7 +23,7 @@ pub struct Settings {
     pub gravity: Vector,
     /// How far a penetrating contact gives way, in m/N; usual value 1e-8.
     pub contact_compliance: f64,
-    /// Damping time of penetrating contacts in steps; usual value 2.
+    /// Damping time of penetrating contacts in steps; usual value 2. It is taken as 0.5 at least.
     pub contact_damping: f64,
     /// Approach speed in m/s above which a penetrating contact keeps nothing of its velocity
     /// (restitution 0); usual value 0.01.

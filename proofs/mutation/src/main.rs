@@ -454,7 +454,7 @@ impl Judge<'_> {
             tests.sort_by_key(|test| Reverse(kills.get(&test.said()).copied()));
         }
         for test in tests {
-            let ends = Duration::from_secs_f64(5.0 + 10.0 * test.seconds);
+            let ends = Duration::from_secs_f64(1.0 + 10.0 * test.seconds);
             let limit = most.unwrap_or(ends);
             let id = mutant.id.to_string();
             match suite::run(test, limit, |command| command.env("MUTANT", id))

@@ -22,7 +22,8 @@ pub struct Material {
     /// freely about itself. A wire that resists has a torque if both its ends are clamped: see
     /// [`Wire::holds_twist`](super::Wire::holds_twist). A chain has 0.
     pub twist_modulus: f64,
-    /// Damping time of stretch in s; usual value two steps.
+    /// Damping time of stretch in s; usual value two steps. A step takes half of itself at least:
+    /// with less, what it does not resolve would grow.
     pub stretch_damping: f64,
     /// Damping time of bending in s; usual value 0.075.
     pub bend_damping: f64,

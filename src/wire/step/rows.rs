@@ -297,7 +297,14 @@ pub(super) struct Spook {
     /// `Upsilon = 1 / (1 + 4 tau/h)`.
     pub(super) upsilon: f64,
     step: f64,
+    /// `tau`.
+    damping: f64,
 }
+
+/// The least damping time of what pulls or pushes to one side alone, in steps. Without one, what is far stiffer than a step
+/// resolves has the eigenvalue -1 twice: it grows where all is linear, and without bound where things become taut or touch. With
+/// this it loses more than two fifths in each step, and what swings at `omega` and is resolved `omega^2 h / 4` a second.
+const LEAST_DAMPING: f64 = 0.5;
 
 impl Spook {
     /// `compliance` is eps, `damping` the damping time tau in s.
@@ -307,7 +314,13 @@ impl Spook {
             sigma: 4.0 / (step * step) * compliance * upsilon,
             upsilon,
             step,
+            damping,
         }
+    }
+
+    /// That of what pulls or pushes to one side alone: with [`LEAST_DAMPING`] steps at least.
+    fn one_sided(compliance: f64, damping: f64, step: f64) -> Self {
+        Spook::new(compliance, damping.max(LEAST_DAMPING * step), step)
     }
 
     /// `-(4/h) Upsilon g + Upsilon G v`, what the row asks for.
@@ -323,7 +336,7 @@ pub(super) fn normal_row(settings: &Settings, contact: &ContactConstraint, speed
         return [-contact.gap / settings.step, 0.0];
     }
     let damping = settings.contact_damping * settings.step;
-    let spook = Spook::new(settings.contact_compliance, damping, settings.step);
+    let spook = Spook::one_sided(settings.contact_compliance, damping, settings.step);
     let kept = if speed < -settings.impact_speed {
         0.0
     } else {
@@ -386,7 +399,7 @@ fn stretch(
     let rest = wire.rest_length(segment);
     let material = &wire.material;
     let compliance = rest / material.stretch_stiffness();
-    let spook = Spook::new(compliance, material.stretch_damping, step);
+    let spook = Spook::one_sided(compliance, material.stretch_damping, step);
     let nodes = &wire.nodes[segment..segment + 2];
     let sliding = nodes[1].slide - nodes[0].slide;
     let speed = (nodes[1].velocity - nodes[0].velocity).dot(&t) - sliding;
@@ -398,7 +411,7 @@ fn stretch(
         slides: SmallVec::new(),
         fed: 0.0,
         compliance,
-        damping: material.stretch_damping,
+        damping: spook.damping,
         sigma: spook.sigma,
         target: spook.target(length - rest, speed),
         law,
@@ -449,7 +462,7 @@ fn bend(
             slides: SmallVec::new(),
             fed: 0.0,
             compliance,
-            damping: wire.material.bend_damping,
+            damping: spook.damping,
             sigma: spook.sigma,
             target: spook.target((t2 - t1)[axis], turning[axis]),
             law: ConstitutiveLaw::Linear,
@@ -469,8 +482,7 @@ fn twist(world: &World, layout: &Layout, at: usize) -> Option<Row> {
     let wire = &world.wires[at];
     let torsion = Torsion::of(wire, &world.bodies)?;
     let compliance = wire.twisted_length() / wire.material.twist_stiffness();
-    let damping = wire.material.twist_damping;
-    let spook = Spook::new(compliance, damping, world.settings.step);
+    let spook = Spook::new(compliance, wire.material.twist_damping, world.settings.step);
     let nodes = layout.nodes[layout.first_node[at]..].iter().copied();
     let nodes = nodes.zip(torsion.gradient.iter().copied());
     let ends = torsion.ends.iter();
@@ -481,7 +493,7 @@ fn twist(world: &World, layout: &Layout, at: usize) -> Option<Row> {
         slides: SmallVec::new(),
         fed: 0.0,
         compliance,
-        damping,
+        damping: spook.damping,
         sigma: spook.sigma,
         target: spook.target(wire.twist, torsion.rate(wire, &world.bodies)),
         law: ConstitutiveLaw::Linear,
