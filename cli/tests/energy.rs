@@ -253,3 +253,33 @@ fn wires_without_damping_gain_no_more_energy_than_others() {
         }
     }
 }
+
+/// A ball on a rope is whirled by a scripted arm that turns by a third of a radian in a step, with no other force than what holds it on its
+/// circle. Where the arm's end was thought to go straight on, the largest was 846 N.
+#[test]
+fn arm_that_turns_fast_pulls_with_the_force_of_the_circle() {
+    let (speed, radius, mass) = (
+        20.0,
+        1.3,
+        2000.0 * 4.0 / 3.0 * std::f64::consts::PI * 1.25e-4,
+    );
+    let text = format!(
+        "title = \"arm\"\nduration = 1\n[settings]\ngravity = [0, 0, 0]\n\
+         [[bodies]]\nname = \"arm\"\nshape = {{ box = {{ half = [0.3, 0.02, 0.02] }} }}\nposition = [0, 0, 0]\n\
+         drive = {{ kinematic = [{{ from = 0, angular_velocity = [0, 0, {speed}] }}] }}\n\
+         [[bodies]]\nname = \"ball\"\nshape = {{ sphere = {{ radius = 0.05 }} }}\nposition = [{radius}, 0, 0]\n\
+         drive = {{ dynamic = {{ density = 2000, velocity = [0, {}, 0], angular_velocity = [0, 0, {speed}] }} }}\n\
+         [[wires]]\nname = \"rope\"\nresolution = 0.25\n\
+         material = {{ radius = 0.004, density = 1200, stretch_modulus = 1e9, bend_modulus = 0 }}\n\
+         route = [{{ eye = {{ body = \"arm\", local = [0.3, 0, 0] }} }}, {{ eye = {{ body = \"ball\", local = [0, 0, 0] }} }}]\n",
+        speed * radius
+    );
+    let summary = run(&text);
+    let force = mass * speed * speed * radius;
+    assert!(
+        (summary.tension / force - 1.0).abs() < 0.1,
+        "{} {force}",
+        summary.tension
+    );
+    assert!(summary.energy.largest_gain < 0.01, "{:?}", summary.energy);
+}

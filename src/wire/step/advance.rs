@@ -3,7 +3,6 @@
 use super::budget::Budget;
 use super::callbacks::{Given, MotionReview, StepCallbacks};
 use super::capstan;
-use super::carrier::work_of_contacts;
 use super::contact_nodes;
 use super::motion::{MotionScales, ProposedMotion, SlideRate};
 use super::reels;
@@ -66,7 +65,7 @@ impl World {
         let impulses = solution.impulses(watch.contacts().len());
         record.contacts = self.contact_records(watch.contacts(), &impulses);
         record.solver = solution.record();
-        record.work = solution.work() + work_of_contacts(self, watch.contacts(), &impulses);
+        record.work = solution.work();
         let carried = self.carried_velocities();
         record.turns(&motion);
         let keys = watch.contacts().iter().map(|contact| contact.key);

@@ -7,7 +7,7 @@ use super::order::Block;
 use super::transverse::SteepNode;
 use crate::wire::error::Part;
 use crate::wire::model::wire::Clamp;
-use crate::wire::model::{BodyId, Node, NodeKind, WireId};
+use crate::wire::model::{BodyId, NodeKind, WireId};
 use crate::wire::world::World;
 use crate::wire::{ContactConstraint, ContactSite, Vector};
 
@@ -290,6 +290,22 @@ impl Layout {
             .collect()
     }
 
+    /// What prescribed velocities do by contacts with these impulses on their places A, in J.
+    pub(super) fn work_of_contacts(
+        &self,
+        world: &World,
+        contacts: &[ContactConstraint],
+        impulses: &[Vector],
+    ) -> f64 {
+        let works = contacts.iter().zip(impulses).map(|(contact, impulse)| {
+            let carriers = self.contact(world, contact).into_iter();
+            let velocities =
+                carriers.map(|(carrier, weight)| carrier.prescribed_velocity() * weight);
+            -impulse.dot(&velocities.sum())
+        });
+        works.sum()
+    }
+
     /// What carries a place, by at most two carriers and their weights.
     pub(super) fn place(
         &self,
@@ -335,34 +351,6 @@ fn prescribed(world: &World, id: BodyId, arm: &Vector) -> Vector {
     }
     let (velocity, spin) = body.prescribed(world.time(), world.settings.step);
     velocity + spin.cross(arm)
-}
-
-/// What prescribed velocities do by contacts with these impulses on their places A, in J.
-pub(super) fn work_of_contacts(
-    world: &World,
-    contacts: &[ContactConstraint],
-    impulses: &[Vector],
-) -> f64 {
-    let of_body =
-        |body: BodyId, local: &Vector| prescribed(world, body, &world.bodies[body.0].arm(local));
-    let of_node = |node: &Node| match node.kind.carrier() {
-        Some((body, local)) => of_body(body, &local),
-        None => Vector::zeros(),
-    };
-    let of = |place: &ContactSite| match *place {
-        ContactSite::World => Vector::zeros(),
-        ContactSite::Body { body, local } => of_body(body, &local),
-        ContactSite::Wire { wire, arc } => {
-            let wire = &world.wires[wire.0];
-            let (segment, parameter) = wire.at(arc);
-            let [start, end] = [segment, segment + 1].map(|at| of_node(&wire.nodes[at]));
-            start * (1.0 - parameter) + end * parameter
-        }
-    };
-    let works = contacts.iter().zip(impulses);
-    works
-        .map(|(contact, impulse)| impulse.dot(&(of(&contact.b) - of(&contact.a))))
-        .sum()
 }
 
 #[cfg(test)]

@@ -34,8 +34,8 @@
 //! is accepted if the [energy](Followed::error) of what its lengths are off by is less than before; else half
 //! of the way to it is tried. After [`ROUNDS`], or when the budget is spent, the best stands.
 //!
-//! What contacts of a wire push on is linear about the start as well: a [body](Held) that is pushed so is not followed, and a
-//! segment only if it is off by far more. Nor are bodies whose motion is prescribed.
+//! Bodies whose motion is prescribed are followed like others. What contacts of a wire push on is linear about the start as
+//! well: a [body](Held) that is pushed so is not followed, and a segment only if it is off by far more.
 
 use nalgebra::Matrix3;
 
@@ -43,7 +43,7 @@ use super::carrier::Carrier;
 use super::system::System;
 use super::transverse::is_short;
 use crate::wire::contact::{ContactConstraint, ContactSite};
-use crate::wire::model::{BodyId, Node, Wire};
+use crate::wire::model::{BodyId, Node, NodeKind, Wire};
 use crate::wire::vector::{Vector, unit};
 use crate::wire::world::World;
 
@@ -112,6 +112,14 @@ impl Held {
             segments: wires.map(|wire| vec![false; wire.segments.len()]).collect(),
             bodies: vec![false; world.bodies.len()],
         };
+        // Wire that comes onto a body has its length along the surface.
+        for node in world.wires.iter().flat_map(|wire| &wire.nodes) {
+            if let NodeKind::Contact { body, .. } = node.kind
+                && !world.bodies[body.0].dynamic
+            {
+                held.bodies[body.0] = true;
+            }
+        }
         for (contact, impulse) in contacts.iter().zip(impulses) {
             let places = [&contact.a, &contact.b];
             let is_wire = |place: &&ContactSite| matches!(place, ContactSite::Wire { .. });
@@ -229,11 +237,15 @@ impl Linearisation {
         x: &[f64],
     ) -> Followed {
         let step = world.settings.step;
-        let bodies = system.layout.bodies.iter().zip(&held.bodies);
-        let turns = bodies.map(|(first, is_held)| {
-            let first = first.filter(|_| !is_held)?;
-            let turn = Carrier::Free(first + 3).velocity(x) * step;
-            Some((turn, mean_turn(&turn)))
+        let bodies = world.bodies.iter().zip(&system.layout.bodies);
+        let turns = bodies.zip(&held.bodies).map(|((body, first), is_held)| {
+            let spin = match first {
+                Some(first) => Carrier::Free(first + 3).velocity(x),
+                None => body.prescribed(world.time(), step).1,
+            };
+            let turn = spin * step;
+            let is_followed = !is_held && turn != Vector::zeros();
+            is_followed.then(|| (turn, mean_turn(&turn)))
         });
         let turns: Vec<Option<(Vector, Matrix3<f64>)>> = turns.collect();
         // How far a node comes out beside where its rows have it.

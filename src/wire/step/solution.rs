@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use super::budget::Budget;
-use super::carrier::work_of_contacts;
 use super::energy_limit;
 use super::islands::{Island, islands};
 use super::linearisation::{Followed, Held, Linearisation, ROUNDS};
@@ -106,6 +105,8 @@ pub(super) struct Solved {
     pub(super) candidate: Candidate,
     /// What it is linear about.
     linearisation: Linearisation,
+    /// What prescribed velocities do, in J.
+    work: f64,
 }
 
 impl Solution {
@@ -244,12 +245,9 @@ impl Solution {
         energies.sum()
     }
 
-    /// What prescribed velocities do by wires, in J.
+    /// What prescribed velocities do by wires and contacts, in J.
     pub(super) fn work(&self) -> f64 {
-        let islands = self.islands.iter();
-        islands
-            .map(|own| own.system.work_of_rows(&own.candidate.x))
-            .sum()
+        self.islands.iter().map(|own| own.work).sum()
     }
 
     /// What there was beside the masses, at short segments, in the motion that was made.
@@ -368,15 +366,18 @@ impl Solved {
         } = best;
         system.give_structure(structure);
         let work = |of: &Candidate| {
-            let by_contacts = work_of_contacts(world, &contacts, &of.swept.impulses);
+            let layout = &system.layout;
+            let by_contacts = layout.work_of_contacts(world, &contacts, &of.swept.impulses);
             system.work_of_rows(&of.x) + by_contacts
         };
         energy_limit::slow(world, &system.layout, &contacts, &mut candidate, work);
+        let work = work(&candidate);
         Ok(Solved {
             island,
             system,
             candidate,
             linearisation,
+            work,
         })
     }
 }
