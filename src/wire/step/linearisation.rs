@@ -35,7 +35,9 @@
 //! of the way to it is tried. After [`ROUNDS`], or when the budget is spent, the best stands.
 //!
 //! Bodies whose motion is prescribed are followed like others. What contacts of a wire push on is linear about the start as
-//! well: a [body](Held) that is pushed so is not followed, and a segment only if it is off by far more.
+//! well: a [body](Held) that is pushed so is not followed, and a segment only if it is off by far more. A solution in
+//! which a scripted body is followed and [pushed](Linearisation::suits) does not count: a wire that is fixed to it and touches it
+//! would go two ways.
 
 use nalgebra::Matrix3;
 
@@ -208,6 +210,12 @@ impl Linearisation {
             Some(turn) => turn * arm,
             None => arm,
         }
+    }
+
+    /// Whether contacts push on no scripted body that it follows: nodes on it go along arcs then, and contacts straight on.
+    pub(super) fn suits(&self, world: &World, held: &Held) -> bool {
+        let mut bodies = world.bodies.iter().zip(&self.turns).zip(&held.bodies);
+        !bodies.any(|((body, turn), is_held)| !body.dynamic && turn.is_some() && *is_held)
     }
 
     /// A part of the way to another one.
