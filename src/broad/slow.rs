@@ -176,9 +176,10 @@ impl SlowPairs {
 
 impl Track {
     fn go(&mut self, ends: [Point; 2], radius: f64) {
-        let [a, b] = [0, 1].map(|end| distance_above(&self.now[end], &ends[end]));
+        let way = |end: usize| distance_above(&self.now[end], &ends[end]);
+        let farthest = way(0).max(way(1));
         let growth = (radius - self.radius).next_up().max(0.0);
-        let way = (a.max(b) + growth).next_up();
+        let way = (farthest + growth).next_up();
         self.motion = (self.motion + way).next_up();
         (self.now, self.radius) = (ends, radius);
     }

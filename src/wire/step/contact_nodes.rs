@@ -59,17 +59,18 @@ pub(super) fn insert(
 ) -> Vec<Remesh> {
     let mut changes = Vec::new();
     for insertion in insertions {
-        if insertion.is_taken(world) {
+        let wire = &world.wires[insertion.wire.0];
+        let near = node_near(wire, insertion.arc);
+        let last = wire.nodes.len() - 1;
+        let is_free =
+            |node: usize| wire.nodes[node].kind == NodeKind::Free && node > 0 && node < last;
+        if near.is_some_and(|node| !is_free(node)) || insertion.is_taken(world) {
             continue;
         }
-        let wire = &world.wires[insertion.wire.0];
-        if let Some(node) = node_near(wire, insertion.arc) {
-            let last = wire.nodes.len() - 1;
-            if wire.nodes[node].kind == NodeKind::Free && node > 0 && node < last {
-                let along = wire.span(node - 1) + wire.span(node);
-                if let Some(attached) = attached(world, insertion, wire.nodes[node], &along) {
-                    world.wires[insertion.wire.0].nodes[node] = attached;
-                }
+        if let Some(node) = near {
+            let along = wire.span(node - 1) + wire.span(node);
+            if let Some(attached) = attached(world, insertion, wire.nodes[node], &along) {
+                world.wires[insertion.wire.0].nodes[node] = attached;
             }
             continue;
         }

@@ -107,7 +107,7 @@ pub(super) struct Held {
 }
 
 impl Held {
-    /// By contacts with these impulses.
+    /// By contacts with these impulses; and scripted bodies with contact nodes.
     pub(super) fn new(world: &World, contacts: &[ContactConstraint], impulses: &[Vector]) -> Self {
         let wires = world.wires.iter();
         let mut held = Held {
