@@ -292,6 +292,21 @@ impl Run<'_> {
 }
 
 impl Summary {
+    /// That of a run in guard mode with the certified path.
+    ///
+    /// # Errors
+    ///
+    /// As [`Run::go`].
+    pub fn of_guarded(scene: &Scene) -> Result<Self, SceneError> {
+        let narrow = Narrow::Certified.phase();
+        let run = Run {
+            scene,
+            narrow: &*narrow,
+            mode: Mode::Guard,
+        };
+        run.go(|_, _| Ok(()))
+    }
+
     /// Tests of these cases.
     pub fn of_case(&self, cases: &[Case]) -> usize {
         let all = Case::ALL.iter().zip(self.cases);

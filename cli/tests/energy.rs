@@ -2,19 +2,12 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use tunnelproof::wire::Mode;
-use tunnelproof_cli::scenes::{Scene, SceneError};
-use tunnelproof_cli::simulate::{Narrow, Run, Summary};
+use tunnelproof_cli::scenes::Scene;
+use tunnelproof_cli::simulate::Summary;
 
 fn run(toml: &str) -> Summary {
     let scene = Scene::from_toml(toml).unwrap();
-    let narrow = Narrow::Certified.phase();
-    let run = Run {
-        scene: &scene,
-        narrow: &*narrow,
-        mode: Mode::Guard,
-    };
-    let summary = run.go(|_, _| Ok::<(), SceneError>(())).unwrap();
+    let summary = Summary::of_guarded(&scene).unwrap();
     assert_eq!(summary.stopped, None);
     summary
 }

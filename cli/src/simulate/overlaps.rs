@@ -82,10 +82,8 @@ impl fmt::Display for Overlap {
 
 #[cfg(test)]
 mod tests {
-    use tunnelproof::wire::Mode;
-
-    use crate::scenes::{Scene, SceneError};
-    use crate::simulate::{Narrow, Run};
+    use crate::scenes::Scene;
+    use crate::simulate::Summary;
 
     /// What is said of a rope that starts so high over a box, and of a ball that starts so high over it.
     fn said(rope: f64, ball: f64) -> Vec<String> {
@@ -98,13 +96,7 @@ mod tests {
              route = [{{ free = [-0.5, 0, {rope}] }}, {{ free = [0.5, 0, {rope}] }}]\n"
         );
         let scene = Scene::from_toml(&text).unwrap();
-        let narrow = Narrow::Certified.phase();
-        let run = Run {
-            scene: &scene,
-            narrow: &*narrow,
-            mode: Mode::Guard,
-        };
-        let summary = run.go(|_, _| Ok::<(), SceneError>(())).unwrap();
+        let summary = Summary::of_guarded(&scene).unwrap();
         summary.overlaps.iter().map(ToString::to_string).collect()
     }
 

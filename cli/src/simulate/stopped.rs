@@ -22,10 +22,8 @@ pub(super) fn said(error: &StepError, scene: &Scene) -> String {
 
 #[cfg(test)]
 mod tests {
-    use tunnelproof::wire::Mode;
-
-    use crate::scenes::{Scene, SceneError};
-    use crate::simulate::{Narrow, Run};
+    use crate::scenes::Scene;
+    use crate::simulate::Summary;
 
     #[test]
     fn what_stopped_a_run_has_the_name_that_the_scene_gives_it() {
@@ -34,13 +32,7 @@ mod tests {
                     [[bodies]]\nname = \"blade\"\nshape = { box = { half = [1, 0.1, 0.1] } }\nposition = [0, 0, 0]\n\
                     drive = { kinematic = [{ from = 0, angular_velocity = [0, 0, 1e5] }] }\n";
         let scene = Scene::from_toml(text).unwrap();
-        let narrow = Narrow::Certified.phase();
-        let run = Run {
-            scene: &scene,
-            narrow: &*narrow,
-            mode: Mode::Guard,
-        };
-        let summary = run.go(|_, _| Ok::<(), SceneError>(())).unwrap();
+        let summary = Summary::of_guarded(&scene).unwrap();
         let stopped = summary.stopped.unwrap();
         assert!(stopped.starts_with("step 0: body 1 makes"), "{stopped}");
         assert!(stopped.ends_with("(body 1 is \"blade\")"), "{stopped}");

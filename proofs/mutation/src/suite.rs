@@ -201,14 +201,9 @@ fn measure(test: &Test, tree: &Path, longest: Duration) -> Result<Option<Test>> 
                 longest,
             );
         }
-        End::Failed => anyhow::bail!("{} {} fails without any mutant", test.target, test.name),
+        End::Failed => anyhow::bail!("{} fails without any mutant", test.said()),
         _ if reached.is_empty() => return Ok(None),
-        End::TimedOut => println!(
-            "takes more than {} s: {} {}",
-            most.as_secs(),
-            test.target,
-            test.name
-        ),
+        End::TimedOut => println!("takes more than {} s: {}", most.as_secs_f64(), test.said()),
         End::Passed => {}
     }
     let reaches = (0..)

@@ -26,12 +26,12 @@ pub(in crate::wire) struct ContactNodeInsertion {
     pub(in crate::wire) aside: Vector,
 }
 
-/// Two contact nodes of other wire or of other turns have to be as far apart as this, in the sum of both radii.
+/// Nodes that a body carries, of other wire or of other turns, have to be as far apart as this, in the sum of both radii.
 const APART: f64 = 0.75;
 
 impl ContactNodeInsertion {
-    /// Whether there is a contact node of other wire, or of another turn of the same wire, in whose thickness it would be: the
-    /// body would carry both, and what pushes them apart would push without end.
+    /// Whether the body has a node of other wire, or of another turn of the same wire, in whose thickness it would be: it
+    /// would carry both, and what pushes them apart would push without end.
     fn is_taken(&self, world: &World) -> bool {
         let own = &world.wires[self.wire.0];
         let mut wires = world.wires.iter().enumerate();

@@ -155,6 +155,8 @@ pub(super) struct Followed {
     pub(super) is_off: bool,
     /// Whether that is other directions or arms.
     pub(super) has_other_directions: bool,
+    /// Whether what it is linear about [suits](Linearisation::suits) its contacts.
+    pub(super) suits: bool,
 }
 
 impl Linearisation {
@@ -213,7 +215,7 @@ impl Linearisation {
     }
 
     /// Whether contacts push on no scripted body that it follows: nodes on it go along arcs then, and contacts straight on.
-    pub(super) fn suits(&self, world: &World, held: &Held) -> bool {
+    fn suits(&self, world: &World, held: &Held) -> bool {
         let mut bodies = world.bodies.iter().zip(&self.turns).zip(&held.bodies);
         !bodies.any(|((body, turn), is_held)| !body.dynamic && turn.is_some() && *is_held)
     }
@@ -268,6 +270,7 @@ impl Linearisation {
             error: 0.0,
             is_off: false,
             has_other_directions: false,
+            suits: self.suits(world, held),
         };
         let mut is_turned = vec![false; turns.len()];
         // Where segments go that may have to be followed.

@@ -42,8 +42,6 @@ struct Attempt {
     system: System,
     candidate: Candidate,
     followed: Followed,
-    /// Whether it may be linear about what it is.
-    suits: bool,
 }
 
 impl Attempt {
@@ -68,8 +66,9 @@ impl Attempt {
             let Ok(mut again) = again else { break };
             let solvers = [&best, &again].map(|attempt| &attempt.candidate.solver);
             let factorisations = solvers[0].factorisations + solvers[1].factorisations;
-            let is_better =
-                again.suits && !again.is_far() && again.followed.error <= best.followed.error;
+            let is_better = again.followed.suits
+                && !again.is_far()
+                && again.followed.error <= best.followed.error;
             // Half of the way to larger tensions alone is the same again, and what takes too long does so again.
             let is_last = again.candidate.solver.cut_short || !best.followed.has_other_directions;
             if is_better {
@@ -352,9 +351,7 @@ impl Solved {
             structure = system.take_structure();
             let held = Held::new(world, &contacts, &candidate.swept.impulses);
             let followed = linearisation.follow(world, &system, &held, &candidate.x);
-            let suits = linearisation.suits(world, &held);
             Ok::<_, Reason>(Attempt {
-                suits,
                 linearisation,
                 system,
                 candidate,
@@ -362,7 +359,7 @@ impl Solved {
             })
         };
         let mut first = solve(linearisation, &start, budget);
-        if first.as_ref().is_ok_and(|first| !first.suits) {
+        if first.as_ref().is_ok_and(|first| !first.followed.suits) {
             first = solve(Linearisation::at_start(world), &start, budget);
         }
         let first = first.map_err(|reason| island.reason(reason))?;
