@@ -52,6 +52,7 @@ pub(super) struct Judgements {
     pub(super) id: String,
     pub(super) place: u64,
     pub(super) query: AnyQuery,
+    pub(super) fingerprint: Fingerprint,
     pub(super) label: Option<bool>,
     pub(super) truth: ExactAnswer,
     /// The number of the second judge that takes the query, if any, and what it says.
@@ -92,7 +93,7 @@ impl Block {
     pub(super) fn add(&mut self, case: Judgements) {
         let hit = case.truth.hit;
         self.queries += 1;
-        self.fingerprint.add(case.place, &case.query);
+        self.fingerprint.merge(case.fingerprint);
         self.hits += u64::from(hit.is_some());
         self.crossings += u64::from(hit.is_some_and(|hit| hit.crosses));
         self.labels += u64::from(case.label.is_some());

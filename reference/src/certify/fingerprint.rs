@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use hmac_sha256::Hash;
+use sha2::{Digest, Sha256};
 
 use super::query::AnyQuery;
 
@@ -13,9 +13,9 @@ use super::query::AnyQuery;
 pub struct Fingerprint(u128);
 
 impl Fingerprint {
-    /// Adds the query at this place in its source, from 0.
-    pub fn add(&mut self, place: u64, query: &AnyQuery) {
-        let mut hash = Hash::new();
+    /// That of the query at this place in its source, from 0.
+    pub fn of(place: u64, query: &AnyQuery) -> Self {
+        let mut hash = Sha256::new();
         hash.update(place.to_le_bytes());
         let (kind, coordinates) = query.fields();
         hash.update(kind);
@@ -28,7 +28,7 @@ impl Fingerprint {
         let digest = hash.finalize();
         let half = digest.iter().take(16);
         let number = half.fold(0, |number, byte| number << 8 | u128::from(*byte));
-        self.0 = self.0.wrapping_add(number);
+        Fingerprint(number)
     }
 
     /// Adds the queries of another part.
@@ -60,9 +60,9 @@ mod tests {
     fn of(places: impl IntoIterator<Item = u64>) -> Fingerprint {
         let family = generate::by_name("uniform").unwrap();
         let mut fingerprint = Fingerprint::default();
-        places
-            .into_iter()
-            .for_each(|place| fingerprint.add(place, &family.query(1, place).into()));
+        places.into_iter().for_each(|place| {
+            fingerprint.merge(Fingerprint::of(place, &family.query(1, place).into()))
+        });
         fingerprint
     }
 
@@ -78,8 +78,9 @@ mod tests {
     fn fingerprint_tells_queries_places_and_counts_apart() {
         let family = generate::by_name("uniform").unwrap();
         let mut swapped = Fingerprint::default();
-        swapped.add(0, &family.query(1, 1).into());
-        swapped.add(1, &family.query(1, 0).into());
+        for place in [0, 1] {
+            swapped.merge(Fingerprint::of(place, &family.query(1, 1 - place).into()));
+        }
         let all = [of(0..2), of(0..3), of(1..3), swapped];
         for (i, one) in all.iter().enumerate() {
             assert!(all[..i].iter().all(|other| other != one));

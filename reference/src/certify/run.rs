@@ -10,6 +10,7 @@ use crate::subject::{Answer, NoAnswer, Subject};
 
 use super::batch::map_chunks_in_order;
 use super::block::{Agreement, Block, Judgements, measure_gap};
+use super::fingerprint::Fingerprint;
 use super::judged::Judged;
 use super::query::AnyQuery;
 use super::reply::{Reply, ask, ask_all};
@@ -166,6 +167,7 @@ impl Panel<'_> {
             id: entry.id,
             place,
             query,
+            fingerprint: Fingerprint::of(place, &query),
             label: entry.label,
             truth,
             second,
