@@ -233,7 +233,7 @@ FAULTS = [
     ("mod", "mod batch;", "mod batch; #[allow(unused)] mod evil;", NOT_READ),
     ("mod", "mod batch;", "#[path = \"other.rs\"] mod batch;", NOT_READ),
     ("mod", "mod batch;", "mod batch; include!(\"other.rs\");", NOT_READ),
-    ("mod", "#[cfg(test)]\nmod testing;", "mod testing;", KEPT),
+    ("mod", "#[cfg(test)]\npub(crate) mod testing;", "pub(crate) mod testing;", KEPT),
     ("mod", "mod batch;", "mod batch; use crate::mesh;", NOT_READ),
     ("mod", "mod batch;", "mod batch; use crate::Mesh as Other;", NOT_READ),
     ("src/lib", "mod closest;", "macro_rules! debug_assert { ($($x:tt)*) => {} }\nmod closest;", KEPT),

@@ -76,6 +76,7 @@ pub mod mesh;
 pub mod narrow;
 mod parallel;
 pub mod query;
+mod registers;
 pub mod rigid;
 pub mod thesis;
 #[cfg(feature = "wire")]

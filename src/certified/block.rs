@@ -1,14 +1,13 @@
 //! The first stages of the cascade for many queries at once.
 //!
 //! They are arithmetic without branches, so over arrays the compiler does several queries in one
-//! instruction, as many as the registers of the processor hold: what it has is found out at run
-//! time. The answers are the same in every bit, as no operation is contracted or reordered.
+//! instruction, as many as the [registers](crate::registers) of the processor hold.
 
 use std::array;
 use std::marker::PhantomData;
 use std::ops::Range;
 
-use pulp::{Arch, WithSimd};
+use pulp::WithSimd;
 
 use super::crossing;
 use super::cubic::Cubic;
@@ -20,6 +19,7 @@ use super::step::{Precision, room, widened};
 use super::thick::{self, Reached, Touch, rounded_up};
 use crate::contact::Hit;
 use crate::query::Radius;
+use crate::registers::with_widest;
 
 /// How many queries lie side by side: a few registers, whatever the processor.
 pub(crate) const LANES: usize = 8;
@@ -152,7 +152,7 @@ impl Open {
         queries: Range<usize>,
         observe: &mut impl FnMut(Stage),
     ) {
-        let decided = Arch::new().dispatch(First::<_, _, _, 2, 0> {
+        let decided = with_widest(First::<_, _, _, 2, 0> {
             open: self,
             source,
             queries,
@@ -205,7 +205,7 @@ impl Open {
                 tiles[lane / LANES].found[0][lane % LANES] = last.1;
             }
         };
-        Arch::new().dispatch(First::<_, _, _, 2, 4> {
+        with_widest(First::<_, _, _, 2, 4> {
             open: self,
             source,
             queries,
@@ -280,7 +280,7 @@ impl Open {
         test: T,
         observe: &mut impl FnMut(Stage),
     ) {
-        let decided = Arch::new().dispatch(Next { open: self, test });
+        let decided = with_widest(Next { open: self, test });
         report(stages, decided, observe);
     }
 

@@ -82,7 +82,7 @@ mod stage;
 mod start;
 mod step;
 #[cfg(test)]
-mod testing;
+pub(crate) mod testing;
 mod thick;
 mod together;
 mod vector;

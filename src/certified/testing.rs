@@ -11,7 +11,7 @@ mod search;
 pub(super) use geometry::{Exact, dot, layout, points, points_and_direction, range};
 pub(super) use number::Number;
 pub(super) use polynomial::Polynomial;
-pub(super) use random::Random;
+pub(crate) use random::Random;
 pub(super) use rooted::Rooted;
 pub(super) use search::{Claim, Search};
 

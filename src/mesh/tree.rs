@@ -9,8 +9,10 @@
 //! each of its operations is. So boxes that overlap do so in `f32` as well, whatever is rounded,
 //! and no bound of an error is needed.
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 use wide::f32x8;
+
+use crate::registers::with_widest;
 
 /// How many boxes lie side by side.
 const WIDTH: usize = 8;
@@ -288,7 +290,7 @@ impl Tree {
         within: bool,
         found: &mut impl FnMut(u32, u32),
     ) {
-        Arch::new().dispatch(Search {
+        with_widest(Search {
             trees: [self, other],
             task: *task,
             meets,

@@ -1,40 +1,40 @@
 //! A small seeded generator, and numbers as tests of floating point want them.
 
 /// SplitMix64 (Steele, Lea and Flood 2014, "Fast splittable pseudorandom number generators").
-pub(in super::super) struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
-    pub(in super::super) fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Random(seed)
     }
 
-    pub(in super::super) fn bits(&mut self) -> u64 {
+    pub(crate) fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let x = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         x ^ (x >> 31)
     }
 
-    pub(in super::super) fn below(&mut self, bound: u64) -> u64 {
+    pub(crate) fn below(&mut self, bound: u64) -> u64 {
         self.bits() % bound
     }
 
-    pub(in super::super) fn coin(&mut self) -> bool {
+    pub(crate) fn coin(&mut self) -> bool {
         self.bits() >> 63 != 0
     }
 
     /// From -1 to 1.
-    pub(in super::super) fn signed(&mut self) -> f64 {
+    pub(crate) fn signed(&mut self) -> f64 {
         (self.bits() as i64) as f64 * 2f64.powi(-63)
     }
 
     /// From 0 to 1.
-    pub(in super::super) fn unit(&mut self) -> f64 {
+    pub(crate) fn unit(&mut self) -> f64 {
         self.signed().abs()
     }
 
     /// A whole number from `low` to `high`, an end as often as every fourth time.
-    pub(in super::super) fn whole(&mut self, low: i32, high: i32) -> i32 {
+    pub(crate) fn whole(&mut self, low: i32, high: i32) -> i32 {
         match self.below(8) {
             0 => low,
             1 => high,
@@ -43,12 +43,12 @@ impl Random {
     }
 
     /// A number of few bits.
-    pub(in super::super) fn small(&mut self) -> f64 {
+    pub(crate) fn small(&mut self) -> f64 {
         f64::from(self.whole(-4, 4)) * 2f64.powi(self.whole(-2, 2))
     }
 
     /// Another number a few units in the last place away.
-    pub(in super::super) fn nudged(&mut self, value: f64) -> f64 {
+    pub(crate) fn nudged(&mut self, value: f64) -> f64 {
         let mut value = value;
         for _ in 0..=self.below(3) {
             value = if self.coin() {
@@ -61,7 +61,7 @@ impl Random {
     }
 
     /// Changes one of the numbers, in its bits or by those of another.
-    pub(in super::super) fn change(&mut self, values: &mut [f64]) {
+    pub(crate) fn change(&mut self, values: &mut [f64]) {
         let count = values.len() as u64;
         let (i, other) = (self.below(count) as usize, self.below(count) as usize);
         let (old, other) = (values[i], values[other]);

@@ -1,0 +1,88 @@
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::sync::RwLock;
+
+use super::*;
+use crate::certified::testing::Random;
+use crate::mesh::Mesh;
+use crate::{Clearance, EdgeEdge, Pairs, Precision, VertexFace, advance_pairs};
+
+/// What work is done with, in place of the widest. Other tests may go on meanwhile.
+pub(super) static CHOSEN: RwLock<Option<Arch>> = RwLock::new(None);
+
+/// All that this processor has, the widest last.
+fn all() -> Vec<Arch> {
+    #[cfg(target_arch = "x86_64")]
+    let wider = [
+        pulp::x86::V3::try_new().map(Arch::V3),
+        pulp::x86::V4::try_new().map(Arch::V4),
+    ];
+    #[cfg(target_arch = "aarch64")]
+    let wider = [pulp::aarch64::Neon::try_new().map(Arch::Neon)];
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+    let wider: [Option<Arch>; 0] = [];
+    [Some(Arch::Scalar)]
+        .into_iter()
+        .chain(wider)
+        .flatten()
+        .collect()
+}
+
+/// Points at both ends of a step.
+struct Points {
+    start: Vec<[f64; 3]>,
+    end: Vec<[f64; 3]>,
+}
+
+impl Points {
+    /// Some are on a lattice, where much touches exactly.
+    fn new(random: &mut Random, count: usize) -> Self {
+        let mut ends = [(); 2].map(|()| {
+            let point = |_| match random.coin() {
+                true => [(); 3].map(|()| random.small()),
+                false => [(); 3].map(|()| random.signed()),
+            };
+            (0..count).map(point).collect::<Vec<_>>()
+        });
+        let [start, end] = ends.each_mut().map(std::mem::take);
+        Points { start, end }
+    }
+
+    /// All that is decided of quadruples of them, as text: it has every bit.
+    fn answers(&self, quadruples: &[[u32; 4]], radius: f64) -> [String; 4] {
+        let Points { start, end } = self;
+        let edges = Pairs::<EdgeEdge>::new(start, end, quadruples, radius).unwrap();
+        let faces = Pairs::<VertexFace>::new(start, end, quadruples, radius).unwrap();
+        let apart = &edges.part(0..1).unwrap();
+        let step = advance_pairs(apart, &faces, Clearance::Share(0.5), Precision::F32).unwrap();
+        let corners: Vec<[u32; 3]> = quadruples.iter().map(|q| [q[0], q[1], q[2]]).collect();
+        let mesh = Mesh::new(start.len(), &[], &corners[..corners.len().min(60)]).unwrap();
+        [
+            format!("{:?}", edges.decide()),
+            format!("{:?}", faces.decide()),
+            format!("{step:?}"),
+            format!("{:?}", mesh.all_contacts(start, end, radius).unwrap()),
+        ]
+    }
+}
+
+#[test]
+fn registers_of_every_width_give_the_same_bits() {
+    let random = &mut Random::new(2026);
+    let mut hits = 0;
+    for radius in [0.0, 0.0, 0.05, 0.3] {
+        let count = 400;
+        let points = Points::new(random, count);
+        let mut index = || random.below(count as u64) as u32;
+        let quadruples: Vec<_> = (0..4000).map(|_| [(); 4].map(|()| index())).collect();
+        let mut answers = all().into_iter().map(|arch| {
+            *CHOSEN.write().unwrap() = Some(arch);
+            points.answers(&quadruples, radius)
+        });
+        let first = answers.next().unwrap();
+        hits += first[0].matches("toi:").count();
+        assert!(answers.all(|other| other == first), "radius {radius}");
+    }
+    *CHOSEN.write().unwrap() = None;
+    assert!(hits > 1000, "{hits} hits");
+}
