@@ -258,6 +258,15 @@ impl From<FacePlace> for Place {
 }
 
 impl<P> Hit<P> {
+    /// The largest `f32` that is not above the exact time of impact: `toi as f32` may be above it.
+    pub fn toi_f32(&self) -> f32 {
+        let nearest = self.toi as f32;
+        match f64::from(nearest) > self.toi {
+            true => nearest.next_down(),
+            false => nearest,
+        }
+    }
+
     /// The same contact with its place in another form.
     pub fn map_place<T>(self, form: impl FnOnce(P) -> T) -> Hit<T> {
         Hit {

@@ -93,7 +93,7 @@ pub use contact::{
 };
 pub use mesh::Mesh;
 pub use nalgebra;
-pub use query::{EdgeEdge, Point, Query, QueryError, QueryKind, Radius, VertexFace};
+pub use query::{Coordinate, EdgeEdge, Point, Query, QueryError, QueryKind, Radius, VertexFace};
 
 /// The example of the README, as a test.
 #[cfg(doctest)]

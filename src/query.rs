@@ -300,12 +300,31 @@ impl fmt::Display for QueryError {
 
 impl std::error::Error for QueryError {}
 
+/// What positions may be stored in: `f64` or `f32`. Every `f32` is an `f64`, so nothing is rounded.
+pub trait Coordinate:
+    Copy + fmt::Debug + PartialEq + Send + Sync + Into<f64> + sealed::Sealed
+{
+}
+
+impl Coordinate for f64 {}
+
+impl Coordinate for f32 {}
+
+mod sealed {
+    pub trait Sealed {}
+
+    impl Sealed for f64 {}
+
+    impl Sealed for f32 {}
+}
+
 /// The first coordinate that is not a finite number: of which position, on which axis, and what it
 /// is.
-pub(crate) fn first_not_finite(positions: &[[f64; 3]]) -> Option<(usize, usize, f64)> {
+pub(crate) fn first_not_finite<C: Coordinate>(positions: &[[C; 3]]) -> Option<(usize, usize, f64)> {
     let mut all = positions.iter().enumerate();
     all.find_map(|(place, position)| {
-        let axis = position.iter().position(|x| !x.is_finite())?;
+        let position = position.map(Into::into);
+        let axis = position.iter().position(|x: &f64| !x.is_finite())?;
         Some((place, axis, position[axis]))
     })
 }

@@ -171,6 +171,74 @@ fn pairs_that_share_points_are_decided_as_one_by_one() {
     }
 }
 
+/// Positions in `f32` are decided as the same numbers in `f64`.
+#[test]
+fn pairs_in_f32_are_decided_as_the_same_numbers_in_f64() {
+    let is_f32 = |query: &Query| {
+        let points = query.start().iter().chain(query.end());
+        points
+            .flat_map(|point| point.iter())
+            .all(|&x| (x as f32).is_finite())
+    };
+    let rounded = |all: &[Position]| -> Vec<[f32; 3]> {
+        all.iter()
+            .map(|position| position.map(|x| x as f32))
+            .collect()
+    };
+    let (mut hits, mut later) = (0, 0);
+    for family in FAMILIES.iter().chain(OTHER_KINDS) {
+        let queries = (0..600).map(|index| family.query(6, index)).filter(is_f32);
+        let (mut of_edges, mut of_faces) = (Set::default(), Set::default());
+        for query in queries {
+            match query {
+                Query::EdgeEdge(query) => of_edges.push(&query),
+                Query::VertexFace(query) => of_faces.push(&query),
+            }
+        }
+        for mut set in [of_edges, of_faces] {
+            let (start, end) = (rounded(&set.start), rounded(&set.end));
+            let in_f64 = |all: &[[f32; 3]]| all.iter().map(|p| p.map(f64::from)).collect();
+            (set.start, set.end) = (in_f64(&start), in_f64(&end));
+            let single = Pairs::<EdgeEdge, f32>::with_radii(&start, &end, &set.indices, &set.radii);
+            let double =
+                Pairs::<EdgeEdge>::with_radii(&set.start, &set.end, &set.indices, &set.radii);
+            let (single, double) = (single.expect("finite"), double.expect("finite"));
+            assert_eq!(
+                bits(&single.decide()),
+                bits(&double.decide()),
+                "{}",
+                family.name()
+            );
+            let faces =
+                Pairs::<VertexFace, f32>::with_radii(&start, &end, &set.indices, &set.radii);
+            let again =
+                Pairs::<VertexFace>::with_radii(&set.start, &set.end, &set.indices, &set.radii);
+            let (faces, again) = (faces.expect("finite"), again.expect("finite"));
+            assert_eq!(
+                bits(&faces.decide()),
+                bits(&again.decide()),
+                "{}",
+                family.name()
+            );
+            for (pair, hit) in single.decide() {
+                let toi = hit.toi_f32();
+                assert!(
+                    f64::from(toi) <= hit.toi && f64::from(toi.next_up()) > hit.toi,
+                    "{toi}"
+                );
+                later += u32::from(f64::from(hit.toi as f32) > hit.toi);
+                let query = single.get(pair).expect("it is one of them");
+                assert_eq!(decide(&query), Some(hit));
+                hits += 1;
+            }
+        }
+    }
+    assert!(
+        hits > 5000 && later > 500,
+        "{hits} hits, {later} would be later"
+    );
+}
+
 #[test]
 fn what_is_no_pair_is_refused() {
     let points = [[0.0; 3], [1.0; 3], [2.0; 3], [3.0; 3]];
@@ -193,6 +261,12 @@ fn what_is_no_pair_is_refused() {
     assert_eq!(
         said(&points, &not_finite, &all, 0.0),
         error("end[2][1] is NaN, not a finite number")
+    );
+    let single = [[0.0, 1.0, f32::INFINITY]; 4];
+    let of_single = Pairs::<EdgeEdge, f32>::new(&single, &single, &all, 0.0);
+    assert_eq!(
+        of_single.expect_err("it is infinite").to_string(),
+        "start[0][2] is inf, not a finite number"
     );
     assert_eq!(
         said(&points, &points, &[[0, 1, 2, 3], [0, 4, 1, 2]], 0.0),

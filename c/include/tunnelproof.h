@@ -233,6 +233,16 @@ typedef struct tunnelproof_pairs {
   size_t radius_count;
 } tunnelproof_pairs;
 
+/* The same with positions that are float. */
+typedef struct tunnelproof_pairs_f32 {
+  const float *start, *end;
+  size_t point_count;
+  const uint32_t *indices;
+  size_t pair_count;
+  const double *radii;
+  size_t radius_count;
+} tunnelproof_pairs_f32;
+
 /* A hit, and the pair whose it is: the place of its four indices, from 0. */
 typedef struct tunnelproof_pair_hit {
   size_t pair;
@@ -255,6 +265,16 @@ int64_t tunnelproof_decide_edge_edge_pairs(const tunnelproof_pairs *pairs,
 int64_t tunnelproof_decide_vertex_face_pairs(const tunnelproof_pairs *pairs,
                                              tunnelproof_pair_hit *hits, size_t capacity,
                                              tunnelproof_error *error);
+
+/* The same of positions that are float, each of which is a double: nothing is copied or rounded. To
+ * store `toi` as a float, round it down: where (float)toi is above it, use
+ * nextafterf((float)toi, 0). */
+int64_t tunnelproof_decide_edge_edge_pairs_f32(const tunnelproof_pairs_f32 *pairs,
+                                               tunnelproof_pair_hit *hits, size_t capacity,
+                                               tunnelproof_error *error);
+int64_t tunnelproof_decide_vertex_face_pairs_f32(const tunnelproof_pairs_f32 *pairs,
+                                                 tunnelproof_pair_hit *hits, size_t capacity,
+                                                 tunnelproof_error *error);
 
 /* Why a step is not a whole one. */
 enum tunnelproof_blocked {

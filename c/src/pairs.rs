@@ -3,8 +3,8 @@
 use std::ffi::CStr;
 
 use tunnelproof::{
-    Clearance, EdgeEdge, ListedPair as EngineListedPair, Pairs as EnginePairs, PairsError,
-    Precision, QueryKind, Radius, VertexFace, advance_pairs,
+    Clearance, Coordinate, EdgeEdge, ListedPair as EngineListedPair, Pairs as EnginePairs,
+    PairsError, Precision, QueryKind, Radius, VertexFace, advance_pairs,
 };
 use tunnelproof_float_env::with_default;
 
@@ -13,12 +13,12 @@ use crate::arrays::{Error, answered, read, write};
 use crate::step::Step;
 use crate::{CLEARANCE, COUNT, Hit, INDEX, LENGTH, NOT_FINITE, POSITIONS, Query, RADIUS};
 
-/// `tunnelproof_pairs`.
+/// `tunnelproof_pairs`, and for positions in `f32` `tunnelproof_pairs_f32`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct Pairs {
-    start: *const f64,
-    end: *const f64,
+pub struct Pairs<C> {
+    start: *const C,
+    end: *const C,
     point_count: usize,
     indices: *const u32,
     pair_count: usize,
@@ -135,27 +135,27 @@ impl Names {
 }
 
 /// A list of pairs, read from pointers.
-struct List<'a> {
+struct List<'a, C> {
     names: &'static Names,
-    start: &'a [[f64; 3]],
-    end: &'a [[f64; 3]],
+    start: &'a [[C; 3]],
+    end: &'a [[C; 3]],
     indices: &'a [[u32; 4]],
     radii: Vec<Radius>,
 }
 
-impl List<'_> {
+impl<C: Coordinate> List<'_, C> {
     /// # Safety
     ///
     /// Each pointer, also in the pairs, is null or points to what the header says, and nobody
     /// changes that during `'_`.
-    unsafe fn read(pairs: *const Pairs, names: &'static Names) -> Result<Self, Error> {
+    unsafe fn read(pairs: *const Pairs<C>, names: &'static Names) -> Result<Self, Error> {
         // SAFETY: not null, it points to pairs that nobody changes.
         let pairs = unsafe { pairs.as_ref() }.ok_or(Error::null(names.list))?;
         let (points, count) = (pairs.point_count, pairs.pair_count);
         // SAFETY: not null, it points to three numbers for each point that nobody changes.
-        let start = unsafe { read(pairs.start.cast::<[f64; 3]>(), points, names.start) }?;
+        let start = unsafe { read(pairs.start.cast::<[C; 3]>(), points, names.start) }?;
         // SAFETY: as above.
-        let end = unsafe { read(pairs.end.cast::<[f64; 3]>(), points, names.end) }?;
+        let end = unsafe { read(pairs.end.cast::<[C; 3]>(), points, names.end) }?;
         // SAFETY: not null, it points to four indices for each pair that nobody changes.
         let indices = unsafe { read(pairs.indices.cast::<[u32; 4]>(), count, names.indices) }?;
         let (radii, count) = (pairs.radii.cast::<[f64; 2]>(), pairs.radius_count);
@@ -170,7 +170,7 @@ impl List<'_> {
         })
     }
 
-    fn pairs<Q: Query>(&self) -> Result<EnginePairs<'_, Q>, Error> {
+    fn pairs<Q: Query>(&self) -> Result<EnginePairs<'_, Q, C>, Error> {
         let (start, end, indices) = (self.start, self.end, self.indices);
         let pairs = match *self.radii {
             [] => EnginePairs::new(start, end, indices, Radius::ZERO),
@@ -182,7 +182,7 @@ impl List<'_> {
 }
 
 /// The hits, by all threads where the pool of threads is built in.
-fn answers<Q: Query>(pairs: &EnginePairs<Q>) -> Vec<PairHit> {
+fn answers<Q: Query, C: Coordinate>(pairs: &EnginePairs<Q, C>) -> Vec<PairHit> {
     #[cfg(feature = "rayon")]
     let hits = pairs.par_decide();
     #[cfg(not(feature = "rayon"))]
@@ -201,8 +201,8 @@ fn answers<Q: Query>(pairs: &EnginePairs<Q>) -> Vec<PairHit> {
 /// # Safety
 ///
 /// Each pointer, also in the pairs, is null or points to what the header says.
-unsafe fn decide<Q: Query>(
-    pairs: *const Pairs,
+unsafe fn decide<Q: Query, C: Coordinate>(
+    pairs: *const Pairs<C>,
     hits: *mut PairHit,
     capacity: usize,
     error: *mut Error,
@@ -227,13 +227,13 @@ unsafe fn decide<Q: Query>(
 /// As the header says of its pointers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn tunnelproof_decide_edge_edge_pairs(
-    pairs: *const Pairs,
+    pairs: *const Pairs<f64>,
     hits: *mut PairHit,
     capacity: usize,
     error: *mut Error,
 ) -> i64 {
     // SAFETY: the caller's promise is the same.
-    with_default(|| unsafe { decide::<EdgeEdge>(pairs, hits, capacity, error) })
+    with_default(|| unsafe { decide::<EdgeEdge, _>(pairs, hits, capacity, error) })
 }
 
 /// `tunnelproof_decide_vertex_face_pairs`.
@@ -243,13 +243,45 @@ pub unsafe extern "C" fn tunnelproof_decide_edge_edge_pairs(
 /// As the header says of its pointers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn tunnelproof_decide_vertex_face_pairs(
-    pairs: *const Pairs,
+    pairs: *const Pairs<f64>,
     hits: *mut PairHit,
     capacity: usize,
     error: *mut Error,
 ) -> i64 {
     // SAFETY: the caller's promise is the same.
-    with_default(|| unsafe { decide::<VertexFace>(pairs, hits, capacity, error) })
+    with_default(|| unsafe { decide::<VertexFace, _>(pairs, hits, capacity, error) })
+}
+
+/// `tunnelproof_decide_edge_edge_pairs_f32`.
+///
+/// # Safety
+///
+/// As the header says of its pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tunnelproof_decide_edge_edge_pairs_f32(
+    pairs: *const Pairs<f32>,
+    hits: *mut PairHit,
+    capacity: usize,
+    error: *mut Error,
+) -> i64 {
+    // SAFETY: the caller's promise is the same.
+    with_default(|| unsafe { decide::<EdgeEdge, _>(pairs, hits, capacity, error) })
+}
+
+/// `tunnelproof_decide_vertex_face_pairs_f32`.
+///
+/// # Safety
+///
+/// As the header says of its pointers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tunnelproof_decide_vertex_face_pairs_f32(
+    pairs: *const Pairs<f32>,
+    hits: *mut PairHit,
+    capacity: usize,
+    error: *mut Error,
+) -> i64 {
+    // SAFETY: the caller's promise is the same.
+    with_default(|| unsafe { decide::<VertexFace, _>(pairs, hits, capacity, error) })
 }
 
 /// `tunnelproof_advance_pairs`.
@@ -259,8 +291,8 @@ pub unsafe extern "C" fn tunnelproof_decide_vertex_face_pairs(
 /// As the header says of its pointers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn tunnelproof_advance_pairs(
-    edges: *const Pairs,
-    faces: *const Pairs,
+    edges: *const Pairs<f64>,
+    faces: *const Pairs<f64>,
     distance: f64,
     share: f64,
     out: *mut Step<ListedPair>,
@@ -280,8 +312,8 @@ pub unsafe extern "C" fn tunnelproof_advance_pairs(
 /// As the header says of its pointers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn tunnelproof_advance_pairs_f32(
-    edges: *const Pairs,
-    faces: *const Pairs,
+    edges: *const Pairs<f64>,
+    faces: *const Pairs<f64>,
     distance: f64,
     share: f64,
     out: *mut Step<ListedPair>,
@@ -300,8 +332,8 @@ pub unsafe extern "C" fn tunnelproof_advance_pairs_f32(
 ///
 /// As the header says of the pointers of `tunnelproof_advance_pairs`.
 unsafe fn step(
-    edges: *const Pairs,
-    faces: *const Pairs,
+    edges: *const Pairs<f64>,
+    faces: *const Pairs<f64>,
     clearance: Option<Clearance>,
     precision: Precision,
     out: *mut Step<ListedPair>,

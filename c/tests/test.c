@@ -71,6 +71,32 @@ static void one_by_one(void) {
   CHECK(tunnelproof_decide_edge_edge(points, NULL, &hit) == TUNNELPROOF_MISS);
 }
 
+/* Pairs whose positions are float numbers, as such: the same hits, bit for bit. */
+static void pairs_by_index_f32(const tunnelproof_pairs *pairs) {
+  float start[18], end[18];
+  tunnelproof_pairs_f32 same = {start, end, pairs->point_count, pairs->indices, pairs->pair_count,
+                                pairs->radii, pairs->radius_count};
+  tunnelproof_pair_hit hits[3], expected[3];
+  tunnelproof_error error;
+  int64_t count;
+  size_t i;
+
+  for (i = 0; i < 3 * pairs->point_count; i++) {
+    start[i] = (float)pairs->start[i];
+    end[i] = (float)pairs->end[i];
+  }
+  memset(hits, 0, sizeof hits);
+  memset(expected, 0, sizeof expected);
+  count = tunnelproof_decide_edge_edge_pairs(pairs, expected, 3, NULL);
+  CHECK(count > 0 && tunnelproof_decide_edge_edge_pairs_f32(&same, hits, 3, NULL) == count);
+  CHECK(memcmp(hits, expected, sizeof hits) == 0);
+  count = tunnelproof_decide_vertex_face_pairs(pairs, expected, 3, NULL);
+  CHECK(tunnelproof_decide_vertex_face_pairs_f32(&same, hits, 3, NULL) == count);
+  end[4] = NAN;
+  CHECK(tunnelproof_decide_vertex_face_pairs_f32(&same, hits, 3, &error) == TUNNELPROOF_NOT_FINITE);
+  CHECK(strcmp(error.array, "end") == 0 && error.index == 1 && error.corner == 1);
+}
+
 /* Pairs by index: one falls through AB, of another AB is at rest beside it. */
 static void pairs_by_index(void) {
   double start[18], end[18];
@@ -110,6 +136,7 @@ static void pairs_by_index(void) {
   CHECK(tunnelproof_decide_edge_edge_pairs(&pairs, hits, 3, &error) == 3);
   CHECK(hits[0].hit.toi == 0.125);
   CHECK(tunnelproof_decide_vertex_face_pairs(&pairs, NULL, 0, &error) >= 0);
+  pairs_by_index_f32(&pairs);
   /* What is refused. */
   pairs.radius_count = 2;
   CHECK(tunnelproof_decide_edge_edge_pairs(&pairs, hits, 3, &error) == TUNNELPROOF_LENGTH);

@@ -11,7 +11,7 @@ use super::queries;
 use super::stage::Stage;
 use super::step::{Clearance, ClearanceError};
 use crate::contact::Hit;
-use crate::query::{Counted, QueryError, Radius, first_not_finite};
+use crate::query::{Coordinate, Counted, QueryError, Radius, first_not_finite};
 
 /// Queries of one kind, [`EdgeEdge`](crate::EdgeEdge) or [`VertexFace`](crate::VertexFace), whose
 /// points are given by their indices into arrays of positions: candidate pairs as the broad phase
@@ -21,6 +21,9 @@ use crate::query::{Counted, QueryError, Radius, first_not_finite};
 /// [`advance_pairs`](super::advance_pairs) gives positions to store.
 ///
 /// Leave out pairs whose sides share a point, such as neighbouring edges: they touch at time 0.
+///
+/// Positions are `f64`, or `f32` for `C`: `Pairs::<EdgeEdge, f32>::new(…)`. What is decided of `f32` is as
+/// exact; [`Hit::toi_f32`] rounds the time down to one.
 ///
 /// ```
 /// use tunnelproof::{EdgeEdge, Pairs};
@@ -40,16 +43,16 @@ use crate::query::{Counted, QueryError, Radius, first_not_finite};
 /// # Ok::<(), tunnelproof::PairsError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Pairs<'a, K> {
-    pub(super) indexed: Indexed<'a>,
+pub struct Pairs<'a, K, C = f64> {
+    pub(super) indexed: Indexed<'a, C>,
     kind: PhantomData<fn() -> K>,
 }
 
 /// Queries by the indices of their points.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Indexed<'a> {
-    pub(crate) start: &'a [[f64; 3]],
-    pub(crate) end: &'a [[f64; 3]],
+pub(crate) struct Indexed<'a, C = f64> {
+    pub(crate) start: &'a [[C; 3]],
+    pub(crate) end: &'a [[C; 3]],
     /// Of A, B, C and D, of each query.
     pub(crate) indices: &'a [[u32; 4]],
     pub(crate) radii: Radii<'a>,
@@ -62,7 +65,7 @@ pub(crate) enum Radii<'a> {
     Each(&'a [Radius]),
 }
 
-impl<'a, K: Kind> Pairs<'a, K> {
+impl<'a, K: Kind, C: Coordinate> Pairs<'a, K, C> {
     /// Pairs with the same radius: the indices of A, B, C and D of each, and the positions in metres
     /// at `t = 0` and at `t = 1`.
     ///
@@ -77,8 +80,8 @@ impl<'a, K: Kind> Pairs<'a, K> {
     /// [`PairsError`] if the arrays of positions differ in length, a coordinate or the radius is not
     /// a finite number, the radius is below 0, or an index is not that of a position.
     pub fn new(
-        start: &'a [[f64; 3]],
-        end: &'a [[f64; 3]],
+        start: &'a [[C; 3]],
+        end: &'a [[C; 3]],
         indices: &'a [[u32; 4]],
         radius: impl Into<Radius>,
     ) -> Result<Self, PairsError> {
@@ -92,8 +95,8 @@ impl<'a, K: Kind> Pairs<'a, K> {
     ///
     /// As [`new`](Self::new), and if there are not as many radii as pairs.
     pub fn with_radii(
-        start: &'a [[f64; 3]],
-        end: &'a [[f64; 3]],
+        start: &'a [[C; 3]],
+        end: &'a [[C; 3]],
         indices: &'a [[u32; 4]],
         radii: &'a [Radius],
     ) -> Result<Self, PairsError> {
@@ -101,8 +104,8 @@ impl<'a, K: Kind> Pairs<'a, K> {
     }
 
     fn checked(
-        start: &'a [[f64; 3]],
-        end: &'a [[f64; 3]],
+        start: &'a [[C; 3]],
+        end: &'a [[C; 3]],
         indices: &'a [[u32; 4]],
         radii: Radii<'a>,
     ) -> Result<Self, PairsError> {
@@ -229,10 +232,11 @@ impl<'a, K: Kind> Pairs<'a, K> {
     }
 }
 
-impl Indexed<'_> {
+impl<C: Coordinate> Indexed<'_, C> {
     /// The motion of a pair.
     pub(super) fn positions(&self, pair: usize) -> Positions {
-        let of = |all: &[[f64; 3]]| self.indices[pair].map(|index| all[index as usize]);
+        let of =
+            |all: &[[C; 3]]| self.indices[pair].map(|index| all[index as usize].map(Into::into));
         Positions {
             start: of(self.start),
             end: of(self.end),
@@ -240,7 +244,7 @@ impl Indexed<'_> {
     }
 }
 
-impl Source for Indexed<'_> {
+impl<C: Coordinate> Source for Indexed<'_, C> {
     #[inline(always)]
     fn load(&self, tiles: &mut [Tile; CHUNK / LANES], queries: Range<usize>) {
         for (lane, indices) in self.indices[queries].iter().enumerate() {
@@ -249,7 +253,7 @@ impl Source for Indexed<'_> {
                 let index = index as usize;
                 for (at, positions) in [(0, self.start), (12, self.end)] {
                     for (axis, &x) in positions[index].iter().enumerate() {
-                        coordinates[at + 3 * point + axis][lane % LANES] = x;
+                        coordinates[at + 3 * point + axis][lane % LANES] = x.into();
                     }
                 }
             }
