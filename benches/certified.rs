@@ -3,7 +3,7 @@
 //! its queries that each stage of the certified path decides.
 //!
 //! `cargo bench --bench certified`. The public sets are measured where `../shared/data` is present;
-//! the generated ones always. The mean of a query is the time of a set over its queries.
+//! the generated ones always; last, each family alone. The mean of a query is the time of a set over its queries.
 
 use std::collections::BTreeMap;
 use std::hint::black_box;
@@ -12,8 +12,9 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use tunnelproof::additive::Additive;
 use tunnelproof::certified::{self, Batch, Pairs, Stage};
 use tunnelproof::narrow::NarrowPhase;
-use tunnelproof::query::{EdgeEdge, Radius};
+use tunnelproof::query::{EdgeEdge, Query, Radius};
 use tunnelproof::thesis::Thesis;
+use tunnelproof_reference::generate::{FAMILIES, OTHER_KINDS};
 
 mod data;
 
@@ -157,6 +158,27 @@ fn bench_vertex_face(c: &mut Criterion) {
     }
 }
 
+/// Each family of queries, of which most are made of what is hard to decide, one by one.
+fn bench_families(c: &mut Criterion) {
+    const COUNT: u64 = 2000;
+    let mut group = c.benchmark_group("narrow/families");
+    group.throughput(Throughput::Elements(COUNT));
+    for family in FAMILIES.iter().chain(OTHER_KINDS) {
+        let queries: Vec<Query> = (0..COUNT).map(|index| family.query(1, index)).collect();
+        group.bench_function(family.name(), |b| {
+            b.iter(|| {
+                for query in &queries {
+                    match query {
+                        Query::EdgeEdge(query) => consume(certified::decide(black_box(query))),
+                        Query::VertexFace(query) => consume(certified::decide(black_box(query))),
+                    }
+                }
+            });
+        });
+    }
+    group.finish();
+}
+
 /// The floor: every coordinate is read, nothing is decided.
 fn read(query: &EdgeEdge) {
     let points = query.start().iter().chain(query.end());
@@ -190,6 +212,6 @@ fn shares(queries: &[EdgeEdge]) -> String {
 criterion_group! {
     name = benches;
     config = Criterion::default().sample_size(20);
-    targets = bench, bench_thick, bench_vertex_face
+    targets = bench, bench_thick, bench_vertex_face, bench_families
 }
 criterion_main!(benches);
