@@ -3,7 +3,8 @@
 //! its queries that each stage of the certified path decides.
 //!
 //! `cargo bench --bench certified`. The public sets are measured where `../shared/data` is present;
-//! the generated ones always; last, each family alone. The mean of a query is the time of a set over its queries.
+//! the generated ones always; last, each family alone. The mean of a query is the time of a set over
+//! its queries.
 
 use std::collections::BTreeMap;
 use std::hint::black_box;

@@ -301,10 +301,7 @@ impl fmt::Display for QueryError {
 impl std::error::Error for QueryError {}
 
 /// What positions may be stored in: `f64` or `f32`. Every `f32` is an `f64`, so nothing is rounded.
-pub trait Coordinate:
-    Copy + fmt::Debug + PartialEq + Send + Sync + Into<f64> + sealed::Sealed
-{
-}
+pub trait Coordinate: Copy + fmt::Debug + Send + Sync + Into<f64> + sealed::Sealed {}
 
 impl Coordinate for f64 {}
 

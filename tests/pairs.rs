@@ -180,63 +180,57 @@ fn pairs_in_f32_are_decided_as_the_same_numbers_in_f64() {
             .flat_map(|point| point.iter())
             .all(|&x| (x as f32).is_finite())
     };
-    let rounded = |all: &[Position]| -> Vec<[f32; 3]> {
-        all.iter()
-            .map(|position| position.map(|x| x as f32))
-            .collect()
-    };
     let (mut hits, mut later) = (0, 0);
     for family in FAMILIES.iter().chain(OTHER_KINDS) {
         let queries = (0..600).map(|index| family.query(6, index)).filter(is_f32);
-        let (mut of_edges, mut of_faces) = (Set::default(), Set::default());
+        let mut set = Set::default();
         for query in queries {
             match query {
-                Query::EdgeEdge(query) => of_edges.push(&query),
-                Query::VertexFace(query) => of_faces.push(&query),
+                Query::EdgeEdge(query) => set.push(&query),
+                Query::VertexFace(query) => set.push(&query),
             }
         }
-        for mut set in [of_edges, of_faces] {
-            let (start, end) = (rounded(&set.start), rounded(&set.end));
-            let in_f64 = |all: &[[f32; 3]]| all.iter().map(|p| p.map(f64::from)).collect();
-            (set.start, set.end) = (in_f64(&start), in_f64(&end));
-            let single = Pairs::<EdgeEdge, f32>::with_radii(&start, &end, &set.indices, &set.radii);
-            let double =
-                Pairs::<EdgeEdge>::with_radii(&set.start, &set.end, &set.indices, &set.radii);
-            let (single, double) = (single.expect("finite"), double.expect("finite"));
-            assert_eq!(
-                bits(&single.decide()),
-                bits(&double.decide()),
-                "{}",
-                family.name()
-            );
-            let faces =
-                Pairs::<VertexFace, f32>::with_radii(&start, &end, &set.indices, &set.radii);
-            let again =
-                Pairs::<VertexFace>::with_radii(&set.start, &set.end, &set.indices, &set.radii);
-            let (faces, again) = (faces.expect("finite"), again.expect("finite"));
-            assert_eq!(
-                bits(&faces.decide()),
-                bits(&again.decide()),
-                "{}",
-                family.name()
-            );
-            for (pair, hit) in single.decide() {
-                let toi = hit.toi_f32();
-                assert!(
-                    f64::from(toi) <= hit.toi && f64::from(toi.next_up()) > hit.toi,
-                    "{toi}"
-                );
-                later += u32::from(f64::from(hit.toi as f32) > hit.toi);
-                let query = single.get(pair).expect("it is one of them");
-                assert_eq!(decide(&query), Some(hit));
-                hits += 1;
-            }
+        // The points of each query as two edges, and as a vertex and a face.
+        let times = [
+            times_in_f32::<EdgeEdge>(&set),
+            times_in_f32::<VertexFace>(&set),
+        ];
+        for (single, double) in times.concat() {
+            assert!(f64::from(single) <= double && f64::from(single.next_up()) > double);
+            later += u32::from(f64::from(double as f32) > double);
+            hits += 1;
         }
     }
     assert!(
         hits > 5000 && later > 500,
         "{hits} hits, {later} would be later"
     );
+}
+
+/// Checks that the points of a set, rounded to `f32`, are decided as the same numbers in `f64`; the
+/// times of impact.
+fn times_in_f32<K: Kind>(set: &Set) -> Vec<(f32, f64)>
+where
+    K::Place: Debug + PartialEq,
+{
+    let [start, end] = [&set.start, &set.end].map(|all| -> Vec<[f32; 3]> {
+        let rounded = |position: &Position| position.map(|x| x as f32);
+        all.iter().map(rounded).collect()
+    });
+    let in_f64 =
+        |all: &[[f32; 3]]| -> Vec<Position> { all.iter().map(|p| p.map(f64::from)).collect() };
+    let (same_start, same_end) = (in_f64(&start), in_f64(&end));
+    let Set { indices, radii, .. } = set;
+    let single = Pairs::<K, f32>::with_radii(&start, &end, indices, radii).expect("finite");
+    let double = Pairs::<K>::with_radii(&same_start, &same_end, indices, radii).expect("finite");
+    let hits = single.decide();
+    assert_eq!(bits(&hits), bits(&double.decide()));
+    for &(pair, hit) in &hits {
+        let query = single.get(pair).expect("it is one of them");
+        assert_eq!(decide(&query), Some(hit));
+    }
+    let times = hits.iter().map(|(_, hit)| (hit.toi_f32(), hit.toi));
+    times.collect()
 }
 
 #[test]

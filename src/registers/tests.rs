@@ -37,14 +37,13 @@ struct Points {
 impl Points {
     /// Some are on a lattice, where much touches exactly.
     fn new(random: &mut Random, count: usize) -> Self {
-        let mut ends = [(); 2].map(|()| {
+        let [start, end] = [(); 2].map(|()| {
             let point = |_| match random.coin() {
                 true => [(); 3].map(|()| random.small()),
                 false => [(); 3].map(|()| random.signed()),
             };
             (0..count).map(point).collect::<Vec<_>>()
         });
-        let [start, end] = ends.each_mut().map(std::mem::take);
         Points { start, end }
     }
 
@@ -55,8 +54,8 @@ impl Points {
         let faces = Pairs::<VertexFace>::new(start, end, quadruples, radius).unwrap();
         let apart = &edges.part(0..1).unwrap();
         let step = advance_pairs(apart, &faces, Clearance::Share(0.5), Precision::F32).unwrap();
-        let corners: Vec<[u32; 3]> = quadruples.iter().map(|q| [q[0], q[1], q[2]]).collect();
-        let mesh = Mesh::new(start.len(), &[], &corners[..corners.len().min(60)]).unwrap();
+        let faces_of_mesh = quadruples.iter().take(60).map(|q| [q[0], q[1], q[2]]);
+        let mesh = Mesh::new(start.len(), &[], &faces_of_mesh.collect::<Vec<_>>()).unwrap();
         [
             format!("{:?}", edges.decide()),
             format!("{:?}", faces.decide()),
