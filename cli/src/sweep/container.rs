@@ -13,7 +13,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 
-use sha2::{Digest, Sha256};
+use hmac_sha256::Hash;
 use tempfile::NamedTempFile;
 
 /// A hash of what a payload belongs to.
@@ -66,7 +66,7 @@ pub(super) fn write(path: &Path, key: &Key, payload: &[u8]) -> io::Result<()> {
     bytes.extend_from_slice(key);
     bytes.extend_from_slice(&(payload.len() as u64).to_le_bytes());
     bytes.extend_from_slice(payload);
-    bytes.extend_from_slice(&Sha256::digest(&bytes));
+    bytes.extend_from_slice(&Hash::hash(&bytes));
     let mut file = NamedTempFile::new_in(folder)?;
     file.write_all(&bytes)?;
     file.as_file().sync_all()?;
@@ -109,7 +109,7 @@ fn check(bytes: &[u8], key: &Key) -> Result<(), Damage> {
         return Err(Damage::Length { actual, stated });
     }
     let (content, checksum) = bytes.split_at(bytes.len() - CHECKSUM);
-    if Sha256::digest(content)[..] != *checksum {
+    if Hash::hash(content)[..] != *checksum {
         return Err(Damage::Checksum);
     }
     Ok(())

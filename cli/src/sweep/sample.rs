@@ -3,8 +3,8 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
+use hmac_sha256::Hash;
 use rayon::prelude::*;
-use sha2::{Digest, Sha256};
 use tunnelproof::narrow::Unsupported;
 use tunnelproof::query::{EdgeEdge, Query};
 
@@ -229,7 +229,7 @@ impl Sample {
 
     /// A hash of the queries, their domain and where they come from.
     pub(super) fn key(&self) -> Key {
-        let mut hash = Sha256::new();
+        let mut hash = Hash::new();
         hash.update(env!("CARGO_PKG_VERSION"));
         for part in &self.parts {
             hash.update(&part.name);
@@ -244,7 +244,7 @@ impl Sample {
                 point.iter().for_each(|x| hash.update(x.to_le_bytes()));
             }
         }
-        hash.finalize().into()
+        hash.finalize()
     }
 
     /// What is known of every query.

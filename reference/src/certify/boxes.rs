@@ -3,10 +3,10 @@
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
+use hmac_sha256::Hash;
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive};
 use rayon::prelude::*;
-use sha2::{Digest, Sha256};
 use tunnelproof::contact::Case;
 use tunnelproof::narrow::Tolerance;
 use tunnelproof::query::Point;
@@ -118,7 +118,7 @@ pub fn judge_family(
         lapses: BTreeMap::new(),
         faults: BTreeMap::new(),
     };
-    let mut hash = Sha256::new();
+    let mut hash = Hash::new();
     for first in (0..count).step_by(CHUNK as usize) {
         let ids = (first..count.min(first + CHUNK)).map(|index| BoxId {
             family,

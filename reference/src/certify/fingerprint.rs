@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use sha2::{Digest, Sha256};
+use hmac_sha256::Hash;
 
 use super::query::AnyQuery;
 
@@ -15,7 +15,7 @@ pub struct Fingerprint(u128);
 impl Fingerprint {
     /// That of the query at this place in its source, from 0.
     pub fn of(place: u64, query: &AnyQuery) -> Self {
-        let mut hash = Sha256::new();
+        let mut hash = Hash::new();
         hash.update(place.to_le_bytes());
         let (kind, coordinates) = query.fields();
         hash.update(kind);

@@ -5,7 +5,7 @@
 use std::io::{self, Write};
 
 use flate2::{Compression, GzBuilder};
-use sha2::{Digest, Sha256};
+use hmac_sha256::Hash;
 
 use super::TURNING;
 
@@ -141,7 +141,7 @@ fn in_folder(folder: &str, files: Vec<File>) -> impl Iterator<Item = File> {
 
 /// A line as `sha256sum` writes it.
 fn sum(path: &str, bytes: &[u8]) -> String {
-    let hash = Sha256::digest(bytes);
+    let hash = Hash::hash(bytes);
     let hash: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
     format!("{hash}  {path}\n")
 }
