@@ -96,12 +96,17 @@ fn worst_queries_are_answered_as_the_oracle_does() {
     }
 }
 
-/// Every loop of the exact stage has a comment that begins with `Ends:` and says why.
+/// Every loop of the certified path that is not over a range has a comment that begins with `Ends:` and
+/// says why.
 #[test]
-fn every_loop_of_the_exact_stage_says_why_it_ends() {
+fn every_loop_of_the_certified_path_says_why_it_ends() {
     fn visit(folder: &Path, loops: &mut usize) {
         for entry in fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
+            // What tests compute with.
+            if path.ends_with("testing") {
+                continue;
+            }
             if path.is_dir() {
                 visit(&path, loops);
                 continue;
@@ -112,7 +117,7 @@ fn every_loop_of_the_exact_stage_says_why_it_ends() {
             let source = fs::read_to_string(&path).unwrap();
             let lines: Vec<&str> = source.lines().map(str::trim_start).collect();
             for (at, line) in lines.iter().enumerate() {
-                if *line == "loop {" || line.starts_with("while ") {
+                if line.ends_with("loop {") || line.starts_with("while ") {
                     *loops += 1;
                     let above = lines[..at].iter().rev();
                     let comment = above.take_while(|line| line.starts_with("//"));
@@ -124,6 +129,6 @@ fn every_loop_of_the_exact_stage_says_why_it_ends() {
     }
     let mut loops = 0;
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    visit(&root.join("src/certified/exact"), &mut loops);
+    visit(&root.join("src/certified"), &mut loops);
     assert!(loops > 20, "{loops}");
 }

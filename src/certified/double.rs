@@ -49,6 +49,9 @@ pub(super) fn two_product<E: Ends>(a: E, b: E) -> Double<E> {
 }
 
 impl<T: Scalar> Double<T> {
+    /// `a + b`, without error if `a` is the larger one (Dekker 1971), or a multiple of an ulp of `b`: as
+    /// after a sum of two high parts that cancels, where the low parts are at most one and a half ulps
+    /// of the smaller one.
     #[inline(always)]
     pub(super) fn sum(a: T, b: T) -> Self {
         let high = a + b;

@@ -31,8 +31,8 @@
 //!
 //! With `u = 2^-53`: `q0` and `q1` are at 45 degrees or less, so that `(1 - t) |q0| + t |q1|` is at
 //! most `1.09 |q(t)|`. So `q(t)` is computed with an error below `5 u |q|`, which turns a point
-//! by less than `10 u p`. [`turned`] adds a vector made of products of size up to `2.42 p`, with
-//! fewer than 30 roundings: less than `75 u p`. The centre and the points in space have less than
+//! by less than `10 u p`. [`turned`] adds a vector made of products whose magnitudes add up to at
+//! most `3.1 p`, each with fewer than 24 roundings: less than `75 u p`. The centre and the points in space have less than
 //! `8 u` times their largest coordinate, and the sum less than `2 u` of both. So a side is off by less
 //! than `10 u` times its largest coordinates and `87 u p`. [`ROUNDING`] is `256 u`, times the largest
 //! coordinates of both sides and the sum of both `p`. Bounds themselves are computed with a few roundings, which [`UP`]
@@ -128,6 +128,10 @@ const FAR: f64 = 0.0625;
 
 /// The shortest part of the step that is looked at before integers decide, and the most parts.
 const SHORTEST: f64 = 1.0 / 256.0;
+
+/// 2^-40: parts that are cut off at the end of the step may be as short. An eighth of a thousandth of
+/// it is above 2^-53, and a time is off by half as much.
+const LEAST_PART: f64 = 1.0 / (1u64 << 40) as f64;
 const MOST_PARTS: u32 = 24;
 
 /// A query in `f64`, of numbers of ordinary size.
@@ -194,7 +198,10 @@ impl<'a, const FIRST: usize, const SECOND: usize> Moving<'a, FIRST, SECOND> {
                 (from, length) = (to, 2.0 * length);
                 continue;
             }
-            // What is taken off outweighs the roundings, as no part is as short as that.
+            // What is taken off below outweighs the roundings: a part is as long as that.
+            if to - from < LEAST_PART {
+                break;
+            }
             if until > 0.125 {
                 from += 0.999 * until * (to - from);
             }

@@ -233,7 +233,9 @@ impl Cubic {
     }
 
     /// A short interval around the one root in a part, and whether it is certain to be one: as far
-    /// around the next step of Newton's method as that step is long.
+    /// around the next step of Newton's method as that step is long. The interval has a low and a high
+    /// end in this order: what rounding takes from `t` and the distance is a few `u P` over the slope,
+    /// and the error of a value over the slope, which is added, 64 of these.
     #[inline(always)]
     fn bracket(&self, part: &Part, is_rising: bool) -> (Bracket, bool) {
         let guess = part.guess();
@@ -283,6 +285,9 @@ impl Cubic {
 
     /// The least magnitude of the derivative in a bracket that holds a point where it is `slope`; 0
     /// or less, or NaN, if none is certain.
+    ///
+    /// The difference is rounded relative to the slope. What the last factor does not cover of that,
+    /// the bound on the error of the slope does: it is 192 `u P`, where at most 162 are needed.
     #[inline(always)]
     fn least_slope(&self, slope: f64, bracket: &Bracket) -> f64 {
         let width = bracket.high - bracket.low;

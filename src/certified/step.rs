@@ -478,6 +478,7 @@ fn decided_distance<K: Stages>(positions: &Positions, most: f64) -> f64 {
     }
     // Numbers above 0 are ordered as their bits are.
     let (mut low, mut high) = (LEAST, most.max(0.0).to_bits());
+    // Ends: the difference is halved.
     while high.saturating_sub(low) > LEAST {
         let middle = low + (high - low) / 2;
         if is_above(middle) {

@@ -179,19 +179,20 @@ impl<'a, const N: usize> Bracket<'a, N> {
     /// With `m` the degree of the bracket's polynomial `p` and `h` the bits of its coefficients: the
     /// polynomial of least degree with the root `r` divides `p`, so that its coefficients have at
     /// most `h + 2 m` bits (Mignotte), their norm no more than two more. Its resultant with `q` is an
-    /// integer and not 0: `|q(r)|` is at least 2 to the minus `(m - 1) (bits + 4) + n (h + 2 m + 2)`,
-    /// as a polynomial of degree up to 15 is at most sixteen times its largest coefficient. Up to the
-    /// root `q` changes by no more than `2^(bits + 7)` times the width. So many bits, and those that
+    /// integer and not 0: `|q(r)|` is at least 2 to the minus `(m - 1) (bits + 5) + n (h + 2 m + 2)`,
+    /// as a polynomial of degree up to 18 is at most nineteen times its largest coefficient. Up to the
+    /// root `q` changes by no more than `2^(bits + 8)` times the width. So many bits, and those that
     /// the quotients of numbers of 64 bits need beyond the sign, are below `w`.
     ///
     /// For `q = 2^e t - k`, the distance of the root from a number with the exponent `e`, the bits
-    /// are `e + 1`: it bounds what it takes to move an end away from another root, and to part the
-    /// root from a neighbour in `f64` at which it is not. The exponent grows by three times the
+    /// are `e + 1`: it bounds what it takes to move an end away from another root. To part the root
+    /// from a neighbour in `f64` at which it is not, the bracket is cut there, which takes the
+    /// exponent of an `f64`, at most 1074. The exponent grows by three times the
     /// width's bits, and by 144 more for one cell too narrow and the first cells.
     pub(super) fn most_exponent(&self, degree: usize, bits: u64) -> u64 {
         let (m, n) = (self.poly.degree() as u64, degree as u64);
         let h = most_bits(self.poly);
-        let w = m * (bits + 4) + n * (h + 2 * m + 4) + 128;
+        let w = m * (bits + 5) + n * (h + 2 * m + 4) + 128;
         self.exponent().max(1074) + 4 * w + 1074 * 4 + 256
     }
 

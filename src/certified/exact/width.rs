@@ -5,16 +5,16 @@
 //!
 //! - *linear*: the differences themselves, `b` bits.
 //! - *quadratic*: `c0 + c1 t + c2 t^2` whose coefficients are sums of at most 18, 36 and 18
-//!   products of two of them (the largest is [`super::motion`]'s `between` of an end). Any sum of
-//!   these for `t` in `[0, 1]` and the Bernstein coefficients times 2 are at most `72 2^(2b)`,
-//!   below `2^(2b + 7)`.
+//!   products of two of them for edges (the largest is [`super::motion`]'s `between` of an end), and
+//!   27, 54 and 27 for a face. Any sum of these for `t` in `[0, 1]` and the Bernstein coefficients
+//!   times 2 are at most `108 2^(2b)`, below `2^(2b + 7)`.
 //! - *cubic*: the coefficients of `f = M . N` are sums of at most 6, 18, 18 and 6 products of
 //!   three, together at most `48 2^(3b)`; its Bernstein coefficients times 3 are at most three
 //!   times that, below `2^(3b + 8)`.
 //!
 //! With a bit for the sign: `b + 1`, `2b + 8` and `3b + 9` bits. Values at a multiple of `2^-128`
 //! are `2^256` and `2^384` times as large. The discriminant of a quadratic is at most
-//! `(36^2 + 4 18^2) 2^(4b)`, with its sign `4b + 13` bits; that fits into the `2b + 8 + 256` bits
+//! `(54^2 + 4 27^2) 2^(4b)`, with its sign `4b + 14` bits; that fits into the `2b + 8 + 256` bits
 //! of a value as `b` is at most 124.
 
 use std::borrow::{Borrow, BorrowMut};

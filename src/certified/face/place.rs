@@ -131,6 +131,10 @@ impl RawWeights {
         let [b, c, d] = self.values;
         let sum = b + c + d;
         let error = self.errors.iter().sum::<f64>() * (1.0 + 8.0 * U);
+        // Each is above its error, and yet all together may be no more than the bound of all.
+        if sum.abs() <= error {
+            return Place::Unclear;
+        }
         Place::Inside {
             weights: self.values.map(|value| value / sum),
             error: 2.0 * error / (sum.abs() - error) + 8.0 * U,

@@ -51,6 +51,7 @@ impl<const FIRST: usize, const SECOND: usize> Moving<'_, FIRST, SECOND> {
         let sign = first.signum();
         let (mut low, mut at_low) = (from, sign * first);
         let mut length = FIRST_STEP;
+        // Ends: parts grow, up to the end of the step.
         let (mut high, mut at_high) = loop {
             let t = f64::min(low + length, 1.0);
             let value = sign * excess(t);

@@ -74,11 +74,19 @@ const STEEP: f64 = 1.0 / (1u64 << 28) as f64;
 /// `t + r - e / 2 m` and `t + r`, and there is no contact before.
 ///
 /// Where an `f64` may be the time of impact itself, integers compare the distance there with the
-/// radius. It is the only `f64` near, and the distance falls at it: half the slope of its square is
-/// `-w . w'` at the nearest place, which is within 2^-32 of the kept one, so that `w` is within
-/// `2^-32 s` and `w'` within `2^-31 s` of theirs, and half the slope within `2^-30 s . s` of what
-/// `m` bounds. (Places that are no single one differ by a vector that `w` is perpendicular to, but
-/// for `2^-32 s`; their velocities do not differ along `w`, as the sides stay parallel.)
+/// radius. It is the only `f64` near, and the distance falls at it: half the rate at which its square
+/// falls is `-w . w'` at the nearest place, which is within 2^-32 of the kept one, so that `w` is within
+/// `2^-32 s` and `w'` within `2^-31 s` of theirs, and half the rate within `2^-30 s . s` of what
+/// `m` bounds, which is above `2^-28 s . s`.
+///
+/// Edges that stay parallel, `L = l K`, may be nearest in many places, and then that of the kept
+/// place is not near. But all have one vector `v`: a convex set has one point that is nearest to 0.
+/// `|w - v|^2` is at most the excess, which is below `2^-55 m`, else the time would not be as certain;
+/// so `w` differs by less than `2^-27.5 sqrt(m)`, and with `s < 2^14 sqrt(m)` that changes the rate
+/// by less than `2^-12 m`. The velocities of two places differ by a multiple of `K`, which `v` is
+/// across, and by `r K'`. The kept place is that at an end or across the edges up to the rounding of
+/// a slope, so that `r` is below `2^-7 m / (k s)` with the size `k` of the edges, and `v . r K'` below
+/// `2^-6 m`.
 ///
 /// # Error bounds
 ///

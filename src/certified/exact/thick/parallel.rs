@@ -7,7 +7,8 @@
 //! parallel for the whole step touch.
 //!
 //! Components are below `2^60` in magnitude, and so are their changes: a product of two vectors is
-//! below `2^122`, a coefficient below `2^123`, a sum of two of these below `2^124`.
+//! below `2^122`, a coefficient below `2^123`, a sum of two of these below `2^124`, and one of three
+//! below `2^125`.
 
 use std::cmp::Ordering;
 

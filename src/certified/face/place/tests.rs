@@ -222,3 +222,18 @@ fn face_signs_of_shares_decide_the_place() {
         }
     }
 }
+
+#[test]
+fn weights_that_are_just_above_their_errors_are_no_place() {
+    let weights = |errors: [f64; 3]| RawWeights {
+        values: [1.0 + f64::EPSILON; 3],
+        errors,
+    };
+    // All signs are certain, and yet the sum is within the bound on the errors of all.
+    assert!(weights([1.0; 3]).are_inside());
+    assert!(matches!(weights([1.0; 3]).place(), Place::Unclear));
+    let Place::Inside { error, .. } = weights([0.5; 3]).place() else {
+        panic!("inside");
+    };
+    assert!(error > 1.0 && error < 3.0, "{error}");
+}
