@@ -6,6 +6,11 @@
 //! along the wire from segment to segment by the least rotations (Bergou et al., "Discrete elastic
 //! rods", ACM Transactions on Graphics 27, 2008). It is measured up to whole turns. These are counted
 //! by following it from step to step.
+//!
+//! How far it goes in a motion is the sum of areas on the sphere of directions: each two segments in a
+//! row have two directions there, and the shortest way between them sweeps an area as both turn. That
+//! is how far what is carried from one to the other falls behind (Gauss and Bonnet), whole turns
+//! included.
 
 use std::f64::consts::TAU;
 
@@ -27,6 +32,8 @@ pub(in crate::wire) struct Torsion {
     pub(in crate::wire) gradient: Vec<Vector>,
     /// Of both ends: what clamps it, and by which part of its angular velocity the twist changes.
     pub(in crate::wire) ends: [(Clamp, Vector); 2],
+    /// The direction and the length in m of each segment.
+    spans: Vec<(Vector, f64)>,
 }
 
 impl Torsion {
@@ -44,6 +51,7 @@ impl Torsion {
             angle: libm::atan2(sine, carried.dot(&due)),
             gradient: gradient(&spans),
             ends,
+            spans,
         })
     }
 
@@ -51,14 +59,68 @@ impl Torsion {
     pub(in crate::wire) fn rate(&self, wire: &Wire, bodies: &[Body]) -> f64 {
         let nodes = self.gradient.iter().zip(&wire.nodes);
         let of_nodes = nodes.fold(0.0, |sum, (by, node)| sum + by.dot(&node.velocity));
-        self.ends.iter().fold(of_nodes, |sum, (clamp, by)| {
-            sum + match *clamp {
-                Clamp::World => 0.0,
-                Clamp::Body(body) => by.dot(&bodies[body.0].angular_velocity),
-            }
-        })
+        of_nodes + self.rate_of_ends(bodies)
+    }
+
+    /// The part of the rate that is of what clamps the ends, in rad/s.
+    fn rate_of_ends(&self, bodies: &[Body]) -> f64 {
+        let of_ends = self.ends.iter().map(|(clamp, by)| match *clamp {
+            Clamp::World => 0.0,
+            Clamp::Body(body) => by.dot(&bodies[body.0].angular_velocity),
+        });
+        of_ends.sum()
+    }
+
+    /// How far the twist goes as all nodes go straight to where another one is of, but for what clamps
+    /// the ends, in rad.
+    fn swept(&self, to: &Torsion) -> f64 {
+        let spans = self.spans.iter().zip(&to.spans);
+        let mut paths = spans.filter(|(from, to)| from.1 > 0.0 && to.1 > 0.0);
+        let Some(mut last) = paths.next() else {
+            return 0.0;
+        };
+        let mut sum = 0.0;
+        for path in paths {
+            let at = |(direction, length): &(Vector, f64)| direction * *length;
+            sum += swept(
+                [at(last.0), at(path.0)],
+                [at(last.1), at(path.1)],
+                MOST_HALVINGS,
+            );
+            last = path;
+        }
+        sum
     }
 }
+
+/// The area that the shortest way from one direction to another one sweeps on the sphere as both spans
+/// go straight from one pair to the next.
+///
+/// Ends: each call halves the motion, and has one halving less.
+fn swept(from: [Vector; 2], to: [Vector; 2], halvings: u32) -> f64 {
+    let directions = [from[0], from[1], to[1], to[0]].map(|span| unit(&span).0);
+    let [a, b, c, d] = directions;
+    if halvings > 0 && (d - a).norm().max((c - b).norm()) > LEAST_HALVED {
+        let halfway = [0, 1].map(|i| (from[i] + to[i]) / 2.0);
+        return swept(from, halfway, halvings - 1) + swept(halfway, to, halvings - 1);
+    }
+    triangle(&a, &b, &c) + triangle(&a, &c, &d)
+}
+
+/// The area of a triangle on the sphere, above 0 if its corners come counterclockwise, seen from outside
+/// (A. van Oosterom and J. Strackee, "The solid angle of a plane triangle", IEEE Transactions on
+/// Biomedical Engineering 30, 1983).
+fn triangle(a: &Vector, b: &Vector, c: &Vector) -> f64 {
+    let above = 1.0 + a.dot(b) + b.dot(c) + c.dot(a);
+    2.0 * libm::atan2(a.dot(&b.cross(c)), above)
+}
+
+/// How far a direction goes at most in a part of a motion of which the area is taken at once: the length
+/// of the chord.
+const LEAST_HALVED: f64 = 0.25;
+
+/// How often a motion is halved at most.
+const MOST_HALVINGS: u32 = 10;
 
 /// A direction across a clamped segment, given by its two nodes, that stays as it is in what clamps it.
 fn held(clamp: Clamp, bodies: &[Body], nodes: &[Node]) -> Vector {
@@ -116,13 +178,14 @@ pub(in crate::wire) fn torsions(world: &World) -> Vec<Option<Torsion>> {
 }
 
 /// Follows the twist of every wire through the motion of a step, which has been made with the
-/// velocities that all have now. How far the twist went is known up to whole turns, and by its rate
-/// roughly, so bodies may turn more than once in a step.
+/// velocities that all have now. How far the twist went is known up to whole turns. The areas that are
+/// swept and the rate of what clamps the ends tell these, so bodies may turn more than once in a step.
 pub(in crate::wire) fn follow_motion(world: &mut World, before: &[Option<Torsion>]) {
     for (wire, before) in world.wires.iter_mut().zip(before) {
         let after = Torsion::of(wire, &world.bodies);
         if let (Some(before), Some(after)) = (before, after) {
-            let about = before.rate(wire, &world.bodies) * world.settings.step;
+            let of_ends = before.rate_of_ends(&world.bodies) * world.settings.step;
+            let about = before.swept(&after) + of_ends;
             wire.twist += about + less_turns(after.angle - before.angle - about);
         }
     }

@@ -133,6 +133,53 @@ fn what_moves_as_one_keeps_its_twist_so_forces_and_moments_add_up_to_nothing() {
     }
 }
 
+/// The world with the nodes of its wire a part of the way to those of another one.
+fn between(from: &World, to: &World, part: f64) -> World {
+    let mut world = from.clone();
+    let nodes = world.wires[0].nodes.iter_mut().zip(&to.wires[0].nodes);
+    for (node, to) in nodes {
+        node.position += (to.position - node.position) * part;
+    }
+    world
+}
+
+/// How far the twist goes in a part of a motion, by its angle at so many instants that it goes by a
+/// tenth of a radian at most from each to the next.
+fn by_instants(from: &World, to: &World, part: [f64; 2]) -> f64 {
+    let at = |part| torsion(&between(from, to, part)).angle;
+    let way = less_turns(at(part[1]) - at(part[0]));
+    let halfway = (part[0] + part[1]) / 2.0;
+    if part[1] - part[0] < 1e-3 && way.abs() < 0.1 || halfway == part[0] {
+        return way;
+    }
+    by_instants(from, to, [part[0], halfway]) + by_instants(from, to, [halfway, part[1]])
+}
+
+#[test]
+fn twist_through_a_far_motion_is_that_of_many_instants_on_its_way() {
+    let rng = &mut ChaCha8Rng::seed_from_u64(3);
+    let (mut largest, mut by_rate): (f64, usize) = (0.0, 0);
+    for _ in 0..40 {
+        let from = zigzag(rng, false);
+        let mut to = from.clone();
+        for node in &mut to.wires[0].nodes {
+            if node.kind == NodeKind::Free {
+                // Farther than segments are long: they turn by any angle.
+                node.velocity = vector(rng, 4.0);
+                node.position += node.velocity;
+            }
+        }
+        let due = by_instants(&from, &to, [0.0, 1.0]);
+        let [before, after] = [torsion(&from), torsion(&to)];
+        let swept = before.swept(&after);
+        assert!((swept - due).abs() < 1e-9, "{swept} {due}");
+        largest = largest.max(due.abs());
+        by_rate += usize::from((before.rate(&to.wires[0], &to.bodies) - due).abs() > PI);
+    }
+    // Their rates at the start would not tell the turns.
+    assert!(largest > TAU && by_rate > 5, "{largest} {by_rate}");
+}
+
 /// A wire along these directions, clamped to the world at both ends.
 fn along(directions: &[Vector]) -> World {
     let mut at = Point::origin();
