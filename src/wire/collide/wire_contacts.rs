@@ -123,7 +123,12 @@ impl WireContacts {
                 }
                 Some(side) => touch.follow(world, side, pair, thickness),
             };
-            if !stays {
+            // Its places may have come so close along one wire that they are no contact.
+            let is_bend = || {
+                let pair = touch.pair(world);
+                pair.is_some_and(|pair| thickness.is_bend(world, pair, &touch.sites))
+            };
+            if !stays || !touch.wrong && is_bend() {
                 continue;
             }
             let is_one =

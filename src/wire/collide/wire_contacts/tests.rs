@@ -1,7 +1,8 @@
 //! Wires that lie along each other.
 
+use super::*;
 use crate::query::Point;
-use crate::wire::{Collisions, Material, Settings, StepRecord, Stop, Vector, WirePlan, World};
+use crate::wire::{Collisions, Material, Settings, StepRecord, Stop, WireId, WirePlan};
 
 const RADIUS: f64 = 0.01;
 
@@ -78,4 +79,47 @@ fn bar_slides_over_the_nodes_of_the_wires_it_lies_along() {
         }
     });
     assert!(world.wires()[2].nodes()[1].position.z < 0.0);
+}
+
+/// A wire of 10 mm with nodes at these places.
+fn of_stops(count: u32, at: impl Fn(u32) -> Point) -> World {
+    let mut world = World::new(Settings::default()).unwrap();
+    let route = (0..count).map(|k| Stop::Free(at(k))).collect();
+    world
+        .add_wire(&WirePlan::new(Material::steel(0.005), 1.0, route))
+        .unwrap();
+    world
+}
+
+#[test]
+fn contact_of_a_wire_with_itself_ends_where_its_places_come_close_along_it() {
+    // A hairpin 9 mm wide of a wire of 10 mm, and the same wire straight.
+    let hairpin = of_stops(122, |k| match k < 61 {
+        true => Point::new(0.0, 0.0, 0.005 * f64::from(k)),
+        false => Point::new(0.009, 0.0, 0.005 * f64::from(121 - k)),
+    });
+    let straight = of_stops(122, |k| Point::new(0.0, 0.0, 0.005 * f64::from(k)));
+    let wire = WireId(0);
+    let length = hairpin.wires()[0].length();
+    let mut contacts = WireContacts::default();
+    let sites = [0.1, length - 0.1].map(|arc| WireSite { wire, arc });
+    let touch = contacts.make(sites, Vector::x());
+    contacts.add(&hairpin, Thickness::default(), [touch]);
+    contacts.refresh(&hairpin, Thickness::default());
+    let [touch] = &contacts.list[..] else {
+        panic!("one contact");
+    };
+    assert!((touch.gap + 1e-3).abs() < 1e-12, "{}", touch.gap);
+    let near = [0.3, 0.315].map(|arc| WireSite { wire, arc });
+    for wrong in [false, true] {
+        let mut contacts = WireContacts::default();
+        let touch = WireContact {
+            wrong,
+            ..contacts.make(near, Vector::x())
+        };
+        contacts.list.push(touch);
+        contacts.refresh(&straight, Thickness::default());
+        // What has passed through comes back.
+        assert_eq!(contacts.list.len(), usize::from(wrong));
+    }
 }
