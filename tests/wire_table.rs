@@ -40,6 +40,7 @@ cases! {
     capstan_holds_the_ratio_of_tensions: "capstan",
     load_is_drawn_over_a_drum_by_its_weight_times_the_bound: "load drawn over a drum",
     loads_over_a_drum_fall_as_on_atwoods_machine: "Atwood's machine",
+    block_that_turns_carries_the_same_in_both_legs: "block that turns",
     winch_moves_a_load_by_what_it_lets_out: "winch",
     pendulum_that_is_hauled_in_keeps_energy_over_frequency: "pendulum that is hauled in",
     incline_holds_up_to_the_coefficient_of_friction: "incline",

@@ -8,8 +8,8 @@ use nalgebra::UnitQuaternion;
 use super::{Case, Comparison, weightless};
 use tunnelproof::query::Point;
 use tunnelproof::wire::{
-    BodyPlan, Drive, Material, NodeKind, Phase, Settings, Shape, Stop, Vector, Wire, WirePlan,
-    World,
+    BodyPlan, Collisions, Drive, Material, NodeKind, Phase, ReelPhase, RopePlan, Settings, Shape,
+    Stop, Vector, Wire, WirePlan, World,
 };
 
 type Outcome = Result<Vec<Comparison>, Box<dyn Error>>;
@@ -220,4 +220,96 @@ fn atwood() -> Outcome {
     let pairs = what.into_iter().zip([expected, -expected]).zip(speeds);
     let rows = pairs.map(|((what, expected), speed)| Comparison::new(what, expected, speed, 0.005));
     Ok(rows.collect())
+}
+
+pub(super) const BLOCK: Case = Case {
+    name: "block that turns",
+    formula: "both legs carry m g / 2, whatever the friction; the reel does m g z",
+    run: block,
+};
+
+/// A block of 20 kg with a load of 200 kg on its axis hangs in a rope over contact nodes, and rolls up it as one leg is hauled
+/// in.
+fn block() -> Outcome {
+    const REACH: f64 = 0.108;
+    let shape = Shape::Cylinder {
+        radius: 0.1,
+        half_height: 0.1,
+    };
+    let axis = UnitQuaternion::rotation_between(&Vector::z(), &Vector::y());
+    let axis = axis.ok_or("z and y are not opposite")?;
+    let rope = Material::rope(RopePlan {
+        radius: 0.008,
+        mass_per_length: 0.3,
+        stretch_stiffness: 1e6,
+        bend_stiffness: 0.0,
+        twist_stiffness: 0.0,
+    })?;
+    let mut rows = Vec::new();
+    for rate in [30.0, 60.0, 240.0] {
+        let mut world = World::new(Settings::default().with_step(1.0 / rate))?;
+        let mut plan = BodyPlan::dynamic(shape.clone(), 1000.0 / PI * 10.0, Point::origin());
+        plan.orientation = axis;
+        let body = world.add_body(plan)?;
+        let half = Vector::from_element(0.2);
+        let load = BodyPlan::dynamic(Shape::Box { half }, 3125.0, Point::new(0.0, 0.0, -1.2));
+        let load = world.add_body(load)?;
+        let to_block = axis.inverse();
+        let node = |k: u32| {
+            let normal = to_block * direction(PI * (1.0 + f64::from(k) / 6.0));
+            Stop::Contact {
+                body,
+                local: normal * REACH,
+                normal,
+                friction: FRICTION,
+            }
+        };
+        let top = |x: f64| Stop::Pinned(Point::new(x, 0.0, 10.0));
+        let mut route = vec![top(-REACH)];
+        route.extend((0..7).map(node));
+        route.push(top(REACH));
+        let speeds = [(0.5, -0.25), (1.0, -0.5), (3.0, -0.25), (3.5, 0.0)];
+        let phases = speeds.map(|(from, speed)| ReelPhase { from, speed });
+        world.add_wire(
+            &WirePlan::new(rope, 0.25, route)
+                .adaptive()
+                .reeled(phases.to_vec()),
+        )?;
+        for side in [-1.0, 1.0] {
+            let eye = |body, local| Stop::Eye { body, local };
+            let route = vec![
+                eye(body, Vector::z() * (0.12 * side)),
+                eye(load, Vector::new(0.0, 0.12 * side, 0.2)),
+            ];
+            world.add_wire(&WirePlan::new(rope, 1.0, route))?;
+        }
+        let mut collisions = Collisions::default().with_friction(FRICTION)?;
+        let (mut legs, mut work) = ([0.0; 2], 0.0);
+        let start = world.energy().potential;
+        while world.time() < 4.0 {
+            let record = world.step_colliding(&mut collisions, &[])?;
+            work += record.work;
+            if world.time() > 1.5 && world.time() < 3.0 {
+                let tensions = &record.wires[0].tensions;
+                // Beside what holds each leg.
+                legs[0] += tensions[0];
+                legs[1] += tensions[tensions.len() - 1];
+            }
+        }
+        let what = |what: &str| format!("h = 1/{rate:.0} s: {what}");
+        let lifted = world.energy().potential - start;
+        rows.push(Comparison::new(
+            what("one leg over the other"),
+            1.0,
+            legs[0] / legs[1],
+            0.03,
+        ));
+        rows.push(Comparison::new(
+            what("work of the reel, J"),
+            lifted,
+            work,
+            0.03,
+        ));
+    }
+    Ok(rows)
 }

@@ -65,7 +65,7 @@ impl Comparison {
 }
 
 /// All cases.
-pub(crate) const CASES: [Case; 31] = [
+pub(crate) const CASES: [Case; 32] = [
     motion::FREE_FALL,
     statics::STRETCH,
     motion::PENDULUM,
@@ -78,6 +78,7 @@ pub(crate) const CASES: [Case; 31] = [
     drum::CAPSTAN,
     drum::HOIST,
     drum::ATWOOD,
+    drum::BLOCK,
     winch::WINCH,
     winch::HAULED_PENDULUM,
     contact::INCLINE,

@@ -28,7 +28,10 @@
 //! too, nothing would be damped, but a chain that whirls faster than a step can follow gains energy.
 //!
 //! A node on a body counts with the mass that the body has there, at least: what its mobility at the
-//! place leaves, shared by all nodes on it. A node whose motion is prescribed needs nothing.
+//! place leaves, shared by all nodes on it. A node whose motion is prescribed needs nothing. Nor does a
+//! segment between two places of one body: it turns with the body, on which it pulls along one line,
+//! so that there is nothing to push back. (With it, a block over which a rope is hauled turned
+//! against a torque that grew with the step, and the rope slid over it instead.)
 //!
 //! `W` grows with the square of `K`, and so does what it adds to a mode far beyond what a step can
 //! follow: that comes to rest by the part `32 s^4 / A` in a step, which is slow. Segments for which `h^2
@@ -214,10 +217,12 @@ struct Short {
 }
 
 impl Short {
-    /// None if the segment is long enough, or has no direction.
+    /// None if the segment is long enough, or has no direction, or is between two places of one body.
     fn new(world: &World, wire: &Wire, segment: usize, tension: f64) -> Option<Short> {
         let (t, length) = unit(&wire.span(segment));
-        if length <= 0.0 {
+        let bodies = [segment, segment + 1].map(|node| wire.nodes[node].kind.carrier());
+        let is_on_one = matches!(bodies, [Some((one, _)), Some((other, _))] if one == other);
+        if length <= 0.0 || is_on_one {
             return None;
         }
         let reach = world.settings.step / world.settings.stability_margin;
