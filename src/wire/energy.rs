@@ -66,6 +66,12 @@ impl World {
         energy + self.wires.iter().map(sliding).sum::<f64>()
     }
 
+    /// The mass in kg of bodies that forces move.
+    pub(in crate::wire) fn mass_of_bodies(&self) -> f64 {
+        let bodies = self.bodies.iter().filter(|body| body.dynamic);
+        bodies.map(|body| body.mass).sum()
+    }
+
     pub(in crate::wire) fn potential_energy(&self) -> f64 {
         let gravity = &self.settings.gravity;
         let bodies = self.bodies.iter().filter(|body| body.dynamic);

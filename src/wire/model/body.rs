@@ -2,7 +2,9 @@
 
 use nalgebra::{Matrix3, UnitQuaternion};
 
-use super::check::{finite, finite_point, finite_vector, positive, positive_definite, unit, zero};
+use super::check::{
+    finite, finite_point, finite_vector, positive, positive_definite, speed, unit, zero,
+};
 use super::phases::{out_of_order, phase_at};
 use super::shape::PLANE_IS_MASSLESS;
 use super::{ModelError, Shape};
@@ -109,6 +111,8 @@ impl BodyPlan {
                 velocity,
                 angular_velocity,
             } => {
+                speed("velocity", &velocity)?;
+                speed("angular_velocity", &angular_velocity)?;
                 let properties = body.shape.mass_properties(density)?;
                 body.dynamic = true;
                 (body.mass, body.inertia) = (properties.mass, properties.inertia);
@@ -123,8 +127,8 @@ impl BodyPlan {
 fn check_phases(phases: &[Phase]) -> Result<(), ModelError> {
     for phase in phases {
         finite("from", phase.from)?;
-        finite_vector("velocity", &phase.velocity)?;
-        finite_vector("angular_velocity", &phase.angular_velocity)?;
+        speed("velocity", &phase.velocity)?;
+        speed("angular_velocity", &phase.angular_velocity)?;
     }
     match out_of_order(phases, |phase| phase.from) {
         Some(phase) => Err(ModelError::PhaseOrder { phase }),

@@ -33,6 +33,18 @@ pub(crate) fn finite_vector(field: &'static str, vector: &Vector) -> Result<(), 
     vector.iter().try_for_each(|&value| finite(field, value))
 }
 
+/// The speed of light in m/s: beyond any speed that is meant, and far below what squares overflow at.
+const LARGEST_SPEED: f64 = 299_792_458.0;
+
+/// A velocity in m/s, or an angular one in rad/s.
+pub(crate) fn speed(field: &'static str, vector: &Vector) -> Result<(), ModelError> {
+    finite_vector(field, vector)?;
+    let accepted = "from -299792458 to 299792458";
+    vector
+        .iter()
+        .try_for_each(|&value| accept(value.abs() <= LARGEST_SPEED, field, value, accepted))
+}
+
 pub(crate) fn finite_point(field: &'static str, point: &Point) -> Result<(), ModelError> {
     finite_vector(field, &point.coords)
 }

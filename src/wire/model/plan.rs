@@ -1,6 +1,6 @@
 //! Wires to be added to a world.
 
-use super::check::{direction, finite_point, finite_vector, not_negative, positive};
+use super::check::{direction, finite_point, finite_vector, not_negative, positive, speed};
 use super::wire::{Clamp, Segment};
 use super::{BodyId, Material, ModelError, Node, NodeKind, ReelPhase, Resolution, Wire};
 use crate::query::Point;
@@ -97,7 +97,7 @@ impl WirePlan {
     }
 
     pub(in crate::wire) fn build(&self, bodies: &[Body]) -> Result<Wire, ModelError> {
-        finite_vector("velocity", &self.velocity)?;
+        speed("velocity", &self.velocity)?;
         let stops = self
             .route
             .iter()

@@ -32,7 +32,16 @@
 //! thought, its tension pulls it back with `h T / (|s| + |s+|) P w`, in its *geometric stiffness* (`P`
 //! takes the part across). It is there for the difference alone, so that nothing is damped by it at the end. A solution
 //! is accepted if the [energy](Followed::error) of what its lengths are off by is less than before; else half
-//! of the way to it is tried. After [`ROUNDS`], or when the budget is spent, the best stands.
+//! of the way to it is tried. After [`ROUNDS`], or when the budget is spent, the best stands. Tensions that
+//! grow change what keeps short segments stable, and with it the solution that directions start from: where
+//! the search finds no end, and bodies would pay for it, it starts once more from the solution with these tensions
+//! alone, and the better one stands.
+//!
+//! What lengths may be off by depends on what hangs there. What a wire is off by as a whole it pays back by moving the
+//! bodies of its island that far, in a step or so, unless it is too soft for that. A hundredth of the length of a cable may
+//! so give a load that spins on it as much energy as it has. Where that is more than [`LARGE`] of the kinetic energy of
+//! the island, directions and arms are held to [`FINE`] of what is allowed else. A wire that carries nothing pays nothing
+//! back, as its nodes are far too light for what a step resolves.
 //!
 //! Bodies whose motion is prescribed are followed like others. What contacts of a wire push on is linear about the start as
 //! well: a [body](Held) that is pushed so is not followed, and a segment only if it is off by far more. A solution in
@@ -62,6 +71,12 @@ const OFF: f64 = 2e-2;
 
 /// How fast it may get there, in m/s: a heavy load on a long segment would come back as fast.
 const SPEED: f64 = 0.5;
+
+/// What lengths may be off by without a closer look, in the energy that is paid back, as a part of the kinetic energy.
+const LARGE: f64 = 1e-3;
+
+/// What a closer look allows, as a part of what is allowed else.
+const FINE: f64 = 0.05;
 
 /// How many times as much that is for a segment that contacts push on.
 const PUSHED: f64 = 3.0;
@@ -151,6 +166,8 @@ pub(super) struct Followed {
     pub(super) next: Linearisation,
     /// What the lengths of segments that rows do not know of would be in elastic energy, in J.
     pub(super) error: f64,
+    /// Whether bodies would be given much of their energy by what lengths are off by.
+    pub(super) is_large: bool,
     /// Whether there is a reason to solve again.
     pub(super) is_off: bool,
     /// Whether that is other directions or arms.
@@ -220,6 +237,18 @@ impl Linearisation {
         !bodies.any(|((body, turn), is_held)| !body.dynamic && turn.is_some() && *is_held)
     }
 
+    /// The same with the tensions of another one; none if it has these.
+    pub(super) fn with_tensions_of(&self, other: &Self) -> Option<Self> {
+        let mut next = self.clone();
+        let mut differ = false;
+        let others = other.segments.iter().flatten();
+        for (own, other) in next.segments.iter_mut().flatten().zip(others) {
+            differ |= own.tension != other.tension;
+            own.tension = other.tension;
+        }
+        differ.then_some(next)
+    }
+
     /// A part of the way to another one.
     pub(super) fn towards(&self, other: &Self, part: f64) -> Self {
         if part == 1.0 {
@@ -268,16 +297,21 @@ impl Linearisation {
         let mut followed = Followed {
             next: self.clone(),
             error: 0.0,
+            is_large: false,
             is_off: false,
             has_other_directions: false,
             suits: self.suits(world, held),
         };
-        let mut is_turned = vec![false; turns.len()];
+        // How far what is carried by each body is aside, in parts of what is allowed.
+        let mut turned = vec![0.0_f64; turns.len()];
         // Where segments go that may have to be followed.
         let mut paths = Vec::new();
         let mut rows = system.rows.iter();
+        let mass = world.mass_of_bodies();
+        let mut paid = 0.0;
         for (at, wire) in world.wires.iter().enumerate() {
             let push = wire.largest_push(step);
+            let mut off_by = 0.0;
             for (segment, row) in (0..wire.segments.len()).zip(rows.by_ref()) {
                 let own = &self.segments[at][segment];
                 let tension = row.impulse(x) / step;
@@ -291,7 +325,7 @@ impl Linearisation {
                 let allowed = f64::min(OFF * rest, SPEED * step);
                 let asides = [segment, segment + 1].map(|node| aside(&wire.nodes[node]));
                 for (body, aside) in asides.iter().flatten() {
-                    is_turned[body.0] |= aside.norm() > allowed;
+                    turned[body.0] = turned[body.0].max(aside.norm() / allowed);
                 }
                 let is_held = held.segments[at][segment];
                 let allowed = if is_held { PUSHED * allowed } else { allowed };
@@ -304,13 +338,14 @@ impl Linearisation {
                 };
                 let stiffness = wire.material.stretch_stiffness() / rest;
                 followed.error += stiffness * off * off / 2.0;
+                off_by += off;
                 let on = if is_held {
                     [None; 2]
                 } else {
                     carriers(wire, segment)
                 };
-                let is_off = off > allowed;
-                if !is_off && on == [None; 2] {
+                let off = off / allowed;
+                if off <= FINE && on == [None; 2] {
                     continue;
                 }
                 let along = mean_direction(&span, &end);
@@ -323,17 +358,23 @@ impl Linearisation {
                         way,
                     }),
                 };
-                paths.push((at, segment, on, is_off, next));
+                paths.push((at, segment, on, off, next));
             }
+            let stiffness = wire.material.stretch_stiffness() / wire.length();
+            let moved = mass / (step * step);
+            paid += f64::min(stiffness, moved) * off_by * off_by / 2.0;
         }
-        for (wire, segment, on, is_off, next) in paths {
-            if is_off || on.into_iter().flatten().any(|body| is_turned[body.0]) {
+        followed.is_large = paid > LARGE * world.kinetic_energy();
+        let allowed = if followed.is_large { FINE } else { 1.0 };
+        for (wire, segment, on, off, next) in paths {
+            let mut bodies = on.into_iter().flatten();
+            if off > allowed || bodies.any(|body| turned[body.0] > allowed) {
                 followed.next.segments[wire][segment] = next;
                 followed.has_other_directions = true;
             }
         }
         let bodies = followed.next.turns.iter_mut().zip(&turns);
-        for ((next, turn), _) in bodies.zip(is_turned).filter(|(_, is_turned)| *is_turned) {
+        for ((next, turn), _) in bodies.zip(turned).filter(|(_, turned)| *turned > allowed) {
             *next = turn.map(|(_, mean)| mean);
             followed.has_other_directions = true;
         }

@@ -45,12 +45,40 @@ struct Attempt {
 }
 
 impl Attempt {
-    /// [Follows](super::linearisation) a solution while that makes it better, given what solves about another
-    /// linearisation.
+    /// [Follows](super::linearisation) a solution, given what solves about another linearisation. Where that comes to no
+    /// end, it is tried once more from the solution with the tensions that are due.
     fn follow(
         self,
         budget: &mut Budget,
         mut solve: impl FnMut(Linearisation, &Start, &mut Budget) -> Result<Attempt, Reason>,
+    ) -> Attempt {
+        let stiffer = self.linearisation.with_tensions_of(&self.followed.next);
+        let mut best = self.improved(budget, &mut solve);
+        let is_open = best.followed.is_off && best.followed.is_large;
+        let Some(stiffer) = stiffer.filter(|_| is_open && !best.is_far() && !budget.is_spent())
+        else {
+            return best;
+        };
+        let mut share = budget.part(SOLVE);
+        let other = solve(stiffer, &best.end(), &mut share);
+        budget.take_back(share);
+        let Ok(other) = other else { return best };
+        let mut other = other.improved(budget, &mut solve);
+        let both = [&best, &other].map(|attempt| attempt.candidate.solver.factorisations);
+        let is_better =
+            other.followed.suits && !other.is_far() && other.followed.error < best.followed.error;
+        if is_better {
+            std::mem::swap(&mut best, &mut other);
+        }
+        best.candidate.solver.factorisations = both[0] + both[1];
+        best
+    }
+
+    /// Solves again while that makes it better.
+    fn improved(
+        self,
+        budget: &mut Budget,
+        solve: &mut impl FnMut(Linearisation, &Start, &mut Budget) -> Result<Attempt, Reason>,
     ) -> Attempt {
         let mut best = self;
         let mut part = 1.0;

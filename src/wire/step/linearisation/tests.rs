@@ -2,7 +2,7 @@ use nalgebra::UnitQuaternion;
 
 use super::*;
 use crate::query::Point;
-use crate::wire::model::{BodyPlan, Drive, Material, Phase, Shape, Stop, WirePlan};
+use crate::wire::model::{BodyPlan, Drive, Material, Phase, RopePlan, Shape, Stop, WirePlan};
 use crate::wire::settings::Settings;
 use crate::wire::step::spin::turn as turn_by;
 
@@ -171,5 +171,113 @@ fn length_of_a_segment_on_one_body_does_not_change_as_it_turns() {
         // A chord of the start seems to be 3.5% shorter after it.
         let strain = record.wires[0].tensions[0] / world.wires[0].material.stretch_stiffness();
         assert!(strain.abs() < 1e-5, "{strain:e}");
+    }
+}
+
+/// A body that spins on a steel wire of 10 mm and 2 m, thrown upwards, without contacts between them.
+fn spun(rate: f64, shape: Shape, spin: Vector, local: Vector, chain: bool) -> World {
+    let mut world = World::new(Settings::default().with_step(1.0 / rate)).unwrap();
+    let plan = BodyPlan {
+        drive: Drive::Dynamic {
+            density: 1000.0,
+            velocity: Vector::z() * 2.0,
+            angular_velocity: spin,
+        },
+        ..BodyPlan::dynamic(shape, 1000.0, Point::new(0.0, 0.0, -2.5))
+    };
+    let body = world.add_body(plan).unwrap();
+    let steel = Material::steel(0.005);
+    let material = if chain { steel.chain() } else { steel };
+    let route = vec![Stop::Pinned(Point::origin()), Stop::Eye { body, local }];
+    world
+        .add_wire(&WirePlan::new(material, 0.1, route))
+        .unwrap();
+    world
+}
+
+#[test]
+fn body_that_spins_on_a_stiff_wire_gains_no_energy() {
+    let ball = Shape::Sphere { radius: 0.3 };
+    let half = Vector::from_element(0.5);
+    for rate in [60.0, 120.0, 240.0] {
+        for (shape, spin, local, chain) in [
+            (
+                ball.clone(),
+                Vector::new(6.0, 3.0, 1.0),
+                Vector::zeros(),
+                true,
+            ),
+            (
+                Shape::Box { half },
+                Vector::new(-6.46, -5.27, -6.02),
+                Vector::z() * 0.5,
+                false,
+            ),
+        ] {
+            let mut world = spun(rate, shape, spin, local, chain);
+            let kinetic = world.kinetic_energy();
+            let mut before = world.energy_halfway().total();
+            for _ in 0..(2.0 * rate) as usize {
+                let now = world.step(&[]).unwrap().energy.total();
+                let gain = now - before;
+                assert!(gain < 1e-2 * kinetic, "1/{rate} s: {gain} J of {kinetic} J");
+                before = now;
+            }
+        }
+    }
+}
+
+#[test]
+fn rope_catches_a_load_with_no_more_force_than_without_damping() {
+    // A person of 50 kg falls by 2 m onto 3 m of rope that lies in a slack bend.
+    for (rate, adaptive) in [
+        (30.0, true),
+        (45.0, true),
+        (60.0, true),
+        (60.0, false),
+        (240.0, false),
+    ] {
+        let mut world = World::new(Settings::default().with_step(1.0 / rate)).unwrap();
+        let half = Vector::from_element(0.2);
+        let (mass, stiffness, length) = (50.0, 6e4, 3.0);
+        let load = BodyPlan::dynamic(
+            Shape::Box { half },
+            mass / 0.064,
+            Point::new(0.0, 0.0, -1.2),
+        );
+        let body = world.add_body(load).unwrap();
+        let material = Material::rope(RopePlan {
+            radius: 0.0055,
+            mass_per_length: 0.08,
+            stretch_stiffness: stiffness,
+            bend_stiffness: 0.0,
+            twist_stiffness: 0.0,
+        })
+        .unwrap();
+        let route = vec![
+            Stop::Pinned(Point::origin()),
+            Stop::Free(Point::new(1.0, 0.0, -0.7)),
+            Stop::Eye {
+                body,
+                local: Vector::z() * 0.2,
+            },
+        ];
+        let mut plan = WirePlan::new(material, 0.3, route);
+        plan.length = Some(length);
+        plan.resolution.adaptive = adaptive;
+        world.add_wire(&plan).unwrap();
+        let mut pulled = 0.0f64;
+        for _ in 0..(2.0 * rate) as usize {
+            let record = world.step(&[]).unwrap();
+            let tensions = &record.wires[0].tensions;
+            pulled = tensions.iter().fold(pulled, |a, b| a.max(*b));
+        }
+        // m g (1 + sqrt(1 + 2 k H / m g)) of a spring k and the height H.
+        let weight = mass * 9.80665;
+        let most = weight * (1.0 + (1.0 + 2.0 * stiffness / length * 2.0 / weight).sqrt());
+        assert!(
+            pulled < most && pulled > 0.5 * most,
+            "1/{rate} s, {adaptive}: {pulled} N of {most} N"
+        );
     }
 }
