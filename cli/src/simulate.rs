@@ -22,12 +22,14 @@ use tunnelproof_reference::certify::table::grouped;
 
 mod balance;
 mod behind;
+mod notices;
 mod overlaps;
 mod stopped;
 mod table;
 
 pub use balance::EnergyBalance;
 pub use behind::Behind;
+pub use notices::{HeldSlides, Left, Stretched};
 pub use overlaps::Overlap;
 pub use table::StepTable;
 
@@ -140,6 +142,8 @@ pub struct Summary {
     pub wall_narrow: f64,
     /// What stands in each other at the start of the scene, the deepest first.
     pub overlaps: Vec<Overlap>,
+    /// Wires that are far longer at the start of the scene than they are unstretched.
+    pub stretched: Vec<Stretched>,
     /// Pairs that the broad phase named.
     pub named: usize,
     /// Of these, excluded as too slow.
@@ -172,6 +176,10 @@ pub struct Summary {
     pub held: usize,
     /// Scripted bodies that made less of their way than their script says, in the order of the scene.
     pub behind: Vec<Behind>,
+    /// Wires that lost the last contact node that they had on a body at the start, in order.
+    pub left: Vec<Left>,
+    /// Steps in which sliding went as far as it may.
+    pub held_slides: HeldSlides,
     /// Changes of resolution.
     pub remeshes: usize,
     /// Changes of resolution refused.
@@ -265,6 +273,10 @@ impl Run<'_> {
             energy: EnergyBalance::of(&world),
             ..Summary::default()
         };
+        let mut watch = notices::Watch::of(&world);
+        if world.steps() == 0 {
+            summary.stretched = notices::stretched(&world, self.scene);
+        }
         for _ in 0..self.scene.steps_from(&world) {
             if stop.load(Ordering::Relaxed) {
                 break;
@@ -274,10 +286,11 @@ impl Run<'_> {
             summary.wall += started.elapsed().as_secs_f64();
             match record {
                 Ok(record) => {
-                    if record.step == 0 {
-                        summary.overlaps = overlaps::overlaps(&record, &world, self.scene);
-                    }
+                    overlaps::add(&mut summary.overlaps, &record, &world, self.scene);
                     summary.add(&record);
+                    summary.held_slides.add(&record, &world);
+                    let left = watch.left(&record, &world, self.scene);
+                    summary.left.extend(left);
                     behind::add(&mut summary.behind, &record, &world, self.scene);
                     observe(&world, &collisions, &record)?;
                 }
@@ -481,6 +494,9 @@ impl fmt::Display for Summary {
         for (name, value) in rows {
             writeln!(f, "  {name:<22}{value}")?;
         }
+        for stretched in &self.stretched {
+            writeln!(f, "  {:<22}{stretched}", "stretched at start")?;
+        }
         for overlap in self.overlaps.iter().take(OVERLAPS) {
             writeln!(f, "  {:<22}{overlap}", "overlap at the start")?;
         }
@@ -489,6 +505,12 @@ impl fmt::Display for Summary {
         }
         for behind in &self.behind {
             writeln!(f, "  {:<22}{behind}", "behind its script")?;
+        }
+        for left in &self.left {
+            writeln!(f, "  {:<22}{left}", "off a body")?;
+        }
+        if self.held_slides.steps > 0 {
+            writeln!(f, "  {:<22}{}", "slid", self.held_slides)?;
         }
         match &self.stopped {
             Some(error) => writeln!(f, "  {:<22}{error}", "stopped"),

@@ -23,13 +23,21 @@ pub struct Overlap {
     pub depth: f64,
 }
 
-/// Those of the first step of a scene, the deepest of every two, and the deepest first.
-pub(super) fn overlaps(record: &StepRecord, world: &World, scene: &Scene) -> Vec<Overlap> {
+/// Adds those of a step if it is the first of a scene, or of wires in wires if it is the second, to which their contacts are
+/// known: the deepest of every two, and the deepest first.
+pub(super) fn add(list: &mut Vec<Overlap>, record: &StepRecord, world: &World, scene: &Scene) {
+    if record.step > 1 {
+        return;
+    }
+    let is_of_wires = |sites: &[ContactSite; 2]| {
+        let mut sites = sites.iter();
+        sites.all(|site| matches!(site, ContactSite::Wire { .. }))
+    };
     let mut deepest: Vec<([usize; 2], Overlap)> = Vec::new();
     for contact in &record.contacts {
         let sites = [contact.contact.a, contact.contact.b];
         let depth = -contact.contact.gap;
-        if depth <= allowed(sites, world) {
+        if depth <= allowed(sites, world) || is_of_wires(&sites) != (record.step == 1) {
             continue;
         }
         let mut pair = sites.map(|site| number(site, world));
@@ -42,8 +50,8 @@ pub(super) fn overlaps(record: &StepRecord, world: &World, scene: &Scene) -> Vec
             Some(_) => {}
         }
     }
-    deepest.sort_by(|(_, a), (_, b)| b.depth.total_cmp(&a.depth));
-    deepest.into_iter().map(|(_, overlap)| overlap).collect()
+    list.extend(deepest.into_iter().map(|(_, overlap)| overlap));
+    list.sort_by(|a, b| b.depth.total_cmp(&a.depth));
 }
 
 /// How deep two may stand in each other without a word: a contact holds its load by a little of that.
@@ -109,5 +117,24 @@ mod tests {
         };
         assert!(rope.starts_with("rope at ") && rope.ends_with(" m and box: 6.000 mm"));
         assert!(["box and ball: 3.000 mm", "ball and box: 3.000 mm"].contains(&ball.as_str()));
+    }
+
+    #[test]
+    fn wires_that_stand_in_each_other_at_the_start_are_named() {
+        let text = "title = \"crossed\"\nduration = 0.1\nsettings = { gravity = [0, 0, 0] }\n\
+             [[wires]]\nname = \"one\"\nresolution = 0.5\nmaterial = { radius = 0.01, bend_modulus = 3e8 }\n\
+             route = [{ pinned = [-1, 0, 0] }, { pinned = [1, 0, 0] }]\n\
+             [[wires]]\nname = \"other\"\nresolution = 0.5\nmaterial = { radius = 0.01, bend_modulus = 3e8 }\n\
+             route = [{ pinned = [0.1, -1, HEIGHT] }, { pinned = [0.1, 1, HEIGHT] }]\n";
+        let said = |height: &str| {
+            let scene = Scene::from_toml(&text.replace("HEIGHT", height)).unwrap();
+            Summary::of_guarded(&scene).unwrap().overlaps
+        };
+        assert!(said("0.0199").is_empty());
+        let [overlap] = &said("0.005")[..] else {
+            panic!("one overlap");
+        };
+        assert!((overlap.depth - 0.015).abs() < 1e-3, "{overlap}");
+        assert!(overlap.to_string().contains("other at "), "{overlap}");
     }
 }

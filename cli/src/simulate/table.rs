@@ -29,6 +29,9 @@ const NAMES: [&str; 17] = [
 /// The numbers of a run as comma-separated values: a line of names with their units, then a line for each step.
 pub struct StepTable {
     balance: EnergyBalance,
+    /// Whether the next step goes on from a state, which does not hold the energy that the record of the step before had: its
+    /// gain is left empty.
+    is_continued: bool,
 }
 
 impl StepTable {
@@ -36,6 +39,7 @@ impl StepTable {
     pub fn of(world: &World) -> Self {
         StepTable {
             balance: EnergyBalance::of(world),
+            is_continued: world.steps() > 0,
         }
     }
 
@@ -47,7 +51,9 @@ impl StepTable {
     /// The line of a step.
     pub fn line(&mut self, record: &StepRecord) -> String {
         let (energy, solver, found) = (&record.energy, &record.solver, &record.collisions);
-        let gain = self.balance.add(record);
+        let gain = self.balance.add(record).to_string();
+        let is_known = !std::mem::replace(&mut self.is_continued, false);
+        let gain = if is_known { gain } else { String::new() };
         let values: [String; NAMES.len()] = [
             record.step.to_string(),
             record.time.to_string(),
@@ -55,7 +61,7 @@ impl StepTable {
             energy.potential.to_string(),
             energy.elastic.to_string(),
             record.work.to_string(),
-            gain.to_string(),
+            gain,
             largest_tension(record).to_string(),
             record.contacts.len().to_string(),
             deepest(record).to_string(),

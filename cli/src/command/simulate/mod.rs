@@ -134,6 +134,7 @@ impl Simulate {
             return Ok(ExitCode::SUCCESS);
         }
         let plan = self.plan()?;
+        self.check_outputs()?;
         let json = JsonOutput::create(self.json.as_deref())?;
         let page = self.replay.as_deref().map(OutputFile::create).transpose()?;
         self.saving.check()?;
@@ -189,6 +190,29 @@ impl Simulate {
             true => ExitCode::SUCCESS,
             false => ExitCode::FAILURE,
         })
+    }
+
+    /// Whether every output has a place of its own.
+    fn check_outputs(&self) -> Result<(), Failure> {
+        let save = self.saving.file();
+        let json = self.json.as_deref().filter(|path| *path != Path::new("-"));
+        let outputs = [
+            ("--record", self.record.as_deref()),
+            ("--replay", self.replay.as_deref()),
+            ("--frames", self.frames.as_deref()),
+            ("--vtk", self.vtk.as_deref()),
+            ("--csv", self.csv.as_deref()),
+            ("--save", save),
+            ("--json", json),
+        ];
+        for (at, (option, path)) in outputs.iter().enumerate() {
+            let Some(path) = path else { continue };
+            if let Some((other, _)) = outputs[..at].iter().find(|(_, known)| *known == Some(path)) {
+                let problem = format!("{other} and {option} would both be written there");
+                return Err(Failure::file(path, problem));
+            }
+        }
+        Ok(())
     }
 
     /// The run, and the one beside it.

@@ -41,6 +41,15 @@ impl Simulate {
         let scene = self.scene()?;
         let wrong = |error| self.wrong(error);
         let Some(path) = &self.from else {
+            if scene.steps() == 0 {
+                let (duration, step) = (scene.duration, scene.settings.step);
+                let problem =
+                    format!("the run takes {duration} s and a step {step} s: there is no step");
+                return Err(Failure::file(
+                    self.scene.as_deref().unwrap_or_default(),
+                    problem,
+                ));
+            }
             let start = Start::of(&scene).map_err(wrong)?;
             return Ok(Plan {
                 scene,
@@ -139,7 +148,12 @@ impl Plan {
 fn read(path: &str) -> Result<String, Failure> {
     std::fs::read_to_string(path).map_err(|error| {
         let names = EMBEDDED.map(|(name, _)| name).join(", ");
-        let problem = format!("{error} (and it is none of the scenes {names})");
+        let is_path = path.ends_with(".toml");
+        let of_file = match is_path {
+            true => String::new(),
+            false => format!("; scenes of your own are files, such as {path}.toml"),
+        };
+        let problem = format!("{error} (and it is none of the scenes {names}{of_file})");
         Failure::file(path, problem)
     })
 }

@@ -28,6 +28,11 @@ impl Saving {
         self.save.is_some()
     }
 
+    /// Where the state goes.
+    pub(super) fn file(&self) -> Option<&Path> {
+        self.save.as_deref()
+    }
+
     /// Sees to it that the file can be made.
     pub(super) fn check(&self) -> Result<(), Failure> {
         self.save

@@ -1,0 +1,188 @@
+//! What a run does that its author may not have meant: wires stretched at the start, wires that leave bodies of their
+//! routes, and sliding as far as a step lets it.
+
+use std::collections::BTreeSet;
+use std::fmt;
+
+use serde::Serialize;
+use tunnelproof::wire::{NodeKind, StepRecord, Wire, World};
+use tunnelproof_reference::certify::table::grouped;
+
+use crate::scenes::Scene;
+
+/// The part of its length by which a wire may be stretched at the start without a word.
+const STRETCHED: f64 = 0.05;
+
+/// The part of the limit of sliding from which on the limit held it.
+const HELD: f64 = 0.999;
+
+/// A wire that starts far longer than it is unstretched.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Stretched {
+    /// Its name in the scene.
+    pub wire: String,
+    /// By how much, as a part of its length.
+    pub strain: f64,
+}
+
+/// A wire that has no contact node of its route on a body any more.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Left {
+    /// Its name in the scene.
+    pub wire: String,
+    /// The body's name.
+    pub body: String,
+    /// The time at the end of the step after which there was none, in s.
+    pub time: f64,
+}
+
+/// Steps in which wire slid over a contact node as far as `slide_limit` lets it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct HeldSlides {
+    /// How many.
+    pub steps: u64,
+    /// The time at the end of the first one, in s.
+    pub first_at: Option<f64>,
+}
+
+/// What is watched in a run.
+pub(super) struct Watch {
+    /// By numbers: wires with a contact node on a body.
+    riding: BTreeSet<(usize, usize)>,
+}
+
+impl Watch {
+    pub(super) fn of(world: &World) -> Self {
+        Watch {
+            riding: riding(world),
+        }
+    }
+
+    /// The wires that ride on a body no longer after a step.
+    pub(super) fn left(&mut self, record: &StepRecord, world: &World, scene: &Scene) -> Vec<Left> {
+        let now = riding(world);
+        let left: Vec<(usize, usize)> = self.riding.difference(&now).copied().collect();
+        self.riding = self.riding.intersection(&now).copied().collect();
+        let shown = left.into_iter().map(|(wire, body)| Left {
+            wire: scene.wires[wire].name.clone(),
+            body: scene.bodies[body].name.clone(),
+            time: record.time,
+        });
+        shown.collect()
+    }
+}
+
+fn riding(world: &World) -> BTreeSet<(usize, usize)> {
+    let wires = world.wires().iter().enumerate();
+    wires
+        .flat_map(|(at, wire)| {
+            let nodes = wire.nodes().iter();
+            nodes.filter_map(move |node| match node.kind {
+                NodeKind::Contact { body, .. } => Some((at, body.0)),
+                _ => None,
+            })
+        })
+        .collect()
+}
+
+/// The wires that are stretched where a scene starts.
+pub(super) fn stretched(world: &World, scene: &Scene) -> Vec<Stretched> {
+    let wires = world.wires().iter().zip(&scene.wires);
+    let strained = wires.filter_map(|(wire, plan)| {
+        let strain = strain(wire);
+        (strain > STRETCHED).then(|| Stretched {
+            wire: plan.name.clone(),
+            strain,
+        })
+    });
+    strained.collect()
+}
+
+/// By how much a wire is longer than unstretched, as a part of that.
+fn strain(wire: &Wire) -> f64 {
+    let spans = (0..wire.segments().len()).map(|segment| wire.span(segment).norm());
+    spans.sum::<f64>() / wire.length() - 1.0
+}
+
+impl HeldSlides {
+    pub(super) fn add(&mut self, record: &StepRecord, world: &World) {
+        let limit = HELD * world.settings().slide_limit;
+        let mut slides = record.slides.iter();
+        let is_held = slides.any(|slide| {
+            // A reel lets out at the last node what it is told to.
+            let is_reel = !world.wires()[slide.wire.0].reel().is_empty()
+                && record.slides.iter().all(|other| {
+                    other.wire != slide.wire || other.left || other.node <= slide.node
+                });
+            slide.distance.abs() >= limit && !is_reel
+        });
+        if is_held {
+            self.steps += 1;
+            self.first_at.get_or_insert(record.time);
+        }
+    }
+}
+
+impl fmt::Display for Stretched {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Stretched { wire, strain } = self;
+        write!(f, "{wire} by {:.0}% of its length", 100.0 * strain)
+    }
+}
+
+impl fmt::Display for Left {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Left { wire, body, time } = self;
+        write!(f, "{wire} left {body} at {time:.3} s")
+    }
+}
+
+impl fmt::Display for HeldSlides {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let times = if self.steps == 1 { "step" } else { "steps" };
+        let steps = grouped(self.steps);
+        write!(f, "as far as slide_limit in {steps} {times}")?;
+        match self.first_at {
+            Some(time) => write!(f, ", first at {time:.3} s"),
+            None => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::scenes::Scene;
+    use crate::simulate::Summary;
+
+    /// A bead of 20 kg on a rope between two points, which may be far apart for its length, slides down.
+    fn run(more: &str, settings: &str) -> Summary {
+        let text = format!(
+            "title = \"bead\"\nduration = 2\nfriction = 0\n[settings]\n{settings}\n\
+             [[bodies]]\nname = \"bead\"\nshape = {{ sphere = {{ radius = 0.05 }} }}\nposition = [2, 0, 8.9]\n\
+             drive = {{ dynamic = {{ density = 38000 }} }}\n\
+             [[wires]]\nname = \"rope\"\nresolution = 1\n{more}\
+             material = {{ radius = 0.005, mass_per_length = 0.1, stretch_stiffness = 1e6, bend_stiffness = 0 }}\n\
+             route = [{{ pinned = [0, 0, 10] }}, \
+             {{ contact = {{ body = \"bead\", local = [0, 0, 0.05], normal = [0, 0, -1], friction = 0 }} }}, \
+             {{ pinned = [20, 0, 0] }}]\n"
+        );
+        Summary::of_guarded(&Scene::from_toml(&text).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn wires_that_start_far_longer_than_they_are_and_slides_that_are_held_are_named() {
+        let usual = run("", "step = 0.01");
+        assert!(usual.stretched.is_empty() && usual.left.is_empty());
+        assert_eq!(usual.held_slides.steps, 0, "{}", usual.held_slides);
+        let held = run("", "step = 0.01\nslide_limit = 0.01");
+        assert!(held.held_slides.steps > 10);
+        let said = held.held_slides.to_string();
+        assert!(said.starts_with("as far as slide_limit in "), "{said}");
+        assert!(held.to_string().contains("slid"), "{held}");
+        let stretched = run("length = 15\n", "step = 0.01").stretched;
+        let [rope] = &stretched[..] else {
+            panic!("one wire")
+        };
+        assert_eq!(rope.to_string(), "rope by 49% of its length");
+    }
+}
