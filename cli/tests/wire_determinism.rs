@@ -77,7 +77,7 @@ fn steps_with_bodies_give_the_same_bits_in_every_build() {
     // Nothing fell through the plane.
     let heights = world.bodies()[1..].iter().map(|body| body.position().z);
     assert!(heights.fold(f64::INFINITY, f64::min) > 0.0);
-    assert_eq!(hash(&world), 0xfdb1_228b_4918_6e4c, "{:#x}", hash(&world));
+    assert_eq!(hash(&world), 0x26dd_711a_860f_64ab, "{:#x}", hash(&world));
 }
 
 #[test]
@@ -153,8 +153,8 @@ fn other_scenes_of_the_thesis_give_the_same_bits_in_every_build() {
     // So many steps reach contacts in each.
     for (name, steps, expected) in [
         ("pulling-anchor", 600, 0x078e_dac1_df43_8c95),
-        ("twisting-under-load", 60, 0x11b7_6cba_94a0_d618),
-        ("chains-on-deck", 60, 0xa853_fea5_a807_495f),
+        ("twisting-under-load", 60, 0x59fd_ae5c_b016_297c),
+        ("chains-on-deck", 60, 0x3265_c5fa_89bf_69b3),
     ] {
         let scene = Scene::embedded(name).unwrap();
         let mut world = scene.world().unwrap();

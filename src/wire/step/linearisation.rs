@@ -41,7 +41,8 @@
 //! bodies of its island that far, in a step or so, unless it is too soft for that. A hundredth of the length of a cable may
 //! so give a load that spins on it as much energy as it has. Where that is more than [`LARGE`] of the kinetic energy of
 //! the island, directions and arms are held to [`FINE`] of what is allowed else. A wire that carries nothing pays nothing
-//! back, as its nodes are far too light for what a step resolves.
+//! back, as its nodes are far too light for what a step resolves. Where contacts push on wires that is not
+//! done: they are linear about the start.
 //!
 //! Bodies whose motion is prescribed are followed like others. What contacts of a wire push on is linear about the start as
 //! well: a [body](Held) that is pushed so is not followed, and a segment only if it is off by far more. A solution in
@@ -364,7 +365,8 @@ impl Linearisation {
             let moved = mass / (step * step);
             paid += f64::min(stiffness, moved) * off_by * off_by / 2.0;
         }
-        followed.is_large = paid > LARGE * world.kinetic_energy();
+        let is_pushed = held.segments.iter().flatten().any(|is_held| *is_held);
+        followed.is_large = !is_pushed && paid > LARGE * world.kinetic_energy();
         let allowed = if followed.is_large { FINE } else { 1.0 };
         for (wire, segment, on, off, next) in paths {
             let mut bodies = on.into_iter().flatten();
