@@ -302,7 +302,7 @@ fn block() -> Outcome {
             what("one leg over the other"),
             1.0,
             legs[0] / legs[1],
-            0.03,
+            0.01,
         ));
         rows.push(Comparison::new(
             what("work of the reel, J"),
