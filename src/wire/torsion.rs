@@ -100,7 +100,7 @@ impl Torsion {
 fn swept(from: [Vector; 2], to: [Vector; 2], halvings: u32) -> f64 {
     let directions = [from[0], from[1], to[1], to[0]].map(|span| unit(&span).0);
     let [a, b, c, d] = directions;
-    if halvings > 0 && (d - a).norm().max((c - b).norm()) > LEAST_HALVED {
+    if halvings > 0 && (d - a).norm().max((c - b).norm()) > FAR {
         let halfway = [0, 1].map(|i| (from[i] + to[i]) / 2.0);
         return swept(from, halfway, halvings - 1) + swept(halfway, to, halvings - 1);
     }
@@ -115,9 +115,8 @@ fn triangle(a: &Vector, b: &Vector, c: &Vector) -> f64 {
     2.0 * libm::atan2(a.dot(&b.cross(c)), above)
 }
 
-/// How far a direction goes at most in a part of a motion of which the area is taken at once: the length
-/// of the chord.
-const LEAST_HALVED: f64 = 0.25;
+/// Motions in which a direction goes farther are halved: the length of the chord.
+const FAR: f64 = 0.25;
 
 /// How often a motion is halved at most.
 const MOST_HALVINGS: u32 = 10;

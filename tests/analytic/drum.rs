@@ -8,8 +8,8 @@ use nalgebra::UnitQuaternion;
 use super::{Case, Comparison, weightless};
 use tunnelproof::query::Point;
 use tunnelproof::wire::{
-    BodyPlan, Collisions, Drive, Material, NodeKind, Phase, ReelPhase, RopePlan, Settings, Shape,
-    Stop, Vector, Wire, WirePlan, World,
+    Body, BodyId, BodyPlan, Collisions, Drive, Material, NodeKind, Phase, ReelPhase, RopePlan,
+    Settings, Shape, Stop, Vector, Wire, WirePlan, World,
 };
 
 type Outcome = Result<Vec<Comparison>, Box<dyn Error>>;
@@ -32,17 +32,20 @@ fn drum(world: &mut World, friction: f64, angles: &[f64]) -> Result<Vec<Stop>, B
     let mut plan = BodyPlan::fixed(shape, Point::origin());
     plan.orientation = axis.ok_or("z and y are not opposite")?;
     let body = world.add_body(plan)?;
-    let to_drum = world.body(body)?.orientation().inverse();
-    let node = |&angle: &f64| {
-        let normal = to_drum * direction(angle);
-        Stop::Contact {
-            body,
-            local: normal * RADIUS,
-            normal,
-            friction,
-        }
-    };
+    let drum = world.body(body)?;
+    let node = |&angle: &f64| contact_node(body, drum, RADIUS, angle, friction);
     Ok(angles.iter().map(node).collect())
+}
+
+/// A contact node on a drum along y, so far from its axis.
+fn contact_node(id: BodyId, drum: &Body, reach: f64, angle: f64, friction: f64) -> Stop {
+    let normal = drum.orientation().inverse() * direction(angle);
+    Stop::Contact {
+        body: id,
+        local: normal * reach,
+        normal,
+        friction,
+    }
 }
 
 /// An eye on a small ball that is drawn at velocities, each from a time on.
@@ -254,15 +257,10 @@ fn block() -> Outcome {
         let half = Vector::from_element(0.2);
         let load = BodyPlan::dynamic(Shape::Box { half }, 3125.0, Point::new(0.0, 0.0, -1.2));
         let load = world.add_body(load)?;
-        let to_block = axis.inverse();
+        let on = world.body(body)?;
         let node = |k: u32| {
-            let normal = to_block * direction(PI * (1.0 + f64::from(k) / 6.0));
-            Stop::Contact {
-                body,
-                local: normal * REACH,
-                normal,
-                friction: FRICTION,
-            }
+            let angle = PI * (1.0 + f64::from(k) / 6.0);
+            contact_node(body, on, REACH, angle, FRICTION)
         };
         let top = |x: f64| Stop::Pinned(Point::new(x, 0.0, 10.0));
         let mut route = vec![top(-REACH)];

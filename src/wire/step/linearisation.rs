@@ -240,14 +240,16 @@ impl Linearisation {
 
     /// The same with the tensions of another one; none if it has these.
     pub(super) fn with_tensions_of(&self, other: &Self) -> Option<Self> {
-        let mut next = self.clone();
-        let mut differ = false;
-        let others = other.segments.iter().flatten();
-        for (own, other) in next.segments.iter_mut().flatten().zip(others) {
-            differ |= own.tension != other.tension;
-            own.tension = other.tension;
-        }
-        differ.then_some(next)
+        let others = || other.segments.iter().flatten();
+        let mut both = self.segments.iter().flatten().zip(others());
+        both.any(|(own, other)| own.tension != other.tension)
+            .then(|| {
+                let mut next = self.clone();
+                for (own, other) in next.segments.iter_mut().flatten().zip(others()) {
+                    own.tension = other.tension;
+                }
+                next
+            })
     }
 
     /// A part of the way to another one.

@@ -52,6 +52,9 @@ impl Attempt {
         budget: &mut Budget,
         mut solve: impl FnMut(Linearisation, &Start, &mut Budget) -> Result<Attempt, Reason>,
     ) -> Attempt {
+        if !self.followed.is_off {
+            return self;
+        }
         let stiffer = self.linearisation.with_tensions_of(&self.followed.next);
         let mut best = self.improved(budget, &mut solve);
         let is_open = best.followed.is_off && best.followed.is_large;

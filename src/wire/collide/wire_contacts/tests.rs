@@ -1,4 +1,4 @@
-//! Wires that lie along each other.
+//! Wires that lie along each other, or beside themselves.
 
 use super::*;
 use crate::query::Point;
