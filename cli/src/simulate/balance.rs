@@ -59,6 +59,7 @@ impl fmt::Display for EnergyBalance {
 pub(super) fn joules(energy: f64) -> String {
     let digits = match energy.abs() {
         0.0 => 0,
+        1e15.. => return format!("{energy:.3e} J"),
         1000.0.. => 0,
         100.0.. => 1,
         10.0.. => 2,

@@ -96,7 +96,7 @@ impl fmt::Display for ModelError {
                 field,
                 value,
                 accepted,
-            } => write!(f, "{field} is {value}, it must be {accepted}"),
+            } => write!(f, "{field} is {}, it must be {accepted}", Short(*value)),
             ModelError::Body { index, count } => {
                 write!(
                     f,
@@ -162,3 +162,16 @@ impl fmt::Display for ModelError {
 }
 
 impl std::error::Error for ModelError {}
+
+/// A number with its exponent where that is shorter, so that `1e308` is not 309 digits.
+struct Short(f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(value) = self;
+        match value.abs() {
+            1e-5..1e16 | 0.0 => write!(f, "{value}"),
+            _ => write!(f, "{value:e}"),
+        }
+    }
+}

@@ -222,6 +222,10 @@ mod tests {
                 "mass_per_length is -1, it must be finite and above 0",
             ),
             (
+                refusal(|p| p.mass_per_length = -1e300),
+                "mass_per_length is -1e300, it must be finite and above 0",
+            ),
+            (
                 refusal(|p| p.stretch_stiffness = 0.0),
                 "stretch_stiffness is 0, it must be finite and above 0",
             ),
