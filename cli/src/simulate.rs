@@ -276,6 +276,7 @@ impl Run<'_> {
         let mut watch = notices::Watch::of(&world);
         if world.steps() == 0 {
             summary.stretched = notices::stretched(&world, self.scene);
+            overlaps::add_wires(&mut summary.overlaps, &world, self.scene);
         }
         for _ in 0..self.scene.steps_from(&world) {
             if stop.load(Ordering::Relaxed) {

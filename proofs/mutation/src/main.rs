@@ -61,8 +61,8 @@ struct Options {
     /// Tests that take longer than this get only mutants that no other test kills
     #[arg(long, value_name = "S", default_value = "8", value_parser = seconds)]
     longest: Duration,
-    /// For how long each of these is run on a mutant that gives the same exact answers; 0 runs none of them on any mutant, so
-    /// that `wrong` says only that no quick test notices
+    /// For how long each of these is run on a mutant that gives the same exact answers; with 0 only mutants that give others get
+    /// them
     #[arg(long, value_name = "S", default_value = "5", value_parser = seconds)]
     patience: Duration,
     /// How many queries of each family a mutant is asked that no quick test kills, and a fifth of that of bodies that turn:
@@ -432,10 +432,10 @@ impl Judge<'_> {
             Some(said) if said.exact == self.usual.exact => Verdict::Places,
             _ => Verdict::Wrong,
         };
-        if self.patience.is_zero() {
+        let most = (verdict != Verdict::Wrong).then_some(self.patience);
+        if most.is_some_and(|most| most.is_zero()) {
             return Ok(outcome((verdict, None)));
         }
-        let most = (verdict != Verdict::Wrong).then_some(self.patience);
         let killed = self.test(mutant, |test| test.is_long, most)?;
         Ok(outcome(killed.unwrap_or((verdict, None))))
     }
