@@ -60,4 +60,5 @@ cases! {
     turn_of_an_end_gives_its_torque: "prescribed turn",
     twisted_rod_buckles_as_greenhill_found: "twisted rod",
     twisted_ring_leaves_its_plane_as_michell_found: "twisted ring",
+    knot_is_pulled_by_the_force_that_audoly_and_others_found: "overhand knot",
 }

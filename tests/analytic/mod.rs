@@ -8,6 +8,7 @@ mod contact;
 mod drum;
 pub(crate) mod elastica;
 pub(crate) mod falling;
+mod knot;
 mod motion;
 mod statics;
 mod swing;
@@ -65,7 +66,7 @@ impl Comparison {
 }
 
 /// All cases.
-pub(crate) const CASES: [Case; 32] = [
+pub(crate) const CASES: [Case; 33] = [
     motion::FREE_FALL,
     statics::STRETCH,
     motion::PENDULUM,
@@ -98,6 +99,7 @@ pub(crate) const CASES: [Case; 32] = [
     torsion::TORQUE,
     torsion::GREENHILL,
     torsion::MICHELL,
+    knot::OVERHAND,
 ];
 
 /// What contacts a world has at present.
