@@ -308,11 +308,31 @@ impl Coordinate for f64 {}
 impl Coordinate for f32 {}
 
 mod sealed {
-    pub trait Sealed {}
+    pub trait Sealed {
+        /// Whether it is `f32`.
+        const IS_SINGLE: bool;
 
-    impl Sealed for f64 {}
+        /// The number in `f32`: itself, if it is one.
+        fn single(self) -> f32;
+    }
 
-    impl Sealed for f32 {}
+    impl Sealed for f64 {
+        const IS_SINGLE: bool = false;
+
+        #[inline(always)]
+        fn single(self) -> f32 {
+            self as f32
+        }
+    }
+
+    impl Sealed for f32 {
+        const IS_SINGLE: bool = true;
+
+        #[inline(always)]
+        fn single(self) -> f32 {
+            self
+        }
+    }
 }
 
 /// The first coordinate that is not a finite number: of which position, on which axis, and what it

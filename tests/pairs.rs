@@ -350,3 +350,42 @@ fn parts_of_pairs_are_decided_as_in_the_whole() {
         assert!(pairs.part(100..100).is_some_and(|part| part.is_empty()));
     }
 }
+
+/// Stages in `f32` leave open what they cannot prove: sides apart by less than the rounding of
+/// `f32`, numbers near its largest and its least, and zeros of both signs.
+#[test]
+fn pairs_in_f32_at_its_borders_are_decided_as_the_same_numbers_in_f64() {
+    let random = &mut ChaCha8Rng::seed_from_u64(2027);
+    let mut hits = 0;
+    for scale in [
+        f32::from_bits(1),
+        1e-44,
+        f32::MIN_POSITIVE,
+        1e-20,
+        1e-16,
+        1.0,
+        1e16,
+        1e22,
+        2.9e37,
+    ] {
+        let mut set = Set::default();
+        for _ in 0..3000 {
+            let offset = [0.0, 1.0, 9.0][random.random_range(0..3)] * scale;
+            let mut number = || {
+                let x = [0.0, -0.0, 1.0, -1.0, 0.5, 2.0, -2.0, 0.33][random.random_range(0..8)]
+                    * scale
+                    + offset;
+                [x, x, x.next_up(), x.next_down()][random.random_range(0..4)]
+            };
+            let mut points = || [(); 4].map(|()| [(); 3].map(|()| number()).map(f64::from));
+            let (start, end) = (points(), points());
+            let count = set.start.len() as u32;
+            set.start.extend(start);
+            set.end.extend(end);
+            set.indices.push([0, 1, 2, 3].map(|corner| count + corner));
+            set.radii.push(Radius::ZERO);
+        }
+        hits += times_in_f32::<EdgeEdge>(&set).len() + times_in_f32::<VertexFace>(&set).len();
+    }
+    assert!(hits > 5000, "{hits} hits");
+}

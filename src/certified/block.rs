@@ -14,6 +14,7 @@ use super::cubic::Cubic;
 use super::ends::{Ends, Plain};
 use super::kind::Stages;
 use super::motion::{Motion, Positions, reach};
+use super::single;
 use super::stage::Stage;
 use super::step::{Precision, room, widened};
 use super::thick::{self, Reached, Touch, rounded_up};
@@ -35,6 +36,9 @@ pub(crate) struct Tile {
 
 pub(super) const COORDINATES: usize = 24;
 
+/// The same coordinates of [`LANES`] queries in `f32`.
+pub(crate) type SingleTile = [[f32; LANES]; COORDINATES];
+
 /// What stages hand on: the cubic and the time of a crossing, or what [`Planes`] take.
 const FOUND: usize = 6;
 
@@ -50,6 +54,12 @@ pub(crate) trait Source {
     /// without a query may hold anything.
     fn load(&self, tiles: &mut [Tile; CHUNK / LANES], queries: Range<usize>);
 
+    /// Whether all coordinates are `f32`.
+    const IS_SINGLE: bool = false;
+
+    /// As [`load`](Self::load), of coordinates that [are `f32`](Self::IS_SINGLE).
+    fn load_single(&self, _tiles: &mut [SingleTile; CHUNK / LANES], _queries: Range<usize>) {}
+
     /// The distance at which its sides touch.
     fn radius(&self, query: usize) -> Radius;
 
@@ -62,6 +72,8 @@ pub(super) struct Open {
     /// The last ones are for a chunk that is new, if it has no place behind what is open: that has
     /// to fill its tiles.
     tiles: [Tile; (MOST_OPEN + CHUNK) / LANES],
+    /// Of a chunk in `f32`, while it is asked.
+    singles: [SingleTile; CHUNK / LANES],
     /// Which queries they are, ascending.
     queries: [usize; MOST_OPEN],
     count: usize,
@@ -74,9 +86,19 @@ impl Open {
                 coordinates: [[0.0; LANES]; COORDINATES],
                 found: [[0.0; LANES]; FOUND],
             }; (MOST_OPEN + CHUNK) / LANES],
+            singles: [[[0.0; LANES]; COORDINATES]; CHUNK / LANES],
             queries: [0; MOST_OPEN],
             count: 0,
         }
+    }
+
+    /// Where a new chunk begins: behind what is open, if it fills its tiles.
+    #[inline(always)]
+    fn next_place(&self) -> usize {
+        let is_aligned = self.count.is_multiple_of(LANES);
+        let place = if is_aligned { self.count } else { MOST_OPEN };
+        debug_assert!(place <= MOST_OPEN);
+        place
     }
 
     /// Whether there is no room for what a chunk may leave.
@@ -146,19 +168,28 @@ impl Open {
 
     /// Adds what the first two stages leave of some queries without a radius, no more than
     /// [`CHUNK`].
-    pub(super) fn add<K: Stages>(
+    pub(super) fn add<K: Stages, S: Source>(
         &mut self,
-        source: &impl Source,
+        source: &S,
         queries: Range<usize>,
         observe: &mut impl FnMut(Stage),
     ) {
-        let decided = with_widest(First::<_, _, _, 2, 0> {
-            open: self,
-            source,
-            queries,
-            test: Apart::<K>(PhantomData),
-            prepare: |_: &mut [Tile; CHUNK / LANES], _: Range<usize>| {},
-        });
+        let decided = if S::IS_SINGLE {
+            with_widest(FirstSingle {
+                open: self,
+                source,
+                queries,
+                kind: PhantomData::<K>,
+            })
+        } else {
+            with_widest(First::<_, _, _, 2, 0> {
+                open: self,
+                source,
+                queries,
+                test: Apart::<K>(PhantomData),
+                prepare: |_: &mut [Tile; CHUNK / LANES], _: Range<usize>| {},
+            })
+        };
         report([Stage::Boxes, Stage::Direction], decided, observe);
     }
 
@@ -587,9 +618,8 @@ where
             prepare,
         } = self;
         let mut counts = [0; N];
-        let is_aligned = open.count.is_multiple_of(LANES);
-        let at = if is_aligned { open.count } else { MOST_OPEN };
-        debug_assert!(at <= MOST_OPEN && queries.len() <= CHUNK);
+        let at = open.next_place();
+        debug_assert!(queries.len() <= CHUNK);
         if let Some(tiles) = open.tiles[at / LANES..].first_chunk_mut() {
             source.load(tiles, queries.clone());
             prepare(tiles, queries.clone());
@@ -602,6 +632,72 @@ where
             }
         }
         counts
+    }
+}
+
+/// The first two stages of queries that are new, without a radius, in `f32`.
+struct FirstSingle<'a, S, K> {
+    open: &'a mut Open,
+    source: &'a S,
+    queries: Range<usize>,
+    kind: PhantomData<K>,
+}
+
+impl<S: Source, K: Stages> WithSimd for FirstSingle<'_, S, K> {
+    type Output = [u32; 2];
+
+    #[inline(always)]
+    fn with_simd<V: pulp::Simd>(self, _: V) -> Self::Output {
+        let FirstSingle {
+            open,
+            source,
+            queries,
+            ..
+        } = self;
+        let mut counts = [0; 2];
+        let at = open.next_place();
+        debug_assert!(queries.len() <= CHUNK);
+        source.load_single(&mut open.singles, queries.clone());
+        for first in (0..queries.len()).step_by(LANES) {
+            let single = &open.singles[first / LANES];
+            let decided = test_single_tile::<K>(single);
+            let lanes = first_lanes(LANES.min(queries.len() - first));
+            let left = counted(decided, lanes, &mut counts);
+            if left != 0 {
+                widen(&mut open.tiles[(at + first) / LANES], single);
+            }
+            for lane in Lanes(left) {
+                open.keep(at + first + lane, queries.start + first + lane, 0);
+            }
+        }
+        counts
+    }
+}
+
+/// The queries of a tile that the first two stages decide, as bits.
+#[inline(always)]
+fn test_single_tile<K: Stages>(coordinates: &SingleTile) -> [u64; 2] {
+    let mut decided = [[false; LANES]; 2];
+    for i in 0..LANES {
+        let of = |row: usize| [coordinates[row][i], coordinates[row + 12][i]];
+        let at = |row: usize| [of(row), of(row + 1), of(row + 2)];
+        let [boxes, direction] = single::are_apart::<K>(&[at(0), at(3), at(6), at(9)]);
+        decided[0][i] = boxes;
+        decided[1][i] = direction;
+    }
+    [bits(decided[0]), bits(decided[1])]
+}
+
+#[allow(
+    clippy::needless_range_loop,
+    reason = "loops over iterators take 6% more instructions of a candidate"
+)]
+#[inline(always)]
+fn widen(tile: &mut Tile, single: &SingleTile) {
+    for row in 0..COORDINATES {
+        for lane in 0..LANES {
+            tile.coordinates[row][lane] = f64::from(single[row][lane]);
+        }
     }
 }
 

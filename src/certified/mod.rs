@@ -78,6 +78,7 @@ mod refine;
 mod rigid;
 mod root;
 mod separate;
+mod single;
 mod stage;
 mod start;
 mod step;

@@ -4,7 +4,7 @@ use std::fmt;
 use std::marker::PhantomData;
 use std::ops::Range;
 
-use super::block::{CHUNK, LANES, Source, Tile};
+use super::block::{CHUNK, COORDINATES, LANES, SingleTile, Source, Tile};
 use super::kind::{Kind, Stages};
 use super::motion::Positions;
 use super::queries;
@@ -242,21 +242,72 @@ impl<C: Coordinate> Indexed<'_, C> {
             end: of(self.end),
         }
     }
+
+    /// Puts the coordinates of a group of pairs, counted from the first of the chunk, into the lanes
+    /// of the rows of its tile: a row of a group is one write.
+    #[inline(always)]
+    fn load_group<T: Copy>(
+        &self,
+        rows: &mut [[T; LANES]; COORDINATES],
+        group: usize,
+        [p, q, r, s]: &[[u32; 4]; GROUP],
+        of: impl Fn(C) -> T,
+    ) {
+        let lane = group * GROUP % LANES;
+        let end = &self.end[..self.start.len()];
+        for point in 0..4 {
+            let at = |pair: &[u32; 4]| pair[point] as usize;
+            let (p, q, r, s) = (at(p), at(q), at(r), at(s));
+            for (first, positions) in [(0, self.start), (12, end)] {
+                let (p, q, r, s) = (&positions[p], &positions[q], &positions[r], &positions[s]);
+                for axis in 0..3 {
+                    let lanes = &mut rows[first + 3 * point + axis][lane..][..GROUP];
+                    lanes.copy_from_slice(&[of(p[axis]), of(q[axis]), of(r[axis]), of(s[axis])]);
+                }
+            }
+        }
+    }
+}
+
+/// How many pairs are read at once.
+const GROUP: usize = 4;
+
+/// Fewer pairs than a group, and the first of them in the lanes that are left.
+#[inline(always)]
+fn filled(rest: &[[u32; 4]]) -> [[u32; 4]; GROUP] {
+    let mut all = [rest[0]; GROUP];
+    all[..rest.len()].copy_from_slice(rest);
+    all
 }
 
 impl<C: Coordinate> Source for Indexed<'_, C> {
     #[inline(always)]
     fn load(&self, tiles: &mut [Tile; CHUNK / LANES], queries: Range<usize>) {
-        for (lane, indices) in self.indices[queries].iter().enumerate() {
-            let coordinates = &mut tiles[lane / LANES].coordinates;
-            for (point, &index) in indices.iter().enumerate() {
-                let index = index as usize;
-                for (at, positions) in [(0, self.start), (12, self.end)] {
-                    for (axis, &x) in positions[index].iter().enumerate() {
-                        coordinates[at + 3 * point + axis][lane % LANES] = x.into();
-                    }
-                }
-            }
+        let (whole, rest) = self.indices[queries].as_chunks();
+        for (group, indices) in whole.iter().enumerate() {
+            let rows = &mut tiles[group * GROUP / LANES].coordinates;
+            self.load_group(rows, group, indices, C::into);
+        }
+        if !rest.is_empty() {
+            let group = whole.len();
+            let rows = &mut tiles[group * GROUP / LANES].coordinates;
+            self.load_group(rows, group, &filled(rest), C::into);
+        }
+    }
+
+    const IS_SINGLE: bool = C::IS_SINGLE;
+
+    #[inline(always)]
+    fn load_single(&self, tiles: &mut [SingleTile; CHUNK / LANES], queries: Range<usize>) {
+        let (whole, rest) = self.indices[queries].as_chunks();
+        for (group, indices) in whole.iter().enumerate() {
+            let rows = &mut tiles[group * GROUP / LANES];
+            self.load_group(rows, group, indices, C::single);
+        }
+        if !rest.is_empty() {
+            let group = whole.len();
+            let rows = &mut tiles[group * GROUP / LANES];
+            self.load_group(rows, group, &filled(rest), C::single);
         }
     }
 

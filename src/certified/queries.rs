@@ -83,7 +83,7 @@ pub(super) fn decide_range<K: Stages>(
             Some(false) => open.add_thick::<K>(source, chunk, &mut observe),
             Some(true) if worth.stages.is_tried() => {
                 worth.stages.asked += chunk.len();
-                open.add::<K>(source, chunk, &mut observe);
+                open.add::<K, _>(source, chunk, &mut observe);
             }
             _ => {
                 worth.stages.skip();
@@ -269,7 +269,7 @@ impl MayTouch {
         let all = 0..count;
         match source.are_thin(all.clone()) {
             Some(true) => {
-                self.open.add::<K::Stages>(source, all, &mut |_| {});
+                self.open.add::<K::Stages, _>(source, all, &mut |_| {});
                 self.open.screen::<K::Stages>(&mut |_| {});
             }
             Some(false) => {
