@@ -83,7 +83,7 @@ fn pierces([p, q]: &[Exact; 2], [b, c, d]: &[Exact; 3]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tunnelproof::nalgebra::Quaternion;
+    use nalgebra::{Quaternion, Vector3};
     use tunnelproof::wire::Shape;
 
     fn cube() -> Core {

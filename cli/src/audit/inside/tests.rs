@@ -138,9 +138,10 @@ fn wire_that_starts_below_a_floor_comes_out_and_nothing_is_missed() {
                 [-2, -2, 1], [2, -2, 1], [-2, 2, 1], [2, 2, 1]], triangles = [[0, 2, 3], [0, 3, 1], \
                 [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4], [2, 6, 7], [2, 7, 3], [0, 4, 6], \
                 [0, 6, 2], [1, 3, 7], [1, 7, 5]] } }";
-    for far in [0.0, 1e6, 1e8] {
+    for far in [0.0, 1e6, 1e8_f64] {
         for offset in [[far, 0.0, 0.0], [0.0, far, 0.0], [0.0, 0.0, far], [far; 3]] {
-            let next = offset[2] - offset[2].next_down();
+            let high: f64 = offset[2];
+            let next = high - high.next_down();
             let next = next.max(1e-12);
             // As parts of a metre, and of the coordinates.
             let parts = [1.2, 1.8, 2.5, 3.5, 4.5].map(|part| 1e-9 * part);
