@@ -20,6 +20,7 @@ use tunnelproof_reference::answer::ExactHit;
 use tunnelproof_reference::oracle::decide_rigid_query;
 
 use super::core::{Core, ROUNDING, Surface};
+use super::inside::is_node_inside;
 use super::pairs::covering;
 use super::separate::{are_boxes_apart, is_node_apart, is_segment_apart};
 
@@ -98,12 +99,12 @@ impl BodyWay {
 
     /// How far its centre is at most from where it would be at the same time on a straight way.
     pub(super) fn stray_of_centre(&self) -> f64 {
-        let [from, to] = self.centres().map(|centre| centre.coords);
-        let ends = self.pieces.iter().map(|piece| piece.end().centre.coords);
+        let [from, to] = self.centres();
+        let ends = self.pieces.iter().map(|piece| piece.end().centre);
         let count = self.pieces.len() as f64;
         let strays = ends.enumerate().map(|(piece, at)| {
             let t = (piece + 1) as f64 / count;
-            (at - (from * (1.0 - t) + to * t)).norm()
+            (at - from - (to - from) * t).norm()
         });
         strays.fold(0.0, f64::max)
     }
@@ -238,12 +239,16 @@ pub(super) fn quarter_tangent(motion: &RigidMotion) -> f64 {
     (to - from).norm() / (to + from).norm()
 }
 
-/// A vector of space in the body's frame at a time of a motion, rounded.
-fn seen(motion: &RigidMotion, t: f64, vector: &Vector) -> Vector {
+/// The orientation of a body at a time of a motion, rounded.
+pub(super) fn orientation(motion: &RigidMotion, t: f64) -> UnitQuaternion<f64> {
     let [from, to] = motion.quaternions();
     let [w, x, y, z] = [0, 1, 2, 3].map(|i| from[i] * (1.0 - t) + to[i] * t);
-    let unit = UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z));
-    unit.inverse_transform_vector(vector)
+    UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z))
+}
+
+/// A vector of space in the body's frame at a time of a motion, rounded.
+fn seen(motion: &RigidMotion, t: f64, vector: &Vector) -> Vector {
+    orientation(motion, t).inverse_transform_vector(vector)
 }
 
 impl Part {
@@ -257,9 +262,8 @@ impl Part {
             let [first, last] = [from - centres[0], to - centres[1]];
             let (r, d) = (first.norm().max(last.norm()), (last - first).norm());
             stray = stray.max((1.5 * angle * angle * r + 2.5 * angle * d) / 8.0);
-            let size = from.coords.amax().max(to.coords.amax());
-            let size = size + centres[0].coords.amax().max(centres[1].coords.amax());
-            rounding = rounding.max(ROUNDING * size);
+            // Only what is seen from the centre is rounded.
+            rounding = rounding.max(ROUNDING * r);
         }
         let at = |k: usize| {
             let t = k as f64 / LOOKS as f64;
@@ -351,7 +355,7 @@ pub(super) fn hit(query: impl Into<RigidQuery>) -> Option<Hit> {
 /// Where the segment is, from look to look, when it may be near a surface, and how far it may be from
 /// there.
 fn near(looks: &[[Vector; 2]], stray: f64, surface: &Surface) -> (Vec<[Vector; 4]>, f64) {
-    let stray = stray + ROUNDING * surface.low.amax().max(surface.high.amax());
+    let stray = stray + ROUNDING * surface.extent();
     let between = looks.windows(2);
     let between = between.map(|two| [two[0][0], two[0][1], two[1][0], two[1][1]]);
     let is_near = |points: &[Vector; 4]| {
@@ -376,21 +380,11 @@ fn reach(points: &[Vector]) -> f64 {
         .fold(0.0, |far: f64, point| far.max(point.norm()))
 }
 
-/// Whether a segment touches a core, or is certainly inside.
+/// Whether a segment touches a core, or is inside.
 pub(super) fn is_in(core: &Core, pose: &Pose, ends: &[Point; 2]) -> Result<bool, RigidError> {
     let motion = RigidMotion::new(*pose, *pose)?;
-    let local = ends.map(|end| seen(&motion, 0.0, &(end - pose.centre)));
-    match core {
-        Core::Plane => {
-            let size = ends[0].coords.amax() + ends[1].coords.amax() + pose.centre.coords.amax();
-            let below = local.iter().any(|end| end.z < -1e-9 * size);
-            Ok(below || swept(core, &motion, &[ends[0], ends[1], ends[1]])?.is_some())
-        }
-        Core::Surface(surface) => {
-            let inside = local.iter().any(|end| surface.holds(end));
-            Ok(inside || swept(core, &motion, &[ends[0], ends[1], ends[1]])?.is_some())
-        }
-    }
+    let inside = ends.iter().any(|end| is_node_inside(core, pose, end));
+    Ok(inside || swept(core, &motion, &[ends[0], ends[1], ends[1]])?.is_some())
 }
 
 /// What of a triangle touches the surface of a core of a body at rest: one of its sides a face, or
@@ -402,9 +396,6 @@ pub(super) fn swept(
 ) -> Result<Option<RigidQuery>, RigidError> {
     let centre = motion.start().centre;
     let local = triangle.map(|point| seen(motion, 0.0, &(point - centre)));
-    let size = triangle
-        .iter()
-        .fold(centre.coords.amax(), |a, point| a.max(point.coords.amax()));
     let [a, b, c] = *triangle;
     let sides = [[a, b], [b, c], [c, a]];
     let touches = |from: Point, to: Point, face: &[Point; 3]| {
@@ -418,7 +409,7 @@ pub(super) fn swept(
         }
         Core::Surface(surface) => surface,
     };
-    let size = size + surface.low.amax().max(surface.high.amax());
+    let size = reach(&local) + surface.extent();
     let apart = |low: &Vector, high: &Vector| are_boxes_apart(&local, ROUNDING * size, low, high);
     if apart(&surface.low, &surface.high) || surface.is_beyond(&local, ROUNDING * size) {
         return Ok(None);

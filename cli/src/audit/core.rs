@@ -10,6 +10,14 @@ type Vector = Vector3<f64>;
 /// More than all roundings of a place, as a part of its coordinates.
 pub(super) const ROUNDING: f64 = 1e-12;
 
+/// Directions in which it is counted how often a surface is crossed.
+pub(super) const RAYS: [[f64; 3]; 4] = [
+    [0.91, 0.31, 0.27],
+    [-0.22, 0.87, -0.44],
+    [0.13, -0.41, 0.9],
+    [-0.7, -0.51, -0.5],
+];
+
 /// What no midline may cross, in the body's frame.
 #[derive(Clone, Debug)]
 pub(super) enum Core {
@@ -168,22 +176,31 @@ impl Surface {
         })
     }
 
-    /// Whether a point is certainly inside.
-    pub(super) fn holds(&self, point: &Vector) -> bool {
-        let size = self.low.amax().max(self.high.amax()) + point.amax();
-        let margin = 1e-9 * size;
-        match &self.normals {
-            Some(normals) => normals
-                .iter()
-                .zip(&self.faces)
-                .all(|(normal, face)| normal.dot(&(point - face[0].coords)) < -margin),
-            None => self.is_around(point, margin),
-        }
+    /// The largest coordinate of its corners.
+    pub(super) fn extent(&self) -> f64 {
+        self.low.amax().max(self.high.amax())
     }
 
-    /// Whether rays from a point, which is not next to a face, leave the surface once more than they
-    /// enter it, in several directions.
-    fn is_around(&self, point: &Vector, margin: f64) -> bool {
+    /// Whether it is convex, with the origin inside.
+    pub(super) fn is_convex(&self) -> bool {
+        self.normals.is_some()
+    }
+
+    /// Whether a point that is rounded by less than `margin` is inside; `None` where that leaves it in
+    /// doubt.
+    pub(super) fn holds(&self, point: &Vector, margin: f64) -> Option<bool> {
+        let Some(normals) = &self.normals else {
+            return self.is_around(point, margin);
+        };
+        let planes = normals.iter().zip(&self.faces);
+        let heights = planes.map(|(normal, face)| normal.dot(&(point - face[0].coords)));
+        let highest = heights.fold(f64::NEG_INFINITY, f64::max);
+        (highest.abs() > margin).then_some(highest < 0.0)
+    }
+
+    /// Whether rays from a point, which is not next to a face, leave the surface more often than they
+    /// enter it; `None` if rays in several directions do not agree.
+    fn is_around(&self, point: &Vector, margin: f64) -> Option<bool> {
         let is_next = |face: &[Point; 3]| {
             let [a, b, c] = face.map(|corner| corner.coords);
             let normal = (b - a).cross(&(c - a)).normalize();
@@ -191,20 +208,18 @@ impl Surface {
             let inside = |axis: usize| {
                 point[axis] >= low[axis] - margin && point[axis] <= high[axis] + margin
             };
-            normal.dot(&(point - a)).abs() <= margin && (0..3).all(inside)
+            // Also where a face has no normal.
+            let beside = normal.dot(&(point - a)).abs() > margin;
+            !beside && (0..3).all(inside)
         };
-        let rays = [
-            [0.91, 0.31, 0.27],
-            [-0.22, 0.87, -0.44],
-            [0.13, -0.41, 0.9],
-            [-0.7, -0.51, -0.5],
-        ];
         let leaves = |ray: [f64; 3]| {
             let ray = Vector::from(ray);
             let crossed = self.faces.iter().map(|face| crosses(face, point, &ray));
-            crossed.sum::<i32>() == 1
+            crossed.sum::<i32>()
         };
-        !self.faces.iter().any(is_next) && rays.into_iter().all(leaves)
+        let times = RAYS.map(leaves);
+        let agree = times.iter().all(|count| *count == times[0]);
+        (agree && !self.faces.iter().any(is_next)).then_some(times[0] > 0)
     }
 }
 

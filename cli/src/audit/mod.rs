@@ -28,6 +28,8 @@ mod bodies;
 mod carried;
 mod core;
 mod finding;
+mod inside;
+mod integers;
 mod ledger;
 mod overlap;
 mod pairs;

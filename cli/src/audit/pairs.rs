@@ -13,10 +13,10 @@ use nalgebra::Vector3;
 use tunnelproof::contact::ContactKind;
 use tunnelproof::query::Point;
 use tunnelproof::rigid::{
-    RigidError, RigidMotion, RigidQuery, TurningEdgeTurningEdge, TurningVertexTurningFace,
+    Pose, RigidError, RigidMotion, RigidQuery, TurningEdgeTurningEdge, TurningVertexTurningFace,
 };
 
-use super::bodies::{BodyWay, Hit, Touch, first, hit, quarter_tangent};
+use super::bodies::{BodyWay, Hit, Touch, first, hit, orientation, quarter_tangent};
 use super::core::{Core, ROUNDING};
 use super::overlap::overlap;
 use super::separate::gap;
@@ -103,7 +103,7 @@ fn radius(core: &Core) -> f64 {
 fn stay_out_of_reach(cores: [&Core; 2], ways: [&BodyWay; 2]) -> bool {
     let ends = ways.map(BodyWay::centres);
     let [from, to] = [0, 1].map(|end| ends[0][end] - ends[1][end]);
-    let (mut least, mut size) = (f64::INFINITY, 0.0_f64);
+    let mut least = f64::INFINITY;
     // The distance from a point to a line, by the nearest of its ends and what is across it.
     let along = to - from;
     let length = along.norm();
@@ -111,9 +111,7 @@ fn stay_out_of_reach(cores: [&Core; 2], ways: [&BodyWay; 2]) -> bool {
         least = from.cross(&along).norm() / length;
     }
     least = least.min(from.norm()).min(to.norm());
-    for end in ends.as_flattened() {
-        size = size.max(end.coords.amax());
-    }
+    let size = from.amax().max(to.amax());
     let strays: f64 = ways.iter().map(|way| way.stray_of_centre()).sum();
     least > radius(cores[0]) + radius(cores[1]) + strays + ROUNDING * size
 }
@@ -151,11 +149,9 @@ impl Stage {
             };
             1.5 * angles[body] * angles[body] * radius / 8.0
         };
-        let centres = ends.as_flattened().iter();
-        let size = centres.fold(reach, |size, centre| size.max(centre.coords.amax()));
         Stage {
             stray: stray(0) + stray(1),
-            rounding: ROUNDING * size,
+            rounding: ROUNDING * reach,
             motions,
             vertices,
         }
@@ -185,12 +181,14 @@ impl Stage {
 
     /// Points of a body at a time, seen from the centre of the second one.
     fn places(&self, body: usize, points: &[Point], t: f64) -> Vec<Vector> {
-        let centre = self.motions[1].position(&Point::origin(), t);
-        let motion = &self.motions[body];
-        points
-            .iter()
-            .map(|point| motion.position(point, t) - centre)
-            .collect()
+        let ends = |end: fn(&RigidMotion) -> &Pose| {
+            let [of_body, second] = [body, 1].map(|k| end(&self.motions[k]).centre);
+            of_body - second
+        };
+        let offset = ends(RigidMotion::start) * (1.0 - t) + ends(RigidMotion::end) * t;
+        let turn = orientation(&self.motions[body], t);
+        let place = |point: &Point| turn * point.coords + offset;
+        points.iter().map(place).collect()
     }
 
     /// The parts of one body that come near the other one.

@@ -13,7 +13,7 @@ use tunnelproof_reference::oracle::decide_query;
 /// Steps of the scale.
 const STEPS: u32 = 64;
 
-/// Far more than the rounding of what is computed here, as a part of the largest coordinate.
+/// Far more than the rounding of what is computed here, as a part of the largest way between two points.
 const ERROR: f64 = 1e-12;
 
 /// Two wires, or two stretches of one: how thick they are, and how much of it is guarded.
@@ -137,9 +137,10 @@ fn low([a, b, c, d]: &[Point; 4], direction: &Vector) -> f64 {
     least - ERROR * size(&[*a, *b, *c, *d])
 }
 
-fn size(points: &[Point; 4]) -> f64 {
-    let coordinates = points.iter().flat_map(|point| point.iter());
-    coordinates.fold(0.0, |size: f64, x| size.max(x.abs()))
+/// The largest coordinate of the way from one of the points to another one. Nothing else is rounded.
+fn size([a, rest @ ..]: &[Point; 4]) -> f64 {
+    let ways = rest.iter().map(|point| point - a);
+    ways.fold(0.0, |size: f64, way| size.max(way.amax()))
 }
 
 /// About the shortest way from `AB` to `CD`: between ends and what is nearest to them, or between

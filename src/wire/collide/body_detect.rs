@@ -7,17 +7,18 @@
 //! so.
 
 use super::body_contacts::HAIR;
-use super::body_motion::{BodyWay, SegmentWay, Stage, between, into_body};
+use super::body_motion::{BodyWay, SegmentWay, Stage, between, direction_into_body};
 use super::boxes::Boxes;
 use super::core_boxes::{self, Bounds, CornerBoxes};
 use super::core_pairs::{CoreHit, first_core_touch};
+use super::inside::{covering, is_in};
 use super::segment::direction;
 use crate::broad::{Aabb, BroadError, Method};
 use crate::certified::decide_rigid;
 use crate::contact::{EdgePoint, FacePlace, Hit};
 use crate::parallel::mapped;
 use crate::query::Point;
-use crate::rigid::{EdgeTurningEdge, Pose, RigidError, RigidMotion, VertexTurningFace};
+use crate::rigid::{EdgeTurningEdge, RigidError, RigidMotion, VertexTurningFace};
 use crate::wire::Vector;
 use crate::wire::contact::{ContactConstraint, ContactSite};
 use crate::wire::error::CollisionError;
@@ -344,7 +345,7 @@ impl<'a> Beside<'a> {
         }
         let at_start = between(&segment.start[0], &segment.start[1], touch.parameter);
         let first = &self.way.pieces[0];
-        let came_from = into_body(first, 0.0, &(at_start - starts.centre)) - touch.local;
+        let came_from = direction_into_body(first, 0.0, &(at_start - starts.centre)) - touch.local;
         Ok(Some(BodyHit {
             segment: segment.id,
             site: segment.id.site(world, touch.parameter),
@@ -362,49 +363,6 @@ pub(super) fn side(normal: Option<Vector>, came_from: &Vector) -> Option<Vector>
     const TENTH: f64 = 0.1;
     let along = |normal: &Vector| normal.dot(came_from) >= TENTH * came_from.norm();
     normal.filter(along).or_else(|| direction(came_from))
-}
-
-/// Whether a segment touches a core, or is certainly inside it.
-pub(super) fn is_in(core: &Core, pose: &Pose, ends: &[Point; 2]) -> Result<bool, RigidError> {
-    let motion = RigidMotion::new(*pose, *pose)?;
-    let [a, b] = *ends;
-    match core {
-        Core::Plane => {
-            for end in ends {
-                let height = into_body(&motion, 0.0, &(end - pose.centre)).z;
-                let size = end.coords.amax() + pose.centre.coords.amax();
-                if height < -1e-9 * size || touches_plane(&motion, *end, *end)? {
-                    return Ok(true);
-                }
-            }
-            touches_plane(&motion, a, b)
-        }
-        Core::Surface(surface) => {
-            let local = |end: &Point| Point::from(into_body(&motion, 0.0, &(end - pose.centre)));
-            if ends.iter().any(|end| surface.holds(&local(end))) {
-                return Ok(true);
-            }
-            pierces(&motion, surface, &a, &b)
-        }
-    }
-}
-
-/// Whether the straight piece from `a` to `b` touches a face of a body at rest.
-pub(super) fn pierces(
-    motion: &RigidMotion,
-    surface: &Surface,
-    a: &Point,
-    b: &Point,
-) -> Result<bool, RigidError> {
-    for face in &surface.faces {
-        let corners = face.map(|k| surface.vertices[k]);
-        // A vertex that goes from one end to the other passes every point of the piece.
-        let query = VertexTurningFace::new([*a], [*b], corners, *motion)?;
-        if decide_rigid(&query).is_some() {
-            return Ok(true);
-        }
-    }
-    Ok(false)
 }
 
 /// The first touch of a segment with a surface in a stage.
@@ -488,7 +446,7 @@ fn touch_edge(stage: &Stage, ends: [Point; 2]) -> Result<Option<Touch>, RigidErr
     let touch = decide_rigid(&query).map(|hit| {
         let EdgePoint { u, v } = hit.place.first;
         let across = across_edges(&query.positions(hit.toi), hit.side);
-        let normal = across.map(|across| into_body(&stage.motion, hit.toi, &across));
+        let normal = across.map(|across| direction_into_body(&stage.motion, hit.toi, &across));
         let local = ends[0].coords * (1.0 - v) + ends[1].coords * v;
         Touch::new(&hit, u, local, normal)
     });
@@ -505,53 +463,6 @@ fn touch_plane(stage: &Stage) -> Result<Option<Touch>, RigidError> {
         }
     }
     Ok(first)
-}
-
-/// Whether a vertex that goes from one place to another touches the plane of a body.
-fn touches_plane(motion: &RigidMotion, from: Point, to: Point) -> Result<bool, RigidError> {
-    let Some(corners) = covering(motion, from, to) else {
-        return Ok(false);
-    };
-    let query = VertexTurningFace::new([from], [to], corners, *motion)?;
-    Ok(decide_rigid(&query).is_some())
-}
-
-/// Whether a side of a triangle touches the plane of a body at rest.
-pub(super) fn covers_plane(
-    motion: &RigidMotion,
-    &[a, b, c]: &[Point; 3],
-) -> Result<bool, RigidError> {
-    Ok(
-        touches_plane(motion, a, b)?
-            || touches_plane(motion, b, c)?
-            || touches_plane(motion, c, a)?,
-    )
-}
-
-/// A triangle of a body's plane that covers wherever a point comes on a straight way. None if it stays well above the
-/// plane, which does not move.
-fn covering(motion: &RigidMotion, from: Point, to: Point) -> Option<[Point; 3]> {
-    let ways = [from - motion.start().centre, to - motion.end().centre];
-    let [start, end] = ways.map(|way| way.norm());
-    let far = start.max(end);
-    if motion.start() == motion.end() {
-        let size = from.coords.amax() + to.coords.amax() + motion.start().centre.coords.amax();
-        let above = |way: &Vector| into_body(motion, 0.0, way).z > 1e-9 * size;
-        if ways.iter().all(above) {
-            return None;
-        }
-    }
-    // Nowhere is it farther from the centre than at one of both ends.
-    Some(plane_around(far))
-}
-
-/// A triangle of the plane `z = 0` that covers a circle of this radius, and rounding.
-pub(super) fn plane_around(radius: f64) -> [Point; 3] {
-    // The next power of two; a circle of twice that is inside the triangle.
-    let exponent = radius.max(f64::MIN_POSITIVE).to_bits() >> 52;
-    let size = f64::from_bits((exponent + 1) << 52);
-    let corner = |x: f64, y: f64| Point::new(x * size, y * size, 0.0);
-    [corner(0.0, 4.0), corner(-4.0, -2.0), corner(4.0, -2.0)]
 }
 
 impl CoreHits {

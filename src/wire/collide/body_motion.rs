@@ -217,11 +217,34 @@ pub(super) fn between(from: &Point, to: &Point, t: f64) -> Point {
     Point::from(from.coords * (1.0 - t) + to.coords * t)
 }
 
-/// A vector of space in the frame of a body at a time of its motion, rounded.
+/// A vector of space in the frame of a body at a time of its motion, rounded. It does not matter where the
+/// body is.
 pub(super) fn into_body(motion: &RigidMotion, t: f64, vector: &Vector) -> Vector {
+    turned(motion, t, vector, -1.0)
+}
+
+/// The same, with the bits that rows of contacts have: off by what places of the body are rounded by, beside
+/// a metre.
+pub(super) fn direction_into_body(motion: &RigidMotion, t: f64, vector: &Vector) -> Vector {
     let origin = motion.position(&Point::origin(), t);
     Vector::from_fn(|axis, _| {
         let unit = motion.position(&Point::from(Vector::ith(axis, 1.0)), t) - origin;
         direction(&unit).map_or(0.0, |unit| unit.dot(vector))
     })
+}
+
+/// A vector of a body's frame in space at a time of its motion, rounded.
+pub(super) fn from_body(motion: &RigidMotion, t: f64, vector: &Vector) -> Vector {
+    turned(motion, t, vector, 1.0)
+}
+
+/// Turned as a body is, or back where `sense` is -1.
+fn turned(motion: &RigidMotion, t: f64, vector: &Vector, sense: f64) -> Vector {
+    let [q0, q1] = motion.quaternions();
+    let q: [f64; 4] = std::array::from_fn(|i| (1.0 - t) * q0[i] + t * q1[i]);
+    let size = q.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+    let [w, x, y, z] = q.map(|component| component / size);
+    let v = Vector::new(x, y, z) * sense;
+    let turn = v.cross(vector) * 2.0;
+    vector + (turn * w + v.cross(&turn)) / (w * w + v.dot(&v))
 }

@@ -4,9 +4,9 @@
 //! sides touches a face, or an edge of the core touches the triangle. Both are queries without
 //! rounding.
 
-use super::body_detect::{covers_plane, is_in, pierces};
 use super::body_motion::BodyWay;
 use super::core_boxes;
+use super::inside::{covers_plane, is_in, pierces};
 use crate::broad::Aabb;
 use crate::certified::decide_rigid;
 use crate::query::Point;

@@ -5,9 +5,9 @@
 //! chord, grown by that, holds it. Points of wires go straight, also seen from the centre. Every
 //! box is grown by more than what is rounded.
 
-use super::body_motion::{Stage, quarter_tangent};
+use super::body_motion::{Stage, from_body, quarter_tangent};
 use crate::query::Point;
-use crate::rigid::RigidMotion;
+use crate::rigid::{Pose, RigidMotion};
 use crate::wire::Vector;
 
 /// More than all roundings of a place, as a part of the numbers that it is made of.
@@ -60,7 +60,7 @@ impl Bounds {
 
 /// The box of a point of a body, seen from its centre.
 pub(super) fn corner(motion: &RigidMotion, local: &Point) -> Bounds {
-    let [from, to] = [0.0, 1.0].map(|t| arm(motion, local, t));
+    let [from, to] = [0.0, 1.0].map(|t| from_body(motion, t, &local.coords));
     let stray = 0.5 * quarter_tangent(motion) * (to - from).norm();
     Bounds::around(
         &from,
@@ -71,16 +71,6 @@ pub(super) fn corner(motion: &RigidMotion, local: &Point) -> Bounds {
 
 /// More than what underflow takes.
 const TINY: f64 = 1e-300;
-
-/// From the centre to a point of a body, at the start (0) or the end (1) of its motion.
-fn arm(motion: &RigidMotion, local: &Point, t: f64) -> Vector {
-    let [q0, q1] = motion.quaternions();
-    let [w, x, y, z] = if t == 0.0 { q0 } else { q1 };
-    let size = [w, x, y, z].iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-    let (w, v) = (w / size, Vector::new(x, y, z) / size);
-    let turn = v.cross(&local.coords) * 2.0;
-    local.coords + (turn * w + v.cross(&turn)) / (w * w + v.dot(&v))
-}
 
 /// The boxes of all corners of a core in a motion.
 pub(super) struct CornerBoxes {
@@ -126,15 +116,8 @@ pub(super) fn in_space(motion: &RigidMotion, [low, high]: &[Point; 2]) -> Bounds
 
 /// The box of the way from the centre of a body to that of another one.
 pub(super) fn offset(motion: &RigidMotion, to: &RigidMotion) -> Bounds {
-    let centres = [motion, to].map(|m| [m.start(), m.end()].map(|pose| pose.centre.coords));
-    let size = centres.as_flattened().iter();
-    let size = size.fold(0.0, |size: f64, centre| size.max(centre.amax()));
-    let [from, to] = centres;
-    Bounds::around(
-        &(to[0] - from[0]),
-        &(to[1] - from[1]),
-        ROUNDING * size + TINY,
-    )
+    let ends = |end: fn(&RigidMotion) -> &Pose| end(to).centre - end(motion).centre;
+    rounded_around(&ends(RigidMotion::start), &ends(RigidMotion::end))
 }
 
 /// Whether a point of a body stays well above the plane of a body that does not move.
@@ -142,7 +125,7 @@ pub(super) fn is_above(motion: &RigidMotion, local: &Point, plane: &RigidMotion)
     if plane.start() != plane.end() {
         return false;
     }
-    let up = arm(plane, &Point::new(0.0, 0.0, 1.0), 0.0);
+    let up = from_body(plane, 0.0, &Vector::z());
     let way = corner(motion, local).plus(&offset(plane, motion));
     let size = way.low.amax().max(way.high.amax());
     let lowest = (0..3).map(|axis| (up[axis] * way.low[axis]).min(up[axis] * way.high[axis]));
@@ -151,10 +134,12 @@ pub(super) fn is_above(motion: &RigidMotion, local: &Point, plane: &RigidMotion)
 
 /// The boxes of both nodes of a segment, seen from the centre of the body.
 pub(super) fn nodes(stage: &Stage) -> [Bounds; 2] {
-    let [from, to] = [stage.motion.start(), stage.motion.end()].map(|pose| pose.centre.coords);
-    [0, 1].map(|node| {
-        let (start, end) = (stage.start[node].coords, stage.end[node].coords);
-        let size = start.amax().max(end.amax()).max(from.amax()).max(to.amax());
-        Bounds::around(&(start - from), &(end - to), ROUNDING * size + TINY)
-    })
+    let [from, to] = [stage.motion.start(), stage.motion.end()].map(|pose| pose.centre);
+    [0, 1].map(|node| rounded_around(&(stage.start[node] - from), &(stage.end[node] - to)))
+}
+
+/// A box around two differences of stored places, of which each is rounded once.
+fn rounded_around(from: &Vector, to: &Vector) -> Bounds {
+    let size = from.amax().max(to.amax());
+    Bounds::around(from, to, ROUNDING * size + TINY)
 }

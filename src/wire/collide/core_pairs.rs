@@ -6,9 +6,10 @@
 //! certified path. Two that touch or overlap as the step starts are left out, for as long as that is
 //! so.
 
-use super::body_detect::{across_edges, on_face, plane_around, side};
-use super::body_motion::{BodyWay, into_body};
+use super::body_detect::{across_edges, on_face, side};
+use super::body_motion::{BodyWay, direction_into_body};
 use super::core_boxes::{self, Bounds, CornerBoxes};
+use super::inside::plane_around;
 use super::overlap;
 use super::segment::direction;
 use crate::certified::decide_rigid;
@@ -158,7 +159,7 @@ impl Touch {
         };
         let starts = ways.map(|way| &way.pieces[0]);
         let came_from = place(first, starts[first], 0.0) - place(second, starts[second], 0.0);
-        let came_from = into_body(starts[second], 0.0, &came_from);
+        let came_from = direction_into_body(starts[second], 0.0, &came_from);
         let site = |body: usize| CoreSite {
             body: bodies[body],
             local: self.locals[body],
@@ -298,7 +299,7 @@ fn touch_edges(
     let touch = decide_rigid(&query).map(|hit| {
         let EdgePoint { u, v } = hit.place.first;
         let across = across_edges(&query.positions(hit.toi), hit.side);
-        let normal = across.map(|across| into_body(motions[1], hit.toi, &across));
+        let normal = across.map(|across| direction_into_body(motions[1], hit.toi, &across));
         let place = |ends: &[Point; 2], w: f64| ends[0].coords * (1.0 - w) + ends[1].coords * w;
         Touch::new(&hit, [place(&own, u), place(&other, v)], normal)
     });

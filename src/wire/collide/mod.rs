@@ -49,6 +49,7 @@ mod core_boxes;
 mod core_pairs;
 mod detect;
 mod guard;
+mod inside;
 mod islands;
 mod manifold;
 mod memory;

@@ -1,6 +1,6 @@
 //! Whether two cores overlap, with certainty.
 
-use super::body_motion::into_body;
+use super::body_motion::{from_body, into_body};
 use crate::query::Point;
 use crate::rigid::{Pose, RigidError, RigidMotion};
 use crate::wire::Vector;
@@ -32,17 +32,17 @@ pub(super) fn is_certain(cores: [&Core; 2], poses: [&Pose; 2]) -> Result<bool, R
     })
 }
 
-fn size(motions: [&RigidMotion; 2]) -> f64 {
-    let [a, b] = motions.map(|motion| motion.start().centre.coords.amax());
-    a.max(b)
+/// The way from one centre to the other: all that is rounded are parts of it and of the shapes.
+fn size([a, b]: [&RigidMotion; 2]) -> f64 {
+    (b.start().centre - a.start().centre).amax()
 }
 
 /// The vertices of a surface in the frame of another body.
 fn seen(surface: &Surface, motion: &RigidMotion, by: &RigidMotion) -> Vec<Point> {
-    let centre = by.start().centre;
+    let offset = motion.start().centre - by.start().centre;
     let place = |vertex: &Point| {
-        let arm = motion.position(vertex, 0.0) - centre;
-        Point::from(into_body(by, 0.0, &arm))
+        let arm = from_body(motion, 0.0, &vertex.coords);
+        Point::from(into_body(by, 0.0, &(arm + offset)))
     };
     surface.vertices.iter().map(place).collect()
 }
@@ -65,7 +65,7 @@ fn enters(surface: &Surface, places: &[Point], other: &Surface, size: f64) -> bo
                 && points.iter().any(|point| point[axis] <= high[axis])
         })
     };
-    let held = |point: &Point| within(&[*point]) && other.holds(point);
+    let held = |point: &Point| within(&[*point]) && other.holds(point) == Some(true);
     let edges = surface.edges.iter().map(|edge| edge.map(|k| places[k]));
     let mut faces = surface.faces.iter().map(|face| face.map(|k| places[k]));
     let pierces = |ends: [Point; 2]| {
@@ -82,7 +82,7 @@ fn enters(surface: &Surface, places: &[Point], other: &Surface, size: f64) -> bo
 }
 
 /// Whether a piece of a line certainly goes through a triangle, strictly inside of both. `size` is
-/// that of the numbers from which the points come.
+/// that of the numbers, beside the points, from which they come.
 fn goes_through([p, q]: &[Point; 2], [b, c, d]: &[Point; 3], size: f64) -> bool {
     let points = [p, q, b, c, d].map(|point| point - b);
     let extent = points
@@ -102,3 +102,6 @@ fn goes_through([p, q]: &[Point; 2], [b, c, d]: &[Point; 3], size: f64) -> bool 
     let agree = |of: &[f64]| of.iter().all(|v| *v > margin) || of.iter().all(|v| *v < -margin);
     agree(&sides) && agree(&around)
 }
+
+#[cfg(test)]
+mod tests;

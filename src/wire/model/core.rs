@@ -263,20 +263,34 @@ impl Surface {
         [low, high].map(Option::unwrap_or_default)
     }
 
-    /// Whether a point is certainly inside: not where rounding could deceive.
-    pub(in crate::wire) fn holds(&self, point: &Point) -> bool {
-        const NEXT: f64 = 1e-9;
-        let corners = self.vertices.iter();
-        let size = corners.fold(0.0, |size: f64, vertex| size.max((vertex - point).amax()));
+    /// Whether a point is inside. None so near the surface that rounding could deceive.
+    pub(in crate::wire) fn holds(&self, point: &Point) -> Option<bool> {
+        let doubt = self.doubt(point);
         let mut turns = 0.0;
         for face in &self.faces {
             let corners = face.map(|k| self.vertices[k] - point);
-            if distance(&corners) <= NEXT * size {
-                return false;
+            if distance(&corners) <= doubt {
+                return None;
             }
             turns += solid_angle(&corners);
         }
-        turns > 2.0 * std::f64::consts::PI
+        Some(turns > 2.0 * std::f64::consts::PI)
+    }
+
+    /// How near the surface it is not certain whether a point is inside, in m.
+    pub(in crate::wire) fn doubt(&self, point: &Point) -> f64 {
+        const NEXT: f64 = 1e-9;
+        let corners = self.vertices.iter();
+        let size = corners.fold(0.0, |size: f64, vertex| size.max((vertex - point).amax()));
+        NEXT * size
+    }
+
+    /// The outward normals, of any length, of the faces that are so near a point, in m.
+    pub(in crate::wire) fn normals_near(&self, point: &Point, reach: f64) -> Vec<Vector> {
+        let faces = self.faces.iter();
+        let faces = faces.map(|face| face.map(|k| self.vertices[k] - point));
+        let near = faces.filter(|corners| distance(corners) <= reach);
+        near.map(|[a, b, c]| (b - a).cross(&(c - a))).collect()
     }
 }
 
@@ -414,12 +428,12 @@ mod tests {
     fn cores_hold_what_is_inside_and_nothing_next_to_the_surface() {
         for shape in shapes() {
             let core = surface(&shape);
-            assert!(core.holds(&Point::origin()));
+            assert_eq!(core.holds(&Point::origin()), Some(true));
             for vertex in &core.vertices {
-                assert!(core.holds(&Point::from(vertex.coords * 0.9)), "{shape:?}");
-                assert!(!core.holds(vertex));
-                assert!(!core.holds(&Point::from(vertex.coords * (1.0 + 1e-12))));
-                assert!(!core.holds(&Point::from(vertex.coords * 1.1)));
+                let holds = |times: f64| core.holds(&Point::from(vertex.coords * times));
+                assert_eq!(holds(0.9), Some(true), "{shape:?}");
+                assert_eq!([holds(1.0), holds(1.0 + 1e-12)], [None; 2]);
+                assert_eq!(holds(1.1), Some(false));
             }
         }
     }
