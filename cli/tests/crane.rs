@@ -125,7 +125,10 @@ fn reels_of_scene_files_are_checked() {
     };
     let order = refused("from = 4.5, speed", "from = 0.75, speed");
     assert!(
-        order.ends_with("phase 2 of the reel must start after the phase before it"),
+        order.ends_with(
+            "wires[0].reel: phase 3 of the reel starts at 0.75 s, it must start after phase 2, which \
+             starts at 1 s"
+        ),
         "{order}"
     );
     let free = refused(
@@ -137,5 +140,8 @@ fn reels_of_scene_files_are_checked() {
         "{free}"
     );
     let unknown = refused("speed = -1 ", "sped = -1 ");
-    assert!(unknown.contains("unknown field `sped`"), "{unknown}");
+    assert!(
+        unknown.contains("reel[1].sped: there is no such field; the fields are from, speed"),
+        "{unknown}"
+    );
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::TypedValueParser;
 use tunnelproof_reference::boxes::{BOX_FAMILIES, BoxFamily, box_family};
 use tunnelproof_reference::certify::boxes::{self, Judged, judge_family};
 use tunnelproof_reference::certify::table::short;
@@ -14,7 +14,7 @@ use tunnelproof_reference::report::boxes::report;
 use tunnelproof_reference::subject::Subject;
 
 use super::output::JsonOutput;
-use super::sources::once;
+use super::sources::{Listed, once};
 use super::subjects::{Asked, Permit, Programs, asked};
 use super::{Failure, whole};
 
@@ -156,6 +156,6 @@ fn line([name, rest @ ..]: &[String; 10]) -> String {
 }
 
 fn family() -> impl TypedValueParser<Value = &'static BoxFamily> {
-    PossibleValuesParser::new(BOX_FAMILIES.iter().map(BoxFamily::name))
+    Listed::new(BOX_FAMILIES.iter().map(BoxFamily::name))
         .try_map(|name| box_family(&name).ok_or("unknown family"))
 }

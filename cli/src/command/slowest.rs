@@ -1,10 +1,12 @@
 //! `slowest`: the queries that a subject takes longest on.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use clap::Args;
+use serde_json::{Value, json};
 use tunnelproof::query::Query;
 use tunnelproof_reference::certify::query::AnyQuery;
 use tunnelproof_reference::certify::table;
@@ -16,7 +18,7 @@ use tunnelproof_reference::subject::NoAnswer;
 
 use super::Failure;
 use super::keeping::{interrupted, interruption};
-use super::output::print;
+use super::output::JsonOutput;
 use super::sources::{family, once};
 use super::subjects::{Answering, Asked, Permit, Programs, asked, seconds};
 use super::whole;
@@ -28,6 +30,7 @@ Examples:
   tunnelproof slowest
   tunnelproof slowest --subject additive --family uniform,lattice --seconds 300
   tunnelproof slowest --subject lib:./libmy_ccd.so --count 4 > slowest.jsonl
+  tunnelproof slowest --seconds 10 --json slowest.json
   tunnelproof slowest | tunnelproof certify --subject certified,additive -
 
 Searches side by side, as many as --count, each begin at the slowest of 64 queries of the families.
@@ -63,10 +66,15 @@ pub(super) struct Slowest {
     /// The seed of the search
     #[arg(long, value_name = "S", default_value_t = 1, value_parser = whole, allow_negative_numbers = true)]
     seed: u64,
+    /// Write the queries with their times and what certify says to this file; - is the standard
+    /// output, in place of the queries alone
+    #[arg(long, value_name = "OUT")]
+    json: Option<PathBuf>,
 }
 
 impl Slowest {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
+        let output = JsonOutput::create(self.json.as_deref())?;
         let mut answering = self.programs.start(&self.subject)?;
         self.permit.grant(std::slice::from_mut(&mut answering))?;
         let subject = answering.subject();
@@ -103,12 +111,10 @@ impl Slowest {
         }
         eprintln!("{}: {asked} queries tried", subject.name());
         let disagreement = Disagreement::with_oracle(subject);
+        let (mut lines, mut slow) = (String::new(), Vec::new());
         for (Costly { query, cost }, place) in found.iter().zip(1..) {
             let id = format!("slowest-{place}");
-            print(&format!(
-                "{}\n",
-                AnyQuery::from(*query).line(&id, Numbers::Decimal)
-            ))?;
+            let line = AnyQuery::from(*query).line(&id, Numbers::Decimal);
             let fault = disagreement.fault(query);
             let judged = match &fault {
                 Ok(Some(fault)) => fault.name(),
@@ -116,7 +122,13 @@ impl Slowest {
                 Err(_) => "not judged",
             };
             eprintln!("{id}: {cost:.2?}, {judged}");
+            // The line is JSON, as it is printed.
+            let query: Value = serde_json::from_str(&line).unwrap_or_default();
+            slow.push(json!({ "query": query, "seconds": cost.as_secs_f64(), "judged": judged }));
+            lines += &(line + "\n");
         }
+        let found = json!({ "subject": subject.name(), "tried": asked, "slowest": slow });
+        output.write(|| Ok(format!("{found:#}")), || lines)?;
         match is_stopped {
             true => Ok(interrupted()),
             false => Ok(ExitCode::SUCCESS),

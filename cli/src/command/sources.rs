@@ -1,7 +1,10 @@
 //! Which queries a command is about, and how large the scene is.
 
-use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use std::ffi::OsStr;
+
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::error::ContextKind;
+use clap::{Arg, Args, Command, Error};
 use tunnelproof_cli::sweep::{Domain, DomainError, Precision};
 use tunnelproof_reference::certify::source::{AnyFamily, Source};
 use tunnelproof_reference::corpus::folder;
@@ -121,7 +124,8 @@ fn precision() -> impl TypedValueParser<Value = Precision> {
 
 pub(super) fn any_family() -> impl TypedValueParser<Value = AnyFamily> {
     let turning = all_rigid().map(RigidFamily::name);
-    PossibleValuesParser::new(generate::all().map(Family::name).chain(turning)).try_map(|name| {
+    let names = generate::all().map(Family::name).chain(turning);
+    Listed::new(names).try_map(|name| {
         let linear = generate::by_name(&name).map(AnyFamily::Linear);
         let turning = || rigid_by_name(&name).map(AnyFamily::Turning);
         linear.or_else(turning).ok_or("unknown family")
@@ -129,6 +133,38 @@ pub(super) fn any_family() -> impl TypedValueParser<Value = AnyFamily> {
 }
 
 pub(super) fn family() -> impl TypedValueParser<Value = &'static Family> {
-    PossibleValuesParser::new(generate::all().map(Family::name))
+    Listed::new(generate::all().map(Family::name))
         .try_map(|name| generate::by_name(&name).ok_or("unknown family"))
+}
+
+/// One of many names, in a list in which there may be spaces. An error does not list them all.
+#[derive(Clone)]
+pub(super) struct Listed(PossibleValuesParser);
+
+impl Listed {
+    pub(super) fn new(names: impl Iterator<Item = &'static str>) -> Self {
+        Listed(PossibleValuesParser::new(names))
+    }
+}
+
+impl TypedValueParser for Listed {
+    type Value = String;
+
+    fn parse_ref(
+        &self,
+        command: &Command,
+        arg: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<String, Error> {
+        let name = value.to_str().map_or(value, |name| OsStr::new(name.trim()));
+        let known = self.0.parse_ref(command, arg, name);
+        known.map_err(|mut error| {
+            error.remove(ContextKind::ValidValue);
+            error
+        })
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        self.0.possible_values()
+    }
 }

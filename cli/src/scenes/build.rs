@@ -7,7 +7,7 @@ use nalgebra::{Quaternion, UnitQuaternion};
 use super::check;
 use super::error::{Reason, SceneError};
 use super::file::{Body, Drive, Material, ReelPhase, Scene, Shape, Stop, Turn, Wire};
-use super::hang::hang;
+use super::hang::{NoCatenary, hang};
 use tunnelproof::broad::Method;
 use tunnelproof::narrow::NarrowPhase;
 use tunnelproof::query::Point;
@@ -79,22 +79,31 @@ impl Scene {
     ) -> Result<(WirePlan, Vec<usize>), SceneError> {
         let mut route = Vec::new();
         let mut entries = Vec::new();
-        for (at, stop) in wire.route.iter().enumerate() {
-            let wrong = |reason| SceneError::new(&[&"wires", &k, &"route", &at], reason);
-            match self.stop(stop) {
-                Err(name) => return Err(wrong(Reason::NoBody(name))),
-                Ok(Some(stop)) => {
+        let wrong = |at: usize, name: &str, reason| {
+            SceneError::new(&[&"wires", &k, &"route", &at, &name], reason)
+        };
+        // Where a wire hangs, the stop after it has to be there too.
+        let stops = wire.route.iter().enumerate().map(|(at, stop)| {
+            self.stop(stop).map_err(|name| {
+                let bodies = self.bodies.iter().map(|body| body.name.clone()).collect();
+                wrong(at, "body", Reason::NoBody { name, bodies })
+            })
+        });
+        let stops: Vec<_> = stops.collect::<Result<_, _>>()?;
+        for (at, (stop, entry)) in stops.into_iter().zip(&wire.route).enumerate() {
+            match (stop, entry) {
+                (Some(stop), _) => {
                     route.push(stop);
                     entries.push(at);
                 }
-                Ok(None) => {
-                    let Stop::Hang(length) = *stop else { continue };
+                (None, &Stop::Hang(length)) => {
                     let points = self
                         .hanging(world, wire, at, length)
-                        .ok_or_else(|| wrong(Reason::Hang(length)))?;
+                        .map_err(|why| wrong(at, "hang", Reason::Hang { length, why }))?;
                     entries.extend(points.iter().map(|_| at));
                     route.extend(points.into_iter().map(wire::Stop::Free));
                 }
+                (None, _) => {}
             }
         }
         let material = wire.material.plan();
@@ -143,19 +152,25 @@ impl Scene {
     }
 
     /// Free nodes between the stops before and after a place of a route.
-    fn hanging(&self, world: &World, wire: &Wire, at: usize, length: f64) -> Option<Vec<Point>> {
+    fn hanging(
+        &self,
+        world: &World,
+        wire: &Wire,
+        at: usize,
+        length: f64,
+    ) -> Result<Vec<Point>, NoCatenary> {
         let point = |stop: Option<&Stop>| match self.stop(stop?).ok()?? {
             wire::Stop::Free(at) | wire::Stop::Pinned(at) => Some(at),
             wire::Stop::Eye { body, local } | wire::Stop::Contact { body, local, .. } => {
                 Some(world.bodies().get(body.0)?.point(&local))
             }
         };
-        let ends = [
-            point(wire.route.get(at.checked_sub(1)?))?,
-            point(wire.route.get(at + 1))?,
-        ];
+        let beside = [at.checked_sub(1), Some(at + 1)];
+        let [Some(from), Some(to)] = beside.map(|at| point(wire.route.get(at?))) else {
+            return Err(NoCatenary::AtEnd);
+        };
         let count = (length / wire.resolution).clamp(1.0, MOST_PARTS) as usize;
-        hang(ends, length, &self.settings.gravity, count)
+        hang([from, to], length, &self.settings.gravity, count)
     }
 }
 
@@ -333,6 +348,9 @@ fn refused(path: &[&dyn Display], error: ModelError) -> SceneError {
         ModelError::Massless { .. } => Some("shape"),
         ModelError::PhaseOrder { .. } => Some("kinematic"),
         ModelError::ShortRoute { .. } => Some("route"),
+        ModelError::ReelOrder { .. } | ModelError::ReelAtFreeEnd | ModelError::ReelAtClamp => {
+            Some("reel")
+        }
         _ => None,
     };
     path.extend(field.iter().map(|field| field as &dyn Display));

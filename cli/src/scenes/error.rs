@@ -6,6 +6,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::EMBEDDED;
+use super::hang::NoCatenary;
 use tunnelproof::wire::ModelError;
 
 /// Why a scene is refused.
@@ -22,22 +23,32 @@ pub struct SceneError {
 /// What is wrong with a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reason {
-    /// It is no TOML, or a field is missing, unknown or of another kind. The text shows the place.
+    /// It is no TOML, or a field is missing, unknown or of another kind.
     Text(String),
     /// No scene has this name.
     Unknown(String),
     /// A value that the model refuses.
     Model(ModelError),
     /// No body has this name.
-    NoBody(String),
+    NoBody {
+        /// The name.
+        name: String,
+        /// The names that bodies have.
+        bodies: Vec<String>,
+    },
     /// Two bodies or two wires have this name.
     Twice(String),
     /// Something else says the same, by this field.
     Both(&'static str),
     /// The state to go on from is of another scene: what it has there.
     State(String),
-    /// A wire cannot hang there in a catenary of this length.
-    Hang(f64),
+    /// A wire cannot hang there in a catenary.
+    Hang {
+        /// Of this length in m.
+        length: f64,
+        /// Why not.
+        why: NoCatenary,
+    },
 }
 
 impl SceneError {
@@ -49,48 +60,71 @@ impl SceneError {
         }
     }
 
-    /// The same with the line in a file.
+    /// The same with the line in a file, and with the whole path of what is named.
     pub(super) fn in_file(mut self, text: &str) -> Self {
         // The file has been read before, so it parses.
         if let Ok(root) = DeTable::parse(text) {
-            let at = place(&root, &self.path);
-            self.line = Some(1 + text[..at].matches('\n').count());
+            let at = place(&root, &mut self.path);
+            self.line = Some(line_at(text, at));
         }
         self
     }
 }
 
+/// The line of a place in a text, from 1.
+pub(super) fn line_at(text: &str, at: usize) -> usize {
+    let before = text.bytes().take(at);
+    1 + before.filter(|&byte| byte == b'\n').count()
+}
+
 /// Where the value at a path starts, or the innermost one that is there. A last name that is not
-/// there is looked for further in.
-fn place(root: &Spanned<DeTable<'_>>, path: &[String]) -> usize {
+/// there is looked for further in, and if it is there once the path leads to it.
+fn place(root: &Spanned<DeTable<'_>>, path: &mut Vec<String>) -> usize {
     let mut at = root.span().start;
     let mut inside: Option<&DeValue<'_>> = None;
-    for name in path {
+    for (k, name) in path.iter().enumerate() {
         let next = match inside {
             None => root.get_ref().get(name.as_str()),
             Some(DeValue::Table(table)) => table.get(name.as_str()),
             Some(DeValue::Array(array)) => name.parse().ok().and_then(|k: usize| array.get(k)),
             Some(_) => None,
         };
-        match next {
-            Some(value) => (at, inside) = (value.span().start, Some(value.get_ref())),
-            None => return inside.and_then(|inside| find(inside, name)).unwrap_or(at),
+        if let Some(value) = next {
+            (at, inside) = (value.span().start, Some(value.get_ref()));
+            continue;
         }
+        let mut found = Vec::new();
+        if let Some(inside) = inside {
+            find(inside, name, &path[..k], &mut found);
+        }
+        match found.as_mut_slice() {
+            [] => {}
+            [(start, whole)] => (at, *path) = (*start, std::mem::take(whole)),
+            [(start, _), ..] => at = *start,
+        }
+        return at;
     }
     at
 }
 
-/// Where the first field of a name starts.
-fn find(value: &DeValue<'_>, name: &str) -> Option<usize> {
+/// Where fields of a name start, and their paths.
+fn find(value: &DeValue<'_>, name: &str, path: &[String], found: &mut Vec<(usize, Vec<String>)>) {
+    let within = |name: &str| [path, &[name.to_owned()]].concat();
     match value {
         DeValue::Table(table) => match table.get(name) {
-            Some(found) => Some(found.span().start),
-            None => table
-                .iter()
-                .find_map(|(_, value)| find(value.get_ref(), name)),
+            Some(value) => found.push((value.span().start, within(name))),
+            None => {
+                for (key, value) in table {
+                    find(value.get_ref(), name, &within(key.get_ref()), found);
+                }
+            }
         },
-        DeValue::Array(array) => array.iter().find_map(|value| find(value.get_ref(), name)),
-        _ => None,
+        DeValue::Array(array) => {
+            for (k, value) in array.iter().enumerate() {
+                find(value.get_ref(), name, &within(&k.to_string()), found);
+            }
+        }
+        _ => {}
     }
 }
 
@@ -129,18 +163,37 @@ impl fmt::Display for Reason {
                 f.write_str(&names.join(", "))
             }
             Reason::Model(error) => error.fmt(f),
-            Reason::NoBody(name) => write!(f, "there is no body {name:?}"),
+            Reason::NoBody { name, bodies } => match bodies.as_slice() {
+                [] => write!(f, "there is no body {name:?}; there is none at all"),
+                bodies => write!(
+                    f,
+                    "there is no body {name:?}; bodies are {}",
+                    bodies.join(", ")
+                ),
+            },
             Reason::Twice(name) => write!(f, "the name {name:?} is there twice"),
             Reason::Both(other) => {
                 write!(f, "{other} says the same; only one of the two may be there")
             }
             Reason::State(what) => write!(f, "not as in the state to go on from, which has {what}"),
-            Reason::Hang(length) => write!(
-                f,
-                "hang is {length}; it must be longer than the way between the stops before and \
-                after it, which must \
-                 not be one above the other, and there must be gravity"
-            ),
+            Reason::Hang { length, why } => {
+                write!(f, "hang is {length}, ")?;
+                match why {
+                    NoCatenary::AtEnd => f.write_str(
+                        "it must be between two stops that have places: free, pinned, eye or contact",
+                    ),
+                    NoCatenary::Weightless => f.write_str("but there is no gravity to hang in"),
+                    NoCatenary::Short(way) => write!(
+                        f,
+                        "it must be above {way}, the way between the stops before and after it"
+                    ),
+                    NoCatenary::Above([x, y, z]) => write!(
+                        f,
+                        "but its ends are one above the other and it would lie on itself; in its \
+                        place a stop {{ free = [{x}, {y}, {z}] }} keeps its strands apart"
+                    ),
+                }
+            }
         }
     }
 }

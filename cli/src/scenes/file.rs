@@ -266,6 +266,7 @@ pub enum Stop {
         /// Coefficient of friction.
         friction: f64,
     },
-    /// Between two points: from one to the other it hangs as a catenary of this length in m.
+    /// Between two points: from one to the other it hangs as a catenary of this length in m. It knows
+    /// no bodies: where a floor is in the way, free stops lay the wire on it.
     Hang(f64),
 }

@@ -3,24 +3,49 @@
 use tunnelproof::query::Point;
 use tunnelproof::wire::Vector;
 
+/// Why a wire cannot hang as a catenary.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoCatenary {
+    /// There is no stop with a place on both sides.
+    AtEnd,
+    /// Nothing pulls.
+    Weightless,
+    /// It is no longer than the way, in m.
+    Short(f64),
+    /// Its ends are one above the other: it would fold onto itself. A place beside where it would turn.
+    Above([f64; 3]),
+}
+
 /// The corners of a polygon of `count` equal arcs of the catenary from one point to another, ends
-/// left out, so that the polygon has a length in m. None unless gravity pulls, the points are apart
-/// across it and nearer to each other than the length.
+/// left out, so that the polygon has a length in m. It knows no bodies.
+///
+/// # Errors
+///
+/// Unless gravity pulls, the points are apart across it and nearer to each other than the length.
 pub(super) fn hang(
     [from, to]: [Point; 2],
     length: f64,
     gravity: &Vector,
     count: usize,
-) -> Option<Vec<Point>> {
-    let up = (-gravity).try_normalize(0.0)?;
+) -> Result<Vec<Point>, NoCatenary> {
+    let up = (-gravity)
+        .try_normalize(0.0)
+        .ok_or(NoCatenary::Weightless)?;
     let way = to - from;
+    if !(length > way.norm() && length.is_finite()) {
+        return Err(NoCatenary::Short(way.norm()));
+    }
     let rise = way.dot(&up);
     let across = way - up * rise;
     let distance = across.norm();
-    let ahead = across.try_normalize(0.0)?;
-    if !(length > way.norm() && length.is_finite() && distance > 0.0) {
-        return None;
-    }
+    let Some(ahead) = across.try_normalize(0.0) else {
+        let lower = if rise > 0.0 { from } else { to };
+        let slack = length - rise.abs();
+        let aside = Vector::ith(up.iamin(), slack / 10.0);
+        return Err(NoCatenary::Above(
+            (lower - up * (slack / 2.0) + aside).into(),
+        ));
+    };
     let points = |a: f64| -> Vec<Point> {
         let at = |(x, z): (f64, f64)| from + ahead * x + up * z;
         arcs(a, distance, rise, count).map(at).collect()
@@ -35,7 +60,7 @@ pub(super) fn hang(
         bracket[usize::from(!longer)] = a;
     }
     let polygon = points(bracket[0]);
-    Some(polygon[1..count].to_vec())
+    Ok(polygon[1..count].to_vec())
 }
 
 /// Corners at equal arcs, from (0, 0) to (`distance`, `rise`), of the catenary `z = a cosh((x - x0)
@@ -93,11 +118,15 @@ mod tests {
         let none = Vector::zeros();
         let ends = [Point::origin(), Point::new(3.0, 0.0, 4.0)];
         let hang = |ends, length, gravity| hang(ends, length, gravity, 4);
-        assert!(hang(ends, 5.1, &gravity).is_some());
-        assert_eq!(hang(ends, 5.0, &gravity), None);
-        assert_eq!(hang(ends, f64::NAN, &gravity), None);
-        assert_eq!(hang(ends, 5.1, &none), None);
+        assert!(hang(ends, 5.1, &gravity).is_ok());
+        assert_eq!(hang(ends, 5.0, &gravity), Err(NoCatenary::Short(5.0)));
+        assert_eq!(hang(ends, f64::NAN, &gravity), Err(NoCatenary::Short(5.0)));
+        assert_eq!(hang(ends, 5.1, &none), Err(NoCatenary::Weightless));
         let above = [Point::origin(), Point::new(0.0, 0.0, 4.0)];
-        assert_eq!(hang(above, 5.1, &gravity), None);
+        // A metre of slack is half a metre below the lower end, whichever that is.
+        let turn = Err(NoCatenary::Above([0.1, 0.0, -0.5]));
+        assert_eq!(hang(above, 5.0, &gravity), turn);
+        let [high, low] = above;
+        assert_eq!(hang([low, high], 5.0, &gravity), turn);
     }
 }

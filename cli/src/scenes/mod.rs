@@ -36,6 +36,7 @@ mod continued;
 mod error;
 mod file;
 mod hang;
+mod kinds;
 mod settings;
 
 #[cfg(test)]
@@ -44,6 +45,7 @@ mod tests;
 pub use continued::Difference;
 pub use error::{Reason, SceneError};
 pub use file::{Body, Drive, Dynamic, Material, Phase, ReelPhase, Scene, Shape, Stop, Turn, Wire};
+pub use hang::NoCatenary;
 
 use tunnelproof::wire::World;
 
@@ -84,9 +86,10 @@ impl Scene {
     ///
     /// # Errors
     ///
-    /// What is wrong, with its line: TOML that cannot be read, a field that is missing or unknown,
-    /// or a value that the model refuses.
+    /// What is wrong, with its line: TOML that cannot be read, a field that is missing, unknown or of
+    /// another kind, or a value that the model refuses.
     pub fn from_toml(text: &str) -> Result<Self, SceneError> {
+        kinds::check(text)?;
         let scene: Scene = toml::from_str(text)?;
         match scene.world() {
             Ok(_) => Ok(scene),

@@ -151,6 +151,9 @@ impl fmt::Display for HeldSlides {
 
 #[cfg(test)]
 mod tests {
+    use tunnelproof::certified::Certified;
+    use tunnelproof::wire::Mode;
+
     use crate::scenes::Scene;
     use crate::simulate::Summary;
 
@@ -184,5 +187,73 @@ mod tests {
             panic!("one wire")
         };
         assert_eq!(rope.to_string(), "rope by 49% of its length");
+    }
+
+    /// Two loads on a rope over a pulley, which start at a speed; how fast they are at the end.
+    fn atwood(rate: f64, resolution: f64, masses: [f64; 2], speed: f64) -> ([f64; 2], Summary) {
+        const RADIUS: f64 = 0.505;
+        let turn: Vec<String> = (0..=6_i32)
+            .map(|k| {
+                let (y, x) = (f64::from(k) * std::f64::consts::PI / 6.0).sin_cos();
+                format!(
+                    "{{ contact = {{ body = \"pulley\", local = [{}, {}, 0], normal = [{x}, {y}, 0], friction = 0 }} }}",
+                    RADIUS * x,
+                    RADIUS * y
+                )
+            })
+            .collect();
+        let load = |name: &str, x: f64, z: f64, mass: f64, speed: f64| {
+            format!(
+                "[[bodies]]\nname = \"{name}\"\nshape = {{ box = {{ half = [0.1, 0.1, 0.1] }} }}\nposition = [{x}, 0, {z}]\n\
+                 drive = {{ dynamic = {{ density = {}, velocity = [0, 0, {speed}] }} }}\n",
+                mass / 0.008
+            )
+        };
+        let text = format!(
+            "title = \"pulley\"\nduration = 1\n[settings]\nstep = {}\nslide_limit = 10\n\
+             [[bodies]]\nname = \"pulley\"\nshape = {{ cylinder = {{ radius = 0.5, half_height = 0.03 }} }}\n\
+             position = [0, 0, 0]\nturn = {{ axis = [1, 0, 0], degrees = 90 }}\n{}{}\
+             [[wires]]\nname = \"rope\"\nresolution = {resolution}\n\
+             material = {{ radius = 0.005, mass_per_length = 0.001, stretch_stiffness = 1e6, bend_stiffness = 0 }}\n\
+             route = [{{ eye = {{ body = \"heavy\", local = [0, 0, 0.1] }} }}, {}, {{ eye = {{ body = \"light\", local = [0, 0, 0.1] }} }}]\n",
+            1.0 / rate,
+            load("heavy", RADIUS, -5.1, masses[0], -speed),
+            load("light", -RADIUS, -60.1, masses[1], speed),
+            turn.join(", ")
+        );
+        let scene = Scene::from_toml(&text).unwrap();
+        let mut world = scene.world().unwrap();
+        let mut collisions = scene.collisions(Mode::Guard, &Certified).unwrap();
+        for _ in 0..scene.steps() {
+            world.step_colliding(&mut collisions, &[]).unwrap();
+        }
+        let speeds = [1, 2].map(|body| world.bodies()[body].velocity().z.abs());
+        (speeds, Summary::of_guarded(&scene).unwrap())
+    }
+
+    #[test]
+    fn rope_runs_as_fast_over_a_pulley_as_its_loads_fall() {
+        // Atwood's machine, the rope without weight.
+        for (rate, resolution, masses, speed) in [
+            (60.0, 0.25, [120.0, 100.0], 0.0),
+            (60.0, 0.25, [120.0, 100.0], 6.0),
+            (60.0, 1.0, [120.0, 100.0], 12.0),
+            (60.0, 1.0, [120.0, 100.0], 20.0),
+            (240.0, 0.25, [120.0, 100.0], 12.0),
+            (240.0, 1.0, [120.0, 100.0], 40.0),
+            // By itself a rope gets as fast as it likes: more than half of its resolution in a step.
+            (60.0, 0.25, [1000.0, 10.0], 0.0),
+        ] {
+            let (ends, summary) = atwood(rate, resolution, masses, speed);
+            let [heavy, light] = masses;
+            let expected = speed + (heavy - light) / (heavy + light) * 9.80665;
+            for end in ends {
+                assert!(
+                    (end - expected).abs() < 0.02,
+                    "{rate} {resolution} {speed}: {end}"
+                );
+            }
+            assert_eq!(summary.held_slides.steps, 0, "{rate} {resolution} {speed}");
+        }
     }
 }

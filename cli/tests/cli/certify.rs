@@ -266,3 +266,20 @@ fn certify_reads_folders_and_names_wrong_labels() {
     let answers = tunnelproof(&["eval", path]);
     assert_eq!(stdout(&answers).lines().count(), 2, "{}", stderr(&answers));
 }
+
+#[test]
+fn families_are_listed_with_spaces_and_an_unknown_one_is_named_alone() {
+    let certify = |families| tunnelproof(&["certify", "--count", "10", "--family", families]);
+    let apart = certify("uniform, lattice");
+    assert_eq!(code(&apart), 0, "{}", stderr(&apart));
+    assert_eq!(stdout(&apart), stdout(&certify("uniform,lattice")));
+    let unknown = certify("uniform,latice");
+    assert_eq!(code(&unknown), 2);
+    let said = stderr(&unknown);
+    assert!(
+        said.contains("invalid value 'latice' for '--family"),
+        "{said}"
+    );
+    assert!(said.contains("a similar value exists: 'lattice'"), "{said}");
+    assert!(!said.contains("near_coplanar"), "{said}");
+}

@@ -203,7 +203,9 @@ fn simulate_refuses_what_is_no_scene() {
         .count();
     let said = stderr(&output);
     assert!(
-        said.contains(&format!("line {line}: wires[0].radius: radius is -1")),
+        said.contains(&format!(
+            "line {line}: wires[0].material.radius: radius is -1"
+        )),
         "{said}"
     );
     let output = tunnelproof(&["simulate", "no-such-scene"]);

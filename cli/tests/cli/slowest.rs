@@ -22,6 +22,27 @@ fn slowest_prints_queries_that_certify_reads_with_their_times() {
 }
 
 #[test]
+fn slowest_writes_queries_times_and_verdicts_as_json() {
+    let output = tunnelproof(&["slowest", "--seconds", "0.2", "--count", "2", "--json", "-"]);
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    let found: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(found["subject"], "certified");
+    assert!(found["tried"].as_u64().unwrap() >= 2);
+    let slow = found["slowest"].as_array().unwrap();
+    assert_eq!(slow.len(), 2);
+    let seconds = |k: usize| slow[k]["seconds"].as_f64().unwrap();
+    assert!(seconds(0) >= seconds(1) && seconds(1) > 0.0);
+    for query in slow {
+        assert_eq!(query["judged"], "right");
+        let again = with_input(
+            &["certify", "--strict", "--subject", "certified", "-"],
+            &format!("{}\n", query["query"]),
+        );
+        assert_eq!(code(&again), 0, "{}", stderr(&again));
+    }
+}
+
+#[test]
 fn slowest_says_what_is_wrong_and_what_a_subject_does_not_take() {
     let published = [
         "slowest",

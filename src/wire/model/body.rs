@@ -131,7 +131,7 @@ fn check_phases(phases: &[Phase]) -> Result<(), ModelError> {
         speed("angular_velocity", &phase.angular_velocity)?;
     }
     match out_of_order(phases, |phase| phase.from) {
-        Some(phase) => Err(ModelError::PhaseOrder { phase }),
+        Some((phase, from)) => Err(ModelError::PhaseOrder { phase, from }),
         None => Ok(()),
     }
 }

@@ -67,11 +67,15 @@ pub enum ModelError {
     PhaseOrder {
         /// The phase that does not start after the one before, from 0.
         phase: usize,
+        /// When it and the one before it start, in s.
+        from: [f64; 2],
     },
     /// Phases of a reel that do not follow each other in time.
     ReelOrder {
         /// The phase that does not start after the one before, from 0.
         phase: usize,
+        /// When it and the one before it start, in s.
+        from: [f64; 2],
     },
     /// A reel at an end that is free.
     ReelAtFreeEnd,
@@ -140,16 +144,8 @@ impl fmt::Display for ModelError {
                 "the mesh is not closed: edge {a} to {b} must be in exactly two triangles, once \
                 in each direction"
             ),
-            ModelError::PhaseOrder { phase } => write!(
-                f,
-                "phase {phase} of the kinematic body must start after the phase before it"
-            ),
-            ModelError::ReelOrder { phase } => {
-                write!(
-                    f,
-                    "phase {phase} of the reel must start after the phase before it"
-                )
-            }
+            ModelError::PhaseOrder { phase, from } => order(f, "kinematic body", *phase, *from),
+            ModelError::ReelOrder { phase, from } => order(f, "reel", *phase, *from),
             ModelError::ReelAtFreeEnd => {
                 f.write_str("the wire ends free, a reel must be at a fixed point or an eye")
             }
@@ -159,6 +155,17 @@ impl fmt::Display for ModelError {
             ),
         }
     }
+}
+
+/// Of phases, counted from 1 as people do.
+fn order(f: &mut fmt::Formatter<'_>, of: &str, phase: usize, from: [f64; 2]) -> fmt::Result {
+    let [from, before] = from.map(Short);
+    write!(
+        f,
+        "phase {} of the {of} starts at {from} s, it must start after phase {phase}, which starts at \
+        {before} s",
+        phase + 1
+    )
 }
 
 impl std::error::Error for ModelError {}

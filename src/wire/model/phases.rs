@@ -12,8 +12,11 @@ pub(super) fn phase_at<P>(
     phases.iter().rev().find(started)
 }
 
-/// The first phase that does not start after the one before.
-pub(super) fn out_of_order<P>(phases: &[P], from: impl Fn(&P) -> f64) -> Option<usize> {
-    let is_early = |two: &[P]| from(&two[1]) <= from(&two[0]);
-    Some(phases.windows(2).position(is_early)? + 1)
+/// The first phase that does not start after the one before, and when the two start, it first.
+pub(super) fn out_of_order<P>(phases: &[P], from: impl Fn(&P) -> f64) -> Option<(usize, [f64; 2])> {
+    let starts = phases.windows(2).map(|two| [from(&two[1]), from(&two[0])]);
+    let mut early = starts
+        .enumerate()
+        .filter(|(_, [this, before])| this <= before);
+    early.next().map(|(before, starts)| (before + 1, starts))
 }

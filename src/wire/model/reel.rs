@@ -26,8 +26,8 @@ pub(in crate::wire) fn check(nodes: &[Node], reel: &[ReelPhase]) -> Result<(), M
             return Err(ModelError::value("speed", phase.speed, accepted));
         }
     }
-    if let Some(phase) = out_of_order(reel, |phase| phase.from) {
-        return Err(ModelError::ReelOrder { phase });
+    if let Some((phase, from)) = out_of_order(reel, |phase| phase.from) {
+        return Err(ModelError::ReelOrder { phase, from });
     }
     match nodes {
         _ if reel.is_empty() => Ok(()),

@@ -185,7 +185,7 @@ fn bodies_are_refused_by_field() {
             "position is NaN, it must be finite",
             "a plane has no mass, a body of this shape must be static or kinematic",
             "from is NaN, it must be finite",
-            "phase 1 of the kinematic body must start after the phase before it",
+            "phase 2 of the kinematic body starts at 1 s, it must start after phase 1, which starts at 1 s",
         ]
     );
 }

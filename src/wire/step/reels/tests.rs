@@ -129,7 +129,7 @@ fn reels_are_refused_that_mean_nothing() {
     let phase = |from, speed| ReelPhase { from, speed };
     assert_eq!(
         said(vec![phase(1.0, 0.5), phase(1.0, 0.0)]),
-        "phase 1 of the reel must start after the phase before it"
+        "phase 2 of the reel starts at 1 s, it must start after phase 1, which starts at 1 s"
     );
     assert_eq!(said(always(f64::NAN)), "speed is NaN, it must be finite");
     assert_eq!(
