@@ -300,19 +300,53 @@ impl fmt::Display for QueryError {
 
 impl std::error::Error for QueryError {}
 
-/// What positions may be stored in: `f64` or `f32`. Every `f32` is an `f64`, so nothing is rounded.
-pub trait Coordinate: Copy + fmt::Debug + Send + Sync + Into<f64> + sealed::Sealed {}
+/// What positions are stored in: `f64` or `f32`. Every `f32` is an `f64`, so nothing is rounded where
+/// positions are asked about. Those that a step returns are rounded to this type, and proved so.
+pub trait Coordinate:
+    Copy + PartialEq + fmt::Debug + Send + Sync + Into<f64> + sealed::Sealed
+{
+}
 
 impl Coordinate for f64 {}
 
 impl Coordinate for f32 {}
 
 mod sealed {
-    pub trait Sealed {}
+    use crate::certified::Precision;
 
-    impl Sealed for f64 {}
+    pub trait Sealed {
+        /// What steps round to.
+        const PRECISION: Precision;
 
-    impl Sealed for f32 {}
+        /// A number of this type, from an `f64` that is one.
+        fn of(x: f64) -> Self;
+    }
+
+    impl Sealed for f64 {
+        const PRECISION: Precision = Precision::F64;
+
+        #[inline(always)]
+        fn of(x: f64) -> Self {
+            x
+        }
+    }
+
+    impl Sealed for f32 {
+        const PRECISION: Precision = Precision::F32;
+
+        #[inline(always)]
+        fn of(x: f64) -> Self {
+            let single = x as f32;
+            debug_assert_eq!(f64::from(single), x);
+            single
+        }
+    }
+}
+
+/// A position in `f64`, exactly.
+#[inline(always)]
+pub(crate) fn widened<C: Coordinate>(position: &[C; 3]) -> [f64; 3] {
+    position.map(Into::into)
 }
 
 /// The first coordinate that is not a finite number: of which position, on which axis, and what it
@@ -320,8 +354,8 @@ mod sealed {
 pub(crate) fn first_not_finite<C: Coordinate>(positions: &[[C; 3]]) -> Option<(usize, usize, f64)> {
     let mut all = positions.iter().enumerate();
     all.find_map(|(place, position)| {
-        let position = position.map(Into::into);
-        let axis = position.iter().position(|x: &f64| !x.is_finite())?;
+        let position = widened(position);
+        let axis = position.iter().position(|x| !x.is_finite())?;
         Some((place, axis, position[axis]))
     })
 }
