@@ -172,10 +172,7 @@ impl Mesh {
             thickness,
         } = asked;
         let clearance = with_default(|| advance::clearance(clearance, share))?;
-        let step = || {
-            self.0
-                .step_with_clearance(start, end, thickness, clearance)
-        };
+        let step = || self.0.step_with_clearance(start, end, thickness, clearance);
         let step = py.detach(|| with_default(step));
         let MeshStep {
             step,

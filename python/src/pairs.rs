@@ -5,8 +5,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use tunnelproof::certified::Kind;
 use tunnelproof::{
-    Clearance, Coordinate, EdgeEdge, Hit, ListedPair, Pairs, PairsError, PairsStep, QueryKind, Radius,
-    VertexFace, advance_pairs as engine_advance_pairs,
+    Clearance, Coordinate, EdgeEdge, Hit, ListedPair, Pairs, PairsError, PairsStep, QueryKind,
+    Radius, VertexFace, advance_pairs as engine_advance_pairs,
 };
 use tunnelproof_float_env::with_default;
 
