@@ -26,13 +26,16 @@ use tunnelproof::additive::Additive;
 use tunnelproof::broad::Method;
 use tunnelproof::certified::{self, Batch};
 use tunnelproof::narrow::NarrowPhase;
-use tunnelproof::query::EdgeEdge;
+use tunnelproof::query::{Coordinate, EdgeEdge, VertexFace};
 use tunnelproof::thesis::Thesis;
+use tunnelproof::{Clearance, Pairs, advance_pairs};
 
 #[path = "data/crossed.rs"]
 mod crossed;
 mod data;
 mod scenes;
+#[path = "data/sheet.rs"]
+mod sheet;
 #[path = "data/span.rs"]
 mod span;
 
@@ -70,6 +73,10 @@ fn main() {
         ["wire", scene, segments, steps] => {
             return step_wire(scene, segments.parse().unwrap(), steps.parse().unwrap());
         }
+        ["sheet", asked, "f64", count] => return ask_sheet(|x| x, asked, count.parse().unwrap()),
+        ["sheet", asked, _, count] => {
+            return ask_sheet(|x| x as f32, asked, count.parse().unwrap());
+        }
         _ => {}
     }
     if Command::new("valgrind").arg("--version").output().is_err() {
@@ -83,6 +90,7 @@ fn main() {
             narrow_phases();
             broad_phases();
             wires();
+            sheets();
         }
     }
 }
@@ -255,6 +263,60 @@ fn wires() {
             format!("{each:>17}")
         });
         println!("{segments:>8} segments{}", cells.concat());
+    }
+}
+
+/// What is asked of a rolled-up sheet.
+const OF_A_SHEET: [&str; 4] = ["step", "first-contact", "advance-pairs", "decide-pairs"];
+
+fn sheets() {
+    println!("\ninstructions of a rolled-up sheet per vertex and question");
+    let names = OF_A_SHEET.map(|name| format!("{name:>17}"));
+    println!("{:<9}{}", "positions", names.concat());
+    for precision in ["f64", "f32"] {
+        let cells = OF_A_SHEET.map(|asked| {
+            let times = |count| instructions(&["sheet", asked, precision, count]);
+            let each = (times("2") - times("1")) / u64::from(SIDE * SIDE);
+            format!("{each:>17}")
+        });
+        println!("{precision:<9}{}", cells.concat());
+    }
+}
+
+/// How many vertices the sheet has on each side, and how thick it is.
+const SIDE: u32 = 50;
+const THICKNESS: f64 = 0.002;
+
+/// Asks something about the sheet so many times, with positions that are stored as `stored` says.
+fn ask_sheet<C: Coordinate>(stored: impl Fn(f64) -> C, asked: &str, count: usize) {
+    let (mesh, start, end) = sheet::rolled_sheet(SIDE);
+    let typed = |all: &[sheet::Position]| -> Vec<[C; 3]> {
+        all.iter().map(|position| position.map(&stored)).collect()
+    };
+    let (start, end) = (typed(&start), typed(&end));
+    // Some pairs, as a broad phase lists them.
+    let next = |i: usize| [7, 50, 151, 500].map(|far| i + far);
+    let (all, mut edges, mut faces) = (mesh.edges(), Vec::new(), Vec::new());
+    for (i, &[a, b]) in all.iter().enumerate() {
+        let others = next(i).into_iter().filter_map(|other| all.get(other));
+        edges.extend(others.map(|&[c, d]| [a, b, c, d]));
+    }
+    for a in 0..SIDE * SIDE {
+        let others = next(a as usize).into_iter();
+        let others = others.filter_map(|other| mesh.faces().get(other));
+        faces.extend(others.map(|&[b, c, d]| [a, b, c, d]));
+    }
+    edges.retain(|[a, b, others @ ..]| !others.contains(a) && !others.contains(b));
+    faces.retain(|[a, face @ ..]| !face.contains(a));
+    let edges = Pairs::<EdgeEdge, C>::new(&start, &end, &edges, THICKNESS).unwrap();
+    let faces = Pairs::<VertexFace, C>::new(&start, &end, &faces, THICKNESS).unwrap();
+    for _ in 0..count {
+        match asked {
+            "step" => consume(mesh.step(&start, &end, THICKNESS)),
+            "first-contact" => consume(mesh.first_contact(&start, &end, THICKNESS)),
+            "advance-pairs" => consume(advance_pairs(&edges, &faces, Clearance::None)),
+            _ => consume((edges.decide(), faces.decide())),
+        }
     }
 }
 

@@ -1,51 +1,22 @@
 //! Steps of whole meshes: a sheet of cloth, rolled up, that falls and trembles; without thickness
-//! and with one.
+//! and with one, in `f64` and in `f32`.
 //!
 //! `RAYON_NUM_THREADS=1 cargo bench --bench mesh` on one thread; all without the variable.
 //! `TUNNELPROOF_SIDES=50,100,1600 cargo bench --bench mesh` times sheets of
 //! so many vertices on each side instead, and says what a candidate costs.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use std::hint::black_box;
 use std::time::Instant;
-use tunnelproof::Mesh;
 
-type Position = [f64; 3];
+#[path = "data/sheet.rs"]
+mod sheet;
 
-/// A square sheet of so many vertices on each side, rolled up in turns 7.5 cm apart.
-fn rolled_sheet(side: u32) -> (Mesh, Vec<Position>, Vec<Position>) {
-    let rng = &mut ChaCha8Rng::seed_from_u64(1);
-    let spacing = 1.0 / f64::from(side);
-    let mut noise = |size: f64| [(); 3].map(|()| rng.random_range(-0.5..0.5) * size * spacing);
-    let (mut start, mut end) = (Vec::new(), Vec::new());
-    for i in 0..side {
-        for j in 0..side {
-            let [x, y] = [i, j].map(|k| f64::from(k) * spacing);
-            let angle = 12.0 * x;
-            let radius = 0.2 + 0.012 * angle;
-            let tremble = noise(0.1);
-            let at = [radius * angle.cos(), radius * angle.sin(), y];
-            let at = [0, 1, 2].map(|k| at[k] + tremble[k]);
-            let tremble = noise(0.3);
-            start.push(at);
-            end.push([
-                0.98 * at[0] + tremble[0],
-                at[1] + 0.01 + tremble[1],
-                at[2] - 0.5 * spacing + tremble[2],
-            ]);
-        }
-    }
-    let mut faces = Vec::new();
-    for i in 0..side - 1 {
-        for j in 0..side - 1 {
-            let [a, b] = [i * side + j, (i + 1) * side + j];
-            faces.extend([[a, a + 1, b], [a + 1, b + 1, b]]);
-        }
-    }
-    let mesh = Mesh::new(start.len(), &[], &faces).expect("indices are those of vertices");
-    (mesh, start, end)
+use sheet::{Position, rolled_sheet};
+
+fn in_f32(positions: &[Position]) -> Vec<[f32; 3]> {
+    let single = |position: &Position| position.map(|x| x as f32);
+    positions.iter().map(single).collect()
 }
 
 fn bench_sheets(c: &mut Criterion) {
@@ -66,6 +37,10 @@ fn bench_sheets(c: &mut Criterion) {
                 b.iter(|| black_box(mesh.first_contact(&start, &end, thickness)));
             });
             group.bench_function(id("step"), |b| {
+                b.iter(|| black_box(mesh.step(&start, &end, thickness)));
+            });
+            let (start, end) = (in_f32(&start), in_f32(&end));
+            group.bench_function(id("step-f32"), |b| {
                 b.iter(|| black_box(mesh.step(&start, &end, thickness)));
             });
         }

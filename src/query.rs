@@ -300,24 +300,38 @@ impl fmt::Display for QueryError {
 
 impl std::error::Error for QueryError {}
 
-/// What positions may be stored in: `f64` or `f32`. Every `f32` is an `f64`, so nothing is rounded.
-pub trait Coordinate: Copy + fmt::Debug + Send + Sync + Into<f64> + sealed::Sealed {}
+/// What positions are stored in: `f64` or `f32`. Every `f32` is an `f64`, so nothing is rounded where
+/// positions are asked about. Those that a step returns are rounded to this type, and proved so.
+pub trait Coordinate:
+    Copy + PartialEq + fmt::Debug + Send + Sync + Into<f64> + sealed::Sealed
+{
+}
 
 impl Coordinate for f64 {}
 
 impl Coordinate for f32 {}
 
 mod sealed {
+    use crate::certified::Precision;
+
     pub trait Sealed {
-        /// Whether it is `f32`.
-        const IS_SINGLE: bool;
+        /// What steps round to.
+        const PRECISION: Precision;
+
+        /// A number of this type, from an `f64` that is one.
+        fn of(x: f64) -> Self;
 
         /// The number in `f32`: itself, if it is one.
         fn single(self) -> f32;
     }
 
     impl Sealed for f64 {
-        const IS_SINGLE: bool = false;
+        const PRECISION: Precision = Precision::F64;
+
+        #[inline(always)]
+        fn of(x: f64) -> Self {
+            x
+        }
 
         #[inline(always)]
         fn single(self) -> f32 {
@@ -326,7 +340,14 @@ mod sealed {
     }
 
     impl Sealed for f32 {
-        const IS_SINGLE: bool = true;
+        const PRECISION: Precision = Precision::F32;
+
+        #[inline(always)]
+        fn of(x: f64) -> Self {
+            let single = x as f32;
+            debug_assert_eq!(f64::from(single), x);
+            single
+        }
 
         #[inline(always)]
         fn single(self) -> f32 {
@@ -335,13 +356,19 @@ mod sealed {
     }
 }
 
+/// A position in `f64`, exactly.
+#[inline(always)]
+pub(crate) fn widened<C: Coordinate>(position: &[C; 3]) -> [f64; 3] {
+    position.map(Into::into)
+}
+
 /// The first coordinate that is not a finite number: of which position, on which axis, and what it
 /// is.
 pub(crate) fn first_not_finite<C: Coordinate>(positions: &[[C; 3]]) -> Option<(usize, usize, f64)> {
     let mut all = positions.iter().enumerate();
     all.find_map(|(place, position)| {
-        let position = position.map(Into::into);
-        let axis = position.iter().position(|x: &f64| !x.is_finite())?;
+        let position = widened(position);
+        let axis = position.iter().position(|x| !x.is_finite())?;
         Some((place, axis, position[axis]))
     })
 }

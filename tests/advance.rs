@@ -289,7 +289,8 @@ fn advance_with_hardly_room_goes_as_far_as_without() {
     let start = [p(64., 64., 2.), face[0], face[1], face[2]];
     let end = [p(164., 164., 1.9999760389328003), face[0], face[1], face[2]];
     let mesh = Mesh::new(4, &[], &[[1, 2, 3]]).unwrap();
-    let [from, to] = [start, end].map(|points| points.map(<[f64; 3]>::from));
+    let single = |point: Point| <[f64; 3]>::from(point).map(|x| x as f32);
+    let [from, to] = [start, end].map(|points| points.map(single));
     let mut blocked = Vec::new();
     for radius in [
         1.9999803304680321,
@@ -302,12 +303,11 @@ fn advance_with_hardly_room_goes_as_far_as_without() {
         let moved = advance_in(&query, Clearance::None, Precision::F32).unwrap();
         blocked.push(moved.blocked);
         assert!(moved.step > 0.2, "{radius}: {moved:?}");
-        let step = mesh.step_in(&from, &to, radius, Clearance::None, Precision::F32);
-        let step = step.unwrap();
+        let step = mesh.step(&from, &to, radius).unwrap();
         assert!(step.step > 0.2, "{radius}: {step:?}");
         for points in [
             moved.points,
-            [0, 1, 2, 3].map(|i| Point::from(step.positions[i])),
+            [0, 1, 2, 3].map(|i| Point::from(step.positions[i].map(f64::from))),
         ] {
             let stored = query_of_face(start, points, radius);
             assert!(decide_query(&stored).hit.is_none(), "{radius}: {points:?}");

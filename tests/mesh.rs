@@ -7,7 +7,8 @@ use rand_chacha::ChaCha8Rng;
 use tunnelproof::mesh::{Feature, Mesh, MeshError, MeshStep, Pair, Thickness};
 use tunnelproof::query::{EdgeEdge, Point, Query, QueryKind, Radius, VertexFace};
 use tunnelproof::{
-    Blocked, Clearance, ListedPair, Pairs, Precision, advance_pairs, decide_exactly, interpolate,
+    Blocked, Clearance, Coordinate, ListedPair, Pairs, Precision, advance_pairs, decide_exactly,
+    interpolate_in,
 };
 use tunnelproof_reference::oracle::decide_query;
 
@@ -179,6 +180,18 @@ fn query(
     }
 }
 
+/// Positions rounded to `f32`, and to the largest where they are beyond it.
+fn in_f32(positions: &[Position]) -> Vec<[f32; 3]> {
+    let of = |x: f64| x.clamp(f32::MIN.into(), f32::MAX.into()) as f32;
+    positions.iter().map(|position| position.map(of)).collect()
+}
+
+/// The same numbers in `f64`.
+fn in_f64<C: Coordinate>(positions: &[[C; 3]]) -> Vec<Position> {
+    let of = |position: &[C; 3]| position.map(Into::into);
+    positions.iter().map(of).collect()
+}
+
 /// The time of impact of a query, by integers alone.
 fn toi(query: &Query) -> Option<[f64; 2]> {
     match query {
@@ -220,16 +233,52 @@ fn mesh_contacts_are_those_of_all_its_pairs() {
         assert_eq!(is_free, expected.is_empty(), "seed {seed}");
         contacts += expected.len();
         free += u64::from(is_free);
+        compare_with_f32(&scene, seed);
     }
     println!("{contacts} contacts, {free} of {COUNT} meshes free");
     assert!(contacts > 5 * COUNT as usize && free > COUNT / 20);
 }
 
+/// Contacts of positions in `f32` are those of the same numbers in `f64`.
+fn compare_with_f32(scene: &Scene, seed: u64) {
+    let mesh = &scene.mesh;
+    let [start, end] = [&scene.start, &scene.end].map(|all| in_f32(all));
+    let [same_start, same_end] = [&start, &end].map(|all| in_f64(all));
+    let all = mesh.all_contacts(&start, &end, scene.thickness());
+    let expected = mesh.all_contacts(&same_start, &same_end, scene.thickness());
+    assert_eq!(all, expected, "seed {seed}");
+    let first = mesh.first_contact(&start, &end, scene.thickness());
+    let expected = mesh.first_contact(&same_start, &same_end, scene.thickness());
+    assert_eq!(first, expected, "seed {seed}");
+    let is_free = mesh.is_free(&start, &end, scene.thickness());
+    assert_eq!(is_free, all.map(|all| all.is_empty()), "seed {seed}");
+    if let Some(first) = first.unwrap() {
+        let query = mesh.query(first.pair, &start, &end, scene.thickness());
+        let expected = mesh.query(first.pair, &same_start, &same_end, scene.thickness());
+        assert_eq!(query, expected, "seed {seed}");
+    }
+}
+
+/// Positions at both ends of a step, and how they are stored.
+struct Ends<C> {
+    start: Vec<[C; 3]>,
+    end: Vec<[C; 3]>,
+    precision: Precision,
+}
+
 /// What a step says is what the oracle says of the motion to its positions.
-fn judge(scene: &Scene, step: &MeshStep, clearance: Clearance, seed: u64) {
-    let Scene { start, end, .. } = scene;
-    for (i, position) in step.positions.iter().enumerate() {
-        let expected = interpolate(&start[i].into(), &end[i].into(), step.step);
+fn judge<C: Coordinate>(
+    scene: &Scene,
+    ends: &Ends<C>,
+    step: &MeshStep<C>,
+    clearance: Clearance,
+    seed: u64,
+) {
+    let [start, end] = [&ends.start, &ends.end].map(|all| in_f64(all));
+    let positions = in_f64(&step.positions);
+    for (i, position) in positions.iter().enumerate() {
+        let (start, end) = (&start[i].into(), &end[i].into());
+        let expected = interpolate_in(start, end, step.step, ends.precision);
         assert_eq!(Point::from(*position), expected, "seed {seed}");
     }
     assert_eq!(
@@ -253,7 +302,7 @@ fn judge(scene: &Scene, step: &MeshStep, clearance: Clearance, seed: u64) {
             None if beyond == 0.0 => radius,
             None => [(first + second).next_down().max(0.0), beyond].into(),
         };
-        let stored = query(pair, &vertices, start, &step.positions, kept);
+        let stored = query(pair, &vertices, &start, &positions, kept);
         assert!(
             decide_query(&stored).hit.is_none(),
             "seed {seed}: {pair:?} {step:?}"
@@ -263,10 +312,14 @@ fn judge(scene: &Scene, step: &MeshStep, clearance: Clearance, seed: u64) {
 
 /// The step of all pairs by their indices is that of the mesh, which asks those alone that its trees
 /// find.
-fn compare_with_pairs(scene: &Scene, clearance: Clearance, precision: Precision, seed: u64) {
-    let Scene {
-        mesh, start, end, ..
-    } = scene;
+fn compare_with_pairs<C: Coordinate>(
+    scene: &Scene,
+    ends: &Ends<C>,
+    step: &MeshStep<C>,
+    clearance: Clearance,
+    seed: u64,
+) {
+    let Ends { start, end, .. } = ends;
     let pairs = scene.pairs();
     let is_face = |pair: Pair| matches!(pair.second, Feature::Face(_));
     let list = |faces: bool| -> (Vec<Pair>, Vec<[u32; 4]>, Vec<Radius>) {
@@ -277,9 +330,7 @@ fn compare_with_pairs(scene: &Scene, clearance: Clearance, precision: Precision,
     let [edges, faces] = [list(false), list(true)];
     let of_edges = Pairs::with_radii(start, end, &edges.1, &edges.2).unwrap();
     let of_faces = Pairs::with_radii(start, end, &faces.1, &faces.2).unwrap();
-    let found = advance_pairs(&of_edges, &of_faces, clearance, precision).unwrap();
-    let step = mesh.step_in(start, end, scene.thickness(), clearance, precision);
-    let step = step.unwrap();
+    let found = advance_pairs(&of_edges, &of_faces, clearance).unwrap();
     assert_eq!(
         (found.step, &found.positions),
         (step.step, &step.positions),
@@ -303,56 +354,88 @@ fn compare_with_pairs(scene: &Scene, clearance: Clearance, precision: Precision,
     assert_eq!(near.collect::<Vec<_>>(), step.near, "seed {seed}");
 }
 
+/// How many steps of each sort there were.
+#[derive(Debug, Default)]
+struct Steps {
+    whole: usize,
+    part: usize,
+    touching: usize,
+    near: usize,
+}
+
 #[test]
 fn mesh_steps_store_positions_that_are_apart() {
-    let (mut whole, mut part, mut touching, mut near) = (0, 0, 0, 0);
+    let mut counts = [Steps::default(), Steps::default()];
     for seed in 0..COUNT / 3 {
-        let mut scene = scene(seed);
-        // Steps from what comes of the one before.
-        for turn in 0..4 {
-            let clearance = match seed % 3 {
-                0 => Clearance::None,
-                1 => Clearance::Distance(1e-3),
-                _ => Clearance::Share(0.25),
-            };
-            let Scene {
-                mesh, start, end, ..
-            } = &scene;
-            let step = mesh
-                .step_with_clearance(start, end, scene.thickness(), clearance)
-                .unwrap();
-            judge(&scene, &step, clearance, seed);
-            for precision in [Precision::F64, Precision::F32] {
-                compare_with_pairs(&scene, clearance, precision, seed);
-            }
-            near += step.near.len();
-            match step.step {
-                0.0 => {
-                    touching += 1;
-                    for limit in &step.limits {
-                        assert_ne!(limit.blocked, Blocked::Ahead, "seed {seed}");
-                    }
-                }
-                1.0 => whole += 1,
-                _ => part += 1,
-            }
-            // As large as rounding lets it be.
-            let first = mesh.first_contact(start, end, scene.thickness()).unwrap();
-            if clearance == Clearance::None && step.near.is_empty() {
-                let toi = first.map_or(1.0, |contact| contact.toi);
-                assert!(step.step <= toi, "seed {seed}");
-                // Where the room for rounding is small beside what is moved.
-                let is_ordinary = turn == 0 && matches!(scene.style, 1 | 4) && toi > 1e-6;
-                assert!(
-                    !is_ordinary || step.step >= 0.999_999 * toi,
-                    "seed {seed}: {toi} {step:?}"
-                );
-            }
-            scene.start = step.positions;
-        }
+        let scene = scene(seed);
+        let Scene { start, end, .. } = &scene;
+        let double = Ends {
+            start: start.clone(),
+            end: end.clone(),
+            precision: Precision::F64,
+        };
+        let single = Ends {
+            start: in_f32(start),
+            end: in_f32(end),
+            precision: Precision::F32,
+        };
+        let [of_double, of_single] = &mut counts;
+        walk(&scene, double, 1e-6, seed, of_double);
+        walk(&scene, single, 1e-3, seed, of_single);
     }
-    println!("{whole} whole steps, {part} in part, {touching} of 0, {near} near pairs");
-    assert!(whole > 0 && part > 0 && touching > 0 && near > 0);
+    println!("{counts:?}");
+    for Steps {
+        whole,
+        part,
+        touching,
+        near,
+    } in counts
+    {
+        assert!(whole > 0 && part > 0 && touching > 0 && near > 0);
+    }
+}
+
+/// Steps from what comes of the one before. Where the time of impact is above what rounding may lose,
+/// that part of it is lost at most.
+fn walk<C: Coordinate>(scene: &Scene, mut ends: Ends<C>, lost: f64, seed: u64, counts: &mut Steps) {
+    let mesh = &scene.mesh;
+    for turn in 0..4 {
+        let clearance = match seed % 3 {
+            0 => Clearance::None,
+            1 => Clearance::Distance(1e-3),
+            _ => Clearance::Share(0.25),
+        };
+        let Ends { start, end, .. } = &ends;
+        let step = mesh
+            .step_with_clearance(start, end, scene.thickness(), clearance)
+            .unwrap();
+        judge(scene, &ends, &step, clearance, seed);
+        compare_with_pairs(scene, &ends, &step, clearance, seed);
+        counts.near += step.near.len();
+        match step.step {
+            0.0 => {
+                counts.touching += 1;
+                for limit in &step.limits {
+                    assert_ne!(limit.blocked, Blocked::Ahead, "seed {seed}");
+                }
+            }
+            1.0 => counts.whole += 1,
+            _ => counts.part += 1,
+        }
+        // As large as rounding lets it be.
+        let first = mesh.first_contact(start, end, scene.thickness()).unwrap();
+        if clearance == Clearance::None && step.near.is_empty() {
+            let toi = first.map_or(1.0, |contact| contact.toi);
+            assert!(step.step <= toi, "seed {seed}");
+            // Where the room for rounding is small beside what is moved.
+            let is_ordinary = turn == 0 && matches!(scene.style, 1 | 4) && toi > lost;
+            assert!(
+                !is_ordinary || step.step >= (1.0 - lost) * toi,
+                "seed {seed}: {toi} {step:?}"
+            );
+        }
+        ends.start = step.positions;
+    }
 }
 
 /// A closed box, and a wire, a sheet and points inside: they stay inside, exactly.
@@ -431,11 +514,18 @@ fn is_inside(positions: &[Position], faces: &[[u32; 3]], point: Position) -> boo
     crossed.count() % 2 == 1
 }
 
-/// A sheet that is pulled through itself, without thickness and with one: the oracle finds no
-/// contact in any stored motion, and afterwards no edge that goes through a face. As many steps as
-/// `TUNNELPROOF_STEPS` says.
+/// A sheet that is pulled through itself, without thickness and with one, also stored in `f32`.
 #[test]
 fn mesh_folded_through_itself_never_passes() {
+    for thickness in [0.0, 0.01] {
+        fold(thickness, |x| x);
+    }
+    fold(0.01, |x| x as f32);
+}
+
+/// The oracle finds no contact in any stored motion, and afterwards no edge that goes through a face.
+/// As many steps as `TUNNELPROOF_STEPS` says.
+fn fold<C: Coordinate>(thickness: f64, of: impl Fn(f64) -> C) {
     const SIDE: u32 = 9;
     let usual = if cfg!(debug_assertions) { 30 } else { 300 };
     let steps = std::env::var("TUNNELPROOF_STEPS").map_or(usual, |steps| steps.parse().unwrap());
@@ -448,66 +538,58 @@ fn mesh_folded_through_itself_never_passes() {
         })
         .collect();
     let mesh = Mesh::new((SIDE * SIDE) as usize, &[], &faces).unwrap();
-    let all = [
-        (0.0, Precision::F64),
-        (0.01, Precision::F64),
-        (0.01, Precision::F32),
-    ];
-    for (thickness, precision) in all {
-        let rng = &mut ChaCha8Rng::seed_from_u64(3);
-        let flat: Vec<Position> = (0..SIDE * SIDE)
-            .map(|k| [f64::from(k / SIDE) - 4.0, f64::from(k % SIDE) - 4.0, 0.0])
-            .collect();
-        let mut start = flat.clone();
-        let (mut stopped, mut moved, mut asked) = (0, 0.0, 0);
-        for step in 0..steps {
-            // Its halves change places about one axis after another, each for a while; neighbours
-            // hold together, and all trembles.
-            let axis = (step / 40) % 2;
-            let mut end = start.clone();
-            for (k, position) in end.iter_mut().enumerate() {
-                let (i, j) = (k as u32 / SIDE, k as u32 % SIDE);
-                let rest = [
-                    [i.wrapping_sub(1), j],
-                    [i + 1, j],
-                    [i, j.wrapping_sub(1)],
-                    [i, j + 1],
-                ];
-                let around: Vec<Position> = rest
-                    .iter()
-                    .filter(|[i, j]| *i < SIDE && *j < SIDE)
-                    .map(|[i, j]| start[vertex(*i, *j) as usize])
-                    .collect();
-                for x in 0..3 {
-                    let mean = around.iter().map(|p| p[x]).sum::<f64>() / around.len() as f64;
-                    position[x] += 0.05 * (mean - position[x]) + rng.random_range(-0.02..0.02);
-                }
-                let [wanted, height] = [-flat[k][axis], flat[k][axis].abs() - 2.0];
-                position[axis] += 0.05 * (wanted - position[axis]);
-                position[2] += 0.05 * (height - position[2]);
+    let rng = &mut ChaCha8Rng::seed_from_u64(3);
+    let flat: Vec<Position> = (0..SIDE * SIDE)
+        .map(|k| [f64::from(k / SIDE) - 4.0, f64::from(k % SIDE) - 4.0, 0.0])
+        .collect();
+    let mut start = flat.clone();
+    let (mut stopped, mut moved, mut asked) = (0, 0.0, 0);
+    for step in 0..steps {
+        // Its halves change places about one axis after another, each for a while; neighbours
+        // hold together, and all trembles.
+        let axis = (step / 40) % 2;
+        let mut end = start.clone();
+        for (k, position) in end.iter_mut().enumerate() {
+            let (i, j) = (k as u32 / SIDE, k as u32 % SIDE);
+            let rest = [
+                [i.wrapping_sub(1), j],
+                [i + 1, j],
+                [i, j.wrapping_sub(1)],
+                [i, j + 1],
+            ];
+            let around: Vec<Position> = rest
+                .iter()
+                .filter(|[i, j]| *i < SIDE && *j < SIDE)
+                .map(|[i, j]| start[vertex(*i, *j) as usize])
+                .collect();
+            for x in 0..3 {
+                let mean = around.iter().map(|p| p[x]).sum::<f64>() / around.len() as f64;
+                position[x] += 0.05 * (mean - position[x]) + rng.random_range(-0.02..0.02);
             }
-            let made = mesh
-                .step_in(&start, &end, thickness, Clearance::None, precision)
-                .unwrap();
-            let mut stored = made.positions.iter().flatten();
-            assert!(precision == Precision::F64 || stored.all(|&x| f64::from(x as f32) == x));
-            stopped += usize::from(made.step < 1.0);
-            moved += made.step;
-            let pairs = near_pairs(&mesh, &start, &made.positions, thickness);
-            for (pair, vertices) in &pairs {
-                let near = made.near.iter().find(|(near, _)| near == pair);
-                let kept = near.map_or(Radius::from(thickness), |(_, kept)| *kept);
-                let stored = query(*pair, vertices, &start, &made.positions, kept);
-                let is_apart = decide_query(&stored).hit.is_none();
-                assert!(made.step == 0.0 || is_apart, "step {step}: {pair:?}");
-            }
-            asked += pairs.len();
-            start = made.positions;
-            assert_eq!(pierced(&mesh, &start), None, "step {step}");
+            let [wanted, height] = [-flat[k][axis], flat[k][axis].abs() - 2.0];
+            position[axis] += 0.05 * (wanted - position[axis]);
+            position[2] += 0.05 * (height - position[2]);
         }
-        println!("{stopped} of {steps} steps cut short, {moved:.1} in all, {asked} pairs asked");
-        assert!(stopped > steps / 2 && moved > 1.0);
+        let [from, to] =
+            [&start, &end].map(|all| all.iter().map(|x| x.map(&of)).collect::<Vec<_>>());
+        let made = mesh.step(&from, &to, thickness).unwrap();
+        let positions = in_f64(&made.positions);
+        stopped += usize::from(made.step < 1.0);
+        moved += made.step;
+        let pairs = near_pairs(&mesh, &start, &positions, thickness);
+        for (pair, vertices) in &pairs {
+            let near = made.near.iter().find(|(near, _)| near == pair);
+            let kept = near.map_or(Radius::from(thickness), |(_, kept)| *kept);
+            let stored = query(*pair, vertices, &start, &positions, kept);
+            let is_apart = decide_query(&stored).hit.is_none();
+            assert!(made.step == 0.0 || is_apart, "step {step}: {pair:?}");
+        }
+        asked += pairs.len();
+        start = positions;
+        assert_eq!(pierced(&mesh, &start), None, "step {step}");
     }
+    println!("{stopped} of {steps} steps cut short, {moved:.1} in all, {asked} pairs asked");
+    assert!(stopped > steps / 2 && moved > 1.0);
 }
 
 /// The pairs of a mesh that share no vertex and whose swept boxes come within a distance, found one

@@ -6,7 +6,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tunnelproof::certified::Stage;
 use tunnelproof::{
-    Clearance, EdgeEdge, Hit, Kind, Pairs, PairsError, Point, Precision, Query, Radius, VertexFace,
+    Clearance, EdgeEdge, Hit, Kind, Pairs, PairsError, Point, Query, Radius, VertexFace,
     advance_pairs, decide,
 };
 use tunnelproof_reference::generate::{FAMILIES, OTHER_KINDS};
@@ -296,7 +296,7 @@ fn steps_of_pairs_are_refused_with_other_positions_or_clearances() {
     let copied = points;
     let faces = |end| Pairs::new(&copied, end, &[], 0.0).expect("none");
     let said = |end, clearance| {
-        let step = advance_pairs(&edges, &faces(end), clearance, Precision::F64);
+        let step = advance_pairs(&edges, &faces(end), clearance);
         step.map(|moved| moved.step)
             .map_err(|error| error.to_string())
     };
@@ -311,9 +311,9 @@ fn steps_of_pairs_are_refused_with_other_positions_or_clearances() {
         said(&copied, Clearance::Share(1.0)),
         error("the share is 1; it has to be 0 or more, and below 1")
     );
-    let none = Pairs::<EdgeEdge>::new(&[], &[], &[], 0.0).expect("none");
+    let none = Pairs::<EdgeEdge, f32>::new(&[], &[], &[], 0.0).expect("none");
     let faces = Pairs::new(&[], &[], &[], 0.0).expect("none");
-    let moved = advance_pairs(&none, &faces, Clearance::None, Precision::F32).expect("none");
+    let moved = advance_pairs(&none, &faces, Clearance::None).expect("none");
     assert_eq!((moved.step, moved.positions.len()), (1.0, 0));
 }
 

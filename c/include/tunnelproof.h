@@ -379,6 +379,17 @@ typedef struct tunnelproof_pairs_step {
   size_t limit_count, near_count;
 } tunnelproof_pairs_step;
 
+/* The same with positions that are float. */
+typedef struct tunnelproof_pairs_step_f32 {
+  float *positions;
+  tunnelproof_pairs_limit *limits;
+  size_t limit_capacity;
+  tunnelproof_near_listed_pair *near_pairs;
+  size_t near_capacity;
+  double step;
+  size_t limit_count, near_count;
+} tunnelproof_pairs_step_f32;
+
 /* The largest step, within rounding, that keeps all pairs apart by more than their radius and a
  * clearance, and the positions to store, of all points. `edges` are pairs of edges, `faces` pairs of a
  * vertex and a face. Both are of the same points: their positions are equal, or the same arrays. A
@@ -405,12 +416,11 @@ int32_t tunnelproof_advance_pairs(const tunnelproof_pairs *edges, const tunnelpr
                                   double clearance, double share, tunnelproof_pairs_step *step,
                                   tunnelproof_error *error);
 
-/* The same for engines that store float: if the positions at the start are floats, so are those of
- * the step, as tunnelproof_advance_edge_edge_f32 says. The boxes of what is in neither list are around
- * what the end is rounded to. */
-int32_t tunnelproof_advance_pairs_f32(const tunnelproof_pairs *edges,
-                                      const tunnelproof_pairs *faces, double clearance,
-                                      double share, tunnelproof_pairs_step *step,
+/* The same for engines that store float. The positions to store are float, and the proof is of these
+ * numbers. There is less room, as tunnelproof_advance_edge_edge_f32 says. */
+int32_t tunnelproof_advance_pairs_f32(const tunnelproof_pairs_f32 *edges,
+                                      const tunnelproof_pairs_f32 *faces, double clearance,
+                                      double share, tunnelproof_pairs_step_f32 *step,
                                       tunnelproof_error *error);
 
 /* Vertices, edges and faces by their indices: cloth, bodies, wires and points. Every edge may meet
@@ -458,6 +468,13 @@ typedef struct tunnelproof_motion {
   const double *thickness;
   size_t thickness_count;
 } tunnelproof_motion;
+
+/* The same with positions that are float. */
+typedef struct tunnelproof_motion_f32 {
+  const float *start, *end;
+  const double *thickness;
+  size_t thickness_count;
+} tunnelproof_motion_f32;
 
 /* What a side of a pair is. */
 enum tunnelproof_feature {
@@ -512,6 +529,19 @@ int64_t tunnelproof_mesh_all_contacts(const tunnelproof_mesh *mesh,
 int32_t tunnelproof_mesh_is_free(const tunnelproof_mesh *mesh, const tunnelproof_motion *motion,
                                  tunnelproof_error *error);
 
+/* The same of positions that are float: nothing is copied or rounded. */
+int32_t tunnelproof_mesh_first_contact_f32(const tunnelproof_mesh *mesh,
+                                           const tunnelproof_motion_f32 *motion,
+                                           tunnelproof_mesh_contact *contact,
+                                           tunnelproof_error *error);
+int64_t tunnelproof_mesh_all_contacts_f32(const tunnelproof_mesh *mesh,
+                                          const tunnelproof_motion_f32 *motion,
+                                          tunnelproof_mesh_contact *contacts, size_t capacity,
+                                          tunnelproof_error *error);
+int32_t tunnelproof_mesh_is_free_f32(const tunnelproof_mesh *mesh,
+                                     const tunnelproof_motion_f32 *motion,
+                                     tunnelproof_error *error);
+
 /* A pair that ends a step, and why: a value of tunnelproof_blocked. */
 typedef struct tunnelproof_limit {
   tunnelproof_pair pair;
@@ -546,6 +576,18 @@ typedef struct tunnelproof_step {
   size_t candidates[2];
 } tunnelproof_step;
 
+/* The same with positions that are float. */
+typedef struct tunnelproof_step_f32 {
+  float *positions;
+  tunnelproof_limit *limits;
+  size_t limit_capacity;
+  tunnelproof_near_pair *near_pairs;
+  size_t near_capacity;
+  double step;
+  size_t limit_count, near_count;
+  size_t candidates[2];
+} tunnelproof_step_f32;
+
 /* The largest step, within rounding, that keeps all pairs apart by more than the thickness and a
  * clearance, and the positions to store. Straight motion from `start` to these keeps each pair
  * farther apart than that, exactly, in real arithmetic. The next step starts at them. So nothing
@@ -560,10 +602,11 @@ int32_t tunnelproof_mesh_step(const tunnelproof_mesh *mesh, const tunnelproof_mo
                               double clearance, double share, tunnelproof_step *step,
                               tunnelproof_error *error);
 
-/* The same for engines that store float: if the positions at the start are floats, so are those of
- * the step, as tunnelproof_advance_edge_edge_f32 says. */
-int32_t tunnelproof_mesh_step_f32(const tunnelproof_mesh *mesh, const tunnelproof_motion *motion,
-                                  double clearance, double share, tunnelproof_step *step,
+/* The same for engines that store float. The positions to store are float, and the proof is of these
+ * numbers. There is less room, as tunnelproof_advance_edge_edge_f32 says. */
+int32_t tunnelproof_mesh_step_f32(const tunnelproof_mesh *mesh,
+                                  const tunnelproof_motion_f32 *motion, double clearance,
+                                  double share, tunnelproof_step_f32 *step,
                                   tunnelproof_error *error);
 
 /* The version of the library, "0.1.0". */

@@ -21,6 +21,7 @@ use tunnelproof_float_env::with_default;
 mod advance;
 mod arrays;
 mod mesh;
+mod motion;
 mod pairs;
 mod step;
 mod subject;
@@ -32,6 +33,7 @@ pub use advance::{
 };
 pub use arrays::Error;
 pub use mesh::*;
+pub use motion::*;
 pub use pairs::*;
 pub use step::*;
 pub use subject::{tunnelproof_certified_edge_edge, tunnelproof_certified_vertex_face};

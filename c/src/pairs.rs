@@ -4,7 +4,7 @@ use std::ffi::CStr;
 
 use tunnelproof::{
     Clearance, Coordinate, EdgeEdge, ListedPair as EngineListedPair, Pairs as EnginePairs,
-    PairsError, Precision, QueryKind, Radius, VertexFace, advance_pairs,
+    PairsError, QueryKind, Radius, VertexFace, advance_pairs,
 };
 use tunnelproof_float_env::with_default;
 
@@ -295,12 +295,12 @@ pub unsafe extern "C" fn tunnelproof_advance_pairs(
     faces: *const Pairs<f64>,
     distance: f64,
     share: f64,
-    out: *mut Step<ListedPair>,
+    out: *mut Step<ListedPair, f64>,
     error: *mut Error,
 ) -> i32 {
     let clearance = || clearance(distance, share);
     // SAFETY: the caller's promise is the same.
-    let step = || unsafe { step(edges, faces, clearance(), Precision::F64, out) };
+    let step = || unsafe { step(edges, faces, clearance(), out) };
     // SAFETY: the caller's promise is the same.
     with_default(|| unsafe { answered(step(), error) })
 }
@@ -312,16 +312,16 @@ pub unsafe extern "C" fn tunnelproof_advance_pairs(
 /// As the header says of its pointers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn tunnelproof_advance_pairs_f32(
-    edges: *const Pairs<f64>,
-    faces: *const Pairs<f64>,
+    edges: *const Pairs<f32>,
+    faces: *const Pairs<f32>,
     distance: f64,
     share: f64,
-    out: *mut Step<ListedPair>,
+    out: *mut Step<ListedPair, f32>,
     error: *mut Error,
 ) -> i32 {
     let clearance = || clearance(distance, share);
     // SAFETY: the caller's promise is the same.
-    let step = || unsafe { step(edges, faces, clearance(), Precision::F32, out) };
+    let step = || unsafe { step(edges, faces, clearance(), out) };
     // SAFETY: the caller's promise is the same.
     with_default(|| unsafe { answered(step(), error) })
 }
@@ -331,12 +331,11 @@ pub unsafe extern "C" fn tunnelproof_advance_pairs_f32(
 /// # Safety
 ///
 /// As the header says of the pointers of `tunnelproof_advance_pairs`.
-unsafe fn step(
-    edges: *const Pairs<f64>,
-    faces: *const Pairs<f64>,
+unsafe fn step<C: Coordinate>(
+    edges: *const Pairs<C>,
+    faces: *const Pairs<C>,
     clearance: Option<Clearance>,
-    precision: Precision,
-    out: *mut Step<ListedPair>,
+    out: *mut Step<ListedPair, C>,
 ) -> Result<i32, Error> {
     // SAFETY: not null, it points to a step that nobody else uses, with its buffers set.
     let out = unsafe { out.as_mut() }.ok_or(Error::null(c"step"))?;
@@ -346,7 +345,7 @@ unsafe fn step(
     let faces = unsafe { List::read(faces, &FACES) }?;
     out.check(edges.start.len())?;
     let clearance = clearance.ok_or(Error::new(CLEARANCE, c"clearance"))?;
-    let step = advance_pairs(&edges.pairs()?, &faces.pairs()?, clearance, precision);
+    let step = advance_pairs(&edges.pairs()?, &faces.pairs()?, clearance);
     let step = step.map_err(|error| FACES.error(error))?;
     let limits = step.limits.iter();
     let limits = limits.map(|limit| (limit.pair.into(), limit.blocked));

@@ -2,7 +2,7 @@
 
 use std::mem::{MaybeUninit, offset_of};
 
-use tunnelproof::{Blocked, Radius};
+use tunnelproof::{Blocked, Coordinate, Radius};
 
 use crate::advance::blocked;
 use crate::arrays::{Error, write};
@@ -23,11 +23,11 @@ pub struct NearPair<P> {
     kept: [f64; 2],
 }
 
-/// `tunnelproof_pairs_step`, with which `tunnelproof_step` begins.
+/// `tunnelproof_pairs_step`, with which `tunnelproof_step` begins, and the same with `_f32`.
 #[repr(C)]
 #[derive(Debug)]
-pub struct Step<P> {
-    positions: *mut f64,
+pub struct Step<P, C> {
+    positions: *mut C,
     limits: *mut Limit<P>,
     limit_capacity: usize,
     near_pairs: *mut NearPair<P>,
@@ -37,7 +37,7 @@ pub struct Step<P> {
     near_count: MaybeUninit<usize>,
 }
 
-impl<P> Step<P> {
+impl<P, C: Coordinate> Step<P, C> {
     /// Where its last field ends.
     pub(crate) const END: usize = offset_of!(Self, near_count) + size_of::<usize>();
 
@@ -59,7 +59,7 @@ impl<P> Step<P> {
     pub(crate) unsafe fn write(
         &mut self,
         step: f64,
-        positions: &[[f64; 3]],
+        positions: &[[C; 3]],
         limits: impl ExactSizeIterator<Item = (P, Blocked)>,
         near: impl ExactSizeIterator<Item = (P, Radius)>,
     ) {
@@ -78,7 +78,7 @@ impl<P> Step<P> {
         unsafe { write(self.limits, self.limit_capacity, limits) };
         // SAFETY: as above.
         unsafe { write(self.near_pairs, self.near_capacity, near) };
-        let stored = self.positions.cast::<[f64; 3]>();
+        let stored = self.positions.cast::<[C; 3]>();
         // SAFETY: as above.
         unsafe { write(stored, positions.len(), positions.iter().copied()) };
     }

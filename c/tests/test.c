@@ -495,12 +495,42 @@ static void steps_of_a_mesh(const tunnelproof_mesh *mesh) {
   CHECK(tunnelproof_mesh_step(mesh, &motion, 2, 0, &step, NULL) == 0);
   CHECK(step.near_count > 1 && near_pairs[0].pair.vertices[0] == 3);
   CHECK(near_pairs[0].kept[0] + near_pairs[0].kept[1] > 0.89);
+}
 
-  /* Stored as float. */
-  memcpy(x, at_first, sizeof x);
-  CHECK(tunnelproof_mesh_step_f32(mesh, &motion, 0.25, 0, &step, NULL) == 0);
-  CHECK(step.step > 0 && step.step < 1);
-  for (i = 0; i < 18; i++) CHECK((double)(float)x[i] == x[i]);
+/* Positions that are float: contacts of the same numbers in double, and steps in place of the end. */
+static void of_a_mesh_in_f32(const tunnelproof_mesh *mesh) {
+  const double thickness = 0.25;
+  float first[18], last[18];
+  tunnelproof_motion motion = {at_first, at_last, &thickness, 1};
+  tunnelproof_motion_f32 same = {first, last, &thickness, 1};
+  tunnelproof_step_f32 step = {last, NULL, 0, NULL, 0, 0, 0, 0, {0, 0}};
+  tunnelproof_mesh_contact all[8], expected[8];
+  tunnelproof_error error;
+  int64_t count;
+  int i;
+
+  for (i = 0; i < 18; i++) {
+    first[i] = (float)at_first[i];
+    last[i] = (float)at_last[i];
+  }
+  memset(all, 0, sizeof all);
+  memset(expected, 0, sizeof expected);
+  CHECK(tunnelproof_mesh_first_contact(mesh, &motion, expected, NULL) == TUNNELPROOF_HIT);
+  CHECK(tunnelproof_mesh_first_contact_f32(mesh, &same, all, NULL) == TUNNELPROOF_HIT);
+  CHECK(memcmp(all, expected, sizeof all) == 0);
+  count = tunnelproof_mesh_all_contacts(mesh, &motion, expected, 8, NULL);
+  CHECK(count > 2 && tunnelproof_mesh_all_contacts_f32(mesh, &same, all, 8, NULL) == count);
+  CHECK(memcmp(all, expected, sizeof all) == 0);
+  CHECK(tunnelproof_mesh_is_free_f32(mesh, &same, NULL) == 0);
+  /* The positions go to where the end was: motion to them is free, and they are next to the face. */
+  CHECK(tunnelproof_mesh_step_f32(mesh, &same, 0, 0, &step, NULL) == 0);
+  CHECK(step.step > 0 && step.step < 0.1875 && step.limit_count > 0);
+  CHECK(last[11] > 0.25f && last[11] < 0.250001f);
+  CHECK(tunnelproof_mesh_is_free_f32(mesh, &same, NULL) == 1);
+  last[7] = NAN;
+  CHECK(tunnelproof_mesh_step_f32(mesh, &same, 0, 0, &step, &error) == TUNNELPROOF_NOT_FINITE);
+  CHECK(strcmp(error.array, "end") == 0 && error.index == 2 && error.corner == 1);
+  CHECK(tunnelproof_mesh_first_contact_f32(mesh, NULL, all, &error) == TUNNELPROOF_NULL);
 }
 
 static void refused_of_a_mesh(tunnelproof_mesh *mesh) {
@@ -572,50 +602,80 @@ static const uint32_t *listed(tunnelproof_listed_pair pair) {
   return (pair.kind == TUNNELPROOF_EDGE_EDGE ? edge_pairs : face_pairs) + 4 * pair.index;
 }
 
-/* The step of pairs is that of the mesh whose pairs they are, bit for bit. */
-static void steps_as_of_a_mesh(const tunnelproof_mesh *mesh) {
-  static const double settings[5][2] = {{0, 0}, {0.25, 0}, {2, 0}, {0, 0.3}, {0, 0.9}};
-  const double thickness = 0.01;
-  const double radius[2] = {0.01, 0};
-  const tunnelproof_motion motion = {at_first, at_last, &thickness, 1};
-  double of_mesh[18], of_pairs[18];
+/* The pairs that end a step and that are near, of the list and of the mesh. */
+typedef struct named {
   tunnelproof_limit limits[10];
   tunnelproof_near_pair near_pairs[10];
   tunnelproof_pairs_limit listed_limits[10];
   tunnelproof_near_listed_pair near_listed[10];
-  tunnelproof_step step = {of_mesh, limits, 10, near_pairs, 10, 0, 0, 0, {0, 0}};
-  tunnelproof_pairs_step moved = {of_pairs, listed_limits, 10, near_listed, 10, 0, 0, 0};
+} named;
+
+static void same_pairs(const named *all, size_t limit_count, size_t near_count) {
+  size_t k;
+  for (k = 0; k < limit_count; k++) {
+    const uint32_t *indices = listed(all->listed_limits[k].pair);
+    CHECK(memcmp(indices, all->limits[k].pair.vertices, 4 * sizeof *indices) == 0);
+    CHECK(all->listed_limits[k].blocked == all->limits[k].blocked);
+  }
+  for (k = 0; k < near_count; k++) {
+    const uint32_t *indices = listed(all->near_listed[k].pair);
+    const double *kept = all->near_pairs[k].kept;
+    CHECK(memcmp(indices, all->near_pairs[k].pair.vertices, 4 * sizeof *indices) == 0);
+    CHECK(memcmp(all->near_listed[k].kept, kept, 2 * sizeof *kept) == 0);
+  }
+}
+
+/* The step of pairs is that of the mesh whose pairs they are, bit for bit; also of float. */
+static void steps_as_of_a_mesh(const tunnelproof_mesh *mesh) {
+  static const double settings[5][2] = {{0, 0}, {0.25, 0}, {2, 0}, {0, 0.3}, {0, 0.9}};
+  const double thickness = 0.01;
+  const double radius[2] = {0.01, 0};
+  double of_mesh[18], of_pairs[18];
+  float single_of_mesh[18], single_of_pairs[18], first[18], last[18];
+  named all;
+  const tunnelproof_motion motion = {at_first, at_last, &thickness, 1};
+  const tunnelproof_motion_f32 single_motion = {first, last, &thickness, 1};
+  tunnelproof_step step = {of_mesh, all.limits, 10, all.near_pairs, 10, 0, 0, 0, {0, 0}};
+  tunnelproof_step_f32 single_step = {single_of_mesh, all.limits, 10, all.near_pairs, 10,
+                                      0, 0, 0, {0, 0}};
+  tunnelproof_pairs_step moved = {of_pairs, all.listed_limits, 10, all.near_listed, 10, 0, 0, 0};
+  tunnelproof_pairs_step_f32 single_moved = {single_of_pairs, all.listed_limits, 10,
+                                             all.near_listed, 10, 0, 0, 0};
   const tunnelproof_pairs edges = {at_first, at_last, 6, edge_pairs, EDGE_PAIRS, radius, 1};
   const tunnelproof_pairs faces = {at_first, at_last, 6, face_pairs, FACE_PAIRS, radius, 1};
-  size_t limit_count = 0, near_count = 0, k;
+  const tunnelproof_pairs_f32 single_edges = {first, last, 6, edge_pairs, EDGE_PAIRS, radius, 1};
+  const tunnelproof_pairs_f32 single_faces = {first, last, 6, face_pairs, FACE_PAIRS, radius, 1};
+  size_t limit_count = 0, near_count = 0;
   int i;
 
-  for (i = 0; i < 10; i++) {
-    const double clearance = settings[i / 2][0], share = settings[i / 2][1];
-    if (i % 2) {
-      CHECK(tunnelproof_mesh_step_f32(mesh, &motion, clearance, share, &step, NULL) == 0);
-      CHECK(tunnelproof_advance_pairs_f32(&edges, &faces, clearance, share, &moved, NULL) == 0);
-      for (k = 0; k < 18; k++) CHECK((double)(float)of_pairs[k] == of_pairs[k]);
-    } else {
-      CHECK(tunnelproof_mesh_step(mesh, &motion, clearance, share, &step, NULL) == 0);
-      CHECK(tunnelproof_advance_pairs(&edges, &faces, clearance, share, &moved, NULL) == 0);
-    }
+  for (i = 0; i < 18; i++) {
+    first[i] = (float)at_first[i];
+    last[i] = (float)at_last[i];
+  }
+  for (i = 0; i < 5; i++) {
+    const double clearance = settings[i][0], share = settings[i][1];
+    CHECK(tunnelproof_mesh_step(mesh, &motion, clearance, share, &step, NULL) == 0);
+    CHECK(tunnelproof_advance_pairs(&edges, &faces, clearance, share, &moved, NULL) == 0);
     CHECK(moved.step == step.step && memcmp(of_pairs, of_mesh, sizeof of_mesh) == 0);
     CHECK(moved.limit_count == step.limit_count && moved.near_count == step.near_count);
-    for (k = 0; k < step.limit_count; k++) {
-      const uint32_t *indices = listed(listed_limits[k].pair);
-      CHECK(memcmp(indices, limits[k].pair.vertices, 4 * sizeof *indices) == 0);
-      CHECK(listed_limits[k].blocked == limits[k].blocked);
-    }
-    for (k = 0; k < step.near_count; k++) {
-      const uint32_t *indices = listed(near_listed[k].pair);
-      CHECK(memcmp(indices, near_pairs[k].pair.vertices, 4 * sizeof *indices) == 0);
-      CHECK(memcmp(near_listed[k].kept, near_pairs[k].kept, sizeof near_pairs[k].kept) == 0);
-    }
+    same_pairs(&all, step.limit_count, step.near_count);
     limit_count += step.limit_count;
     near_count += step.near_count;
+
+    CHECK(tunnelproof_mesh_step_f32(mesh, &single_motion, clearance, share, &single_step, NULL) ==
+          0);
+    CHECK(tunnelproof_advance_pairs_f32(&single_edges, &single_faces, clearance, share,
+                                        &single_moved, NULL) == 0);
+    CHECK(single_moved.step == single_step.step);
+    CHECK(memcmp(single_of_pairs, single_of_mesh, sizeof single_of_mesh) == 0);
+    CHECK(single_moved.limit_count == single_step.limit_count);
+    CHECK(single_moved.near_count == single_step.near_count);
+    same_pairs(&all, single_step.limit_count, single_step.near_count);
+    CHECK(single_step.candidates[0] > 0 && single_step.candidates[1] > 0);
+    /* There is less room. */
+    CHECK(single_step.step <= step.step && single_step.step > step.step - 1e-5);
   }
-  CHECK(limit_count > 5 && near_count > 1);
+  CHECK(limit_count > 2 && near_count > 0);
 }
 
 /* The edge and the point fall on the face in small steps, whose positions replace the start. Each of
@@ -699,8 +759,7 @@ static void refused_of_pairs(void) {
 #define REFUSED(edges, faces, clearance, share, expected, name)                                 \
   do {                                                                                          \
     CHECK(tunnelproof_advance_pairs(edges, faces, clearance, share, &step, NULL) == (expected)); \
-    CHECK(tunnelproof_advance_pairs_f32(edges, faces, clearance, share, &step, &error) ==       \
-          (expected));                                                                          \
+    CHECK(tunnelproof_advance_pairs(edges, faces, clearance, share, &step, &error) == (expected)); \
     CHECK(error.code == (expected) && strcmp(error.array, name) == 0);                          \
   } while (0)
 
@@ -753,6 +812,35 @@ static void refused_of_pairs(void) {
 #undef REFUSED
 }
 
+/* The same of positions that are float. */
+static void refused_of_pairs_f32(void) {
+  float first[18], other[18], x[18];
+  const tunnelproof_pairs_f32 edges = {first, first, 6, edge_pairs, EDGE_PAIRS, NULL, 0};
+  tunnelproof_pairs_f32 faces = {first, other, 6, face_pairs, FACE_PAIRS, NULL, 0};
+  tunnelproof_pairs_step_f32 step = {NULL, NULL, 0, NULL, 0, -1, 0, 0};
+  tunnelproof_error error;
+  int i;
+
+  for (i = 0; i < 18; i++) first[i] = other[i] = (float)at_first[i];
+  CHECK(tunnelproof_advance_pairs_f32(&edges, &faces, 0, 0, &step, &error) == TUNNELPROOF_NULL);
+  CHECK(strcmp(error.array, "positions") == 0);
+  step.positions = x;
+  CHECK(tunnelproof_advance_pairs_f32(&edges, &faces, -1, 0, &step, &error) ==
+        TUNNELPROOF_CLEARANCE);
+  CHECK(tunnelproof_advance_pairs_f32(&edges, NULL, 0, 0, &step, &error) == TUNNELPROOF_NULL);
+  other[7] = 1;
+  CHECK(tunnelproof_advance_pairs_f32(&edges, &faces, 0, 0, &step, &error) ==
+        TUNNELPROOF_POSITIONS);
+  other[7] = NAN;
+  CHECK(tunnelproof_advance_pairs_f32(&edges, &faces, 0, 0, &step, &error) ==
+        TUNNELPROOF_NOT_FINITE);
+  CHECK(strcmp(error.array, "faces.end") == 0 && error.index == 2 && error.corner == 1);
+  CHECK(step.step == -1);
+  faces.end = first;
+  CHECK(tunnelproof_advance_pairs_f32(&edges, &faces, 0, 0, &step, &error) == 0);
+  CHECK(step.step == 1 && memcmp(x, first, sizeof x) == 0);
+}
+
 static void of_a_mesh(void) {
   tunnelproof_mesh *mesh = tunnelproof_mesh_new(6, edges, 1, faces, 1, NULL);
   uint32_t all[8];
@@ -762,6 +850,7 @@ static void of_a_mesh(void) {
   contacts_of_a_mesh(mesh);
   steps_of_a_mesh(mesh);
   steps_as_of_a_mesh(mesh);
+  of_a_mesh_in_f32(mesh);
   refused_of_a_mesh(mesh);
   tunnelproof_mesh_free(mesh);
 }
@@ -774,6 +863,7 @@ int main(void) {
   pairs_by_index();
   steps_of_pairs();
   refused_of_pairs();
+  refused_of_pairs_f32();
   overlap();
   at_start();
   refused();

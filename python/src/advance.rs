@@ -1,10 +1,12 @@
 //! Certified steps on arrays.
 
-use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3};
+use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use tunnelproof::{Advance, Blocked, Clearance, Precision, Query, QueryKind, Radius, advance_in};
+use tunnelproof::{
+    Advance, Blocked, Clearance, Coordinate, Precision, Query, QueryKind, Radius, advance_in,
+};
 use tunnelproof_float_env::with_default;
 
 use crate::columns::Columns;
@@ -60,10 +62,10 @@ fn advanced<'py>(
 
 /// The fields of a step of all points: its size, the positions, the pairs that end it, and those that
 /// are near. `pair` writes the columns of pairs.
-pub(crate) fn together<'py, P>(
+pub(crate) fn together<'py, P, C: Coordinate + Element>(
     py: Python<'py>,
     step: f64,
-    positions: Vec<[f64; 3]>,
+    positions: Vec<[C; 3]>,
     limits: impl IntoIterator<Item = (P, Blocked)>,
     near: impl IntoIterator<Item = (P, Radius)>,
     pair: impl Fn(&mut Columns<'_, 'py, P>) -> PyResult<()>,
@@ -107,7 +109,7 @@ pub(crate) fn clearance(distance: f64, share: Option<f64>) -> PyResult<Clearance
 }
 
 /// A precision from its name in Python.
-pub(crate) fn precision(name: &str) -> PyResult<Precision> {
+fn precision(name: &str) -> PyResult<Precision> {
     match name {
         "f64" => Ok(Precision::F64),
         "f32" => Ok(Precision::F32),

@@ -1,16 +1,16 @@
 //! Whole meshes on arrays.
 
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{Element, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use tunnelproof::Clearance;
+use tunnelproof::Coordinate;
 use tunnelproof::mesh::{Feature, MeshContact, MeshError, MeshStep, Pair, Thickness};
 use tunnelproof_float_env::with_default;
 
 use crate::advance;
 use crate::columns::{self, Columns};
-use crate::queries::rows;
+use crate::queries::{Ends, of_either, rows};
 
 /// Vertices, edges and faces by their indices, and what is asked about them.
 #[pyclass(frozen, module = "tunnelproof._tunnelproof")]
@@ -37,16 +37,16 @@ impl Thicknesses<'_> {
 }
 
 /// The positions at both ends of a step, and the thickness: where they are, without a copy.
-struct Question<'a> {
-    start: &'a [[f64; 3]],
-    end: &'a [[f64; 3]],
+struct Question<'a, C> {
+    start: &'a [[C; 3]],
+    end: &'a [[C; 3]],
     thickness: Thickness<'a>,
 }
 
-impl<'a> Question<'a> {
+impl<'a, C: Coordinate + Element> Question<'a, C> {
     fn new(
-        start: &'a PyReadonlyArray2<'_, f64>,
-        end: &'a PyReadonlyArray2<'_, f64>,
+        start: &'a PyReadonlyArray2<'_, C>,
+        end: &'a PyReadonlyArray2<'_, C>,
         thickness: &'a Thicknesses<'_>,
     ) -> PyResult<Self> {
         Ok(Question {
@@ -102,17 +102,14 @@ impl Mesh {
     fn first_contact<'py>(
         &self,
         py: Python<'py>,
-        start: PyReadonlyArray2<'py, f64>,
-        end: PyReadonlyArray2<'py, f64>,
+        ends: Ends<'py>,
         thickness: Thicknesses<'py>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let Question {
-            start,
-            end,
-            thickness,
-        } = Question::new(&start, &end, &thickness)?;
-        let first = || self.0.first_contact(start, end, thickness);
-        let first = py.detach(|| with_default(first));
+        let first = of_either!(&ends, (start, end) => {
+            let asked = Question::new(start, end, &thickness)?;
+            let first = || self.0.first_contact(asked.start, asked.end, asked.thickness);
+            py.detach(|| with_default(first))
+        });
         self.written(py, first.map_err(refused)?.into_iter().collect())
     }
 
@@ -120,56 +117,62 @@ impl Mesh {
     fn all_contacts<'py>(
         &self,
         py: Python<'py>,
-        start: PyReadonlyArray2<'py, f64>,
-        end: PyReadonlyArray2<'py, f64>,
+        ends: Ends<'py>,
         thickness: Thicknesses<'py>,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let Question {
-            start,
-            end,
-            thickness,
-        } = Question::new(&start, &end, &thickness)?;
-        let all = || self.0.all_contacts(start, end, thickness);
-        let all = py.detach(|| with_default(all));
+        let all = of_either!(&ends, (start, end) => {
+            let asked = Question::new(start, end, &thickness)?;
+            let all = || self.0.all_contacts(asked.start, asked.end, asked.thickness);
+            py.detach(|| with_default(all))
+        });
         self.written(py, all.map_err(refused)?)
     }
 
     fn is_free<'py>(
         &self,
         py: Python<'py>,
-        start: PyReadonlyArray2<'py, f64>,
-        end: PyReadonlyArray2<'py, f64>,
+        ends: Ends<'py>,
         thickness: Thicknesses<'py>,
     ) -> PyResult<bool> {
-        let Question {
-            start,
-            end,
-            thickness,
-        } = Question::new(&start, &end, &thickness)?;
-        let is_free = || self.0.is_free(start, end, thickness);
-        py.detach(|| with_default(is_free)).map_err(refused)
+        let is_free = of_either!(&ends, (start, end) => {
+            let asked = Question::new(start, end, &thickness)?;
+            let is_free = || self.0.is_free(asked.start, asked.end, asked.thickness);
+            py.detach(|| with_default(is_free))
+        });
+        is_free.map_err(refused)
     }
 
     /// The fields of `MeshStep`.
-    #[expect(clippy::too_many_arguments, reason = "those of Python")]
     fn step<'py>(
         &self,
         py: Python<'py>,
-        start: PyReadonlyArray2<'py, f64>,
-        end: PyReadonlyArray2<'py, f64>,
+        ends: Ends<'py>,
         thickness: Thicknesses<'py>,
         clearance: f64,
         share: Option<f64>,
-        precision: &str,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let Question {
+        of_either!(&ends, (start, end) => {
+            let asked = Question::new(start, end, &thickness)?;
+            self.stepped(py, &asked, clearance, share)
+        })
+    }
+}
+
+impl Mesh {
+    fn stepped<'py, C: Coordinate + Element>(
+        &self,
+        py: Python<'py>,
+        asked: &Question<'_, C>,
+        clearance: f64,
+        share: Option<f64>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let &Question {
             start,
             end,
             thickness,
-        } = Question::new(&start, &end, &thickness)?;
-        let clearance: Clearance = with_default(|| advance::clearance(clearance, share))?;
-        let precision = advance::precision(precision)?;
-        let step = || self.0.step_in(start, end, thickness, clearance, precision);
+        } = asked;
+        let clearance = with_default(|| advance::clearance(clearance, share))?;
+        let step = || self.0.step_with_clearance(start, end, thickness, clearance);
         let step = py.detach(|| with_default(step));
         let MeshStep {
             step,
@@ -185,9 +188,7 @@ impl Mesh {
         fields.set_item("candidates", (candidates[0], candidates[1]))?;
         Ok(fields)
     }
-}
 
-impl Mesh {
     fn written<'py>(
         &self,
         py: Python<'py>,

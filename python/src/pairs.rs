@@ -1,12 +1,12 @@
 //! Pairs by the indices of their points.
 
-use numpy::{PyArray1, PyReadonlyArray2};
+use numpy::{Element, PyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use tunnelproof::certified::Kind;
 use tunnelproof::{
-    EdgeEdge, Hit, ListedPair, Pairs, PairsError, PairsStep, QueryKind, Radius, VertexFace,
-    advance_pairs as engine_advance_pairs,
+    Clearance, Coordinate, EdgeEdge, Hit, ListedPair, Pairs, PairsError, PairsStep, QueryKind,
+    Radius, VertexFace, advance_pairs as engine_advance_pairs,
 };
 use tunnelproof_float_env::with_default;
 
@@ -14,23 +14,24 @@ use crate::advance;
 use crate::certified::{Row, columns};
 use crate::columns::Columns;
 use crate::interrupt::each;
-use crate::queries::{self, Refused, rows};
+use crate::queries::{self, Ends, Refused, of_either, rows};
 
 /// Which of the pairs touch, and the columns of `Hits` for these.
 #[pyfunction]
 pub(crate) fn decide_pairs<'py>(
     py: Python<'py>,
     kind: &str,
-    start: PyReadonlyArray2<'py, f64>,
-    end: PyReadonlyArray2<'py, f64>,
+    ends: Ends<'py>,
     indices: PyReadonlyArray2<'py, u32>,
     radii: PyReadonlyArray2<'py, f64>,
 ) -> PyResult<Found<'py>> {
     let kind = queries::kind(kind)?;
-    let list = List::new(&start, &end, &indices, &radii)?;
-    with_default(|| match kind {
-        QueryKind::EdgeEdge => found::<EdgeEdge>(py, &list),
-        QueryKind::VertexFace => found::<VertexFace>(py, &list),
+    of_either!(&ends, (start, end) => {
+        let list = List::new(start, end, &indices, &radii)?;
+        with_default(|| match kind {
+            QueryKind::EdgeEdge => found::<EdgeEdge, _>(py, &list),
+            QueryKind::VertexFace => found::<VertexFace, _>(py, &list),
+        })
     })
 }
 
@@ -39,24 +40,32 @@ pub(crate) fn decide_pairs<'py>(
 #[expect(clippy::too_many_arguments, reason = "those of Python")]
 pub(crate) fn advance_pairs<'py>(
     py: Python<'py>,
-    start: PyReadonlyArray2<'py, f64>,
-    end: PyReadonlyArray2<'py, f64>,
+    ends: Ends<'py>,
     edges: PyReadonlyArray2<'py, u32>,
     faces: PyReadonlyArray2<'py, u32>,
     edge_radii: PyReadonlyArray2<'py, f64>,
     face_radii: PyReadonlyArray2<'py, f64>,
     clearance: f64,
     share: Option<f64>,
-    precision: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let edges = List::new(&start, &end, &edges, &edge_radii)?;
-    let faces = List::new(&start, &end, &faces, &face_radii)?;
     let clearance = with_default(|| advance::clearance(clearance, share))?;
-    let precision = advance::precision(precision)?;
+    of_either!(&ends, (start, end) => {
+        let edges = List::new(start, end, &edges, &edge_radii)?;
+        let faces = List::new(start, end, &faces, &face_radii)?;
+        advanced(py, &edges, &faces, clearance)
+    })
+}
+
+fn advanced<'py, C: Coordinate + Element>(
+    py: Python<'py>,
+    edges: &List<'_, C>,
+    faces: &List<'_, C>,
+    clearance: Clearance,
+) -> PyResult<Bound<'py, PyDict>> {
     let step = || {
         let edges = edges.pairs().map_err(|error| refused("edges", error))?;
         let faces = faces.pairs().map_err(|error| refused("faces", error))?;
-        let step = engine_advance_pairs(&edges, &faces, clearance, precision);
+        let step = engine_advance_pairs(&edges, &faces, clearance);
         step.map_err(|error| Refused::new(&error))
     };
     let PairsStep {
@@ -91,17 +100,17 @@ fn refused(list: &str, error: PairsError) -> Refused {
 type Found<'py> = (Bound<'py, PyArray1<isize>>, Bound<'py, PyDict>);
 
 /// A list of pairs, of which nothing is copied but the radii.
-struct List<'a> {
-    start: &'a [[f64; 3]],
-    end: &'a [[f64; 3]],
+struct List<'a, C> {
+    start: &'a [[C; 3]],
+    end: &'a [[C; 3]],
     indices: &'a [[u32; 4]],
     radii: Vec<Radius>,
 }
 
-impl<'a> List<'a> {
+impl<'a, C: Coordinate + Element> List<'a, C> {
     fn new(
-        start: &'a PyReadonlyArray2<'_, f64>,
-        end: &'a PyReadonlyArray2<'_, f64>,
+        start: &'a PyReadonlyArray2<'_, C>,
+        end: &'a PyReadonlyArray2<'_, C>,
         indices: &'a PyReadonlyArray2<'_, u32>,
         radii: &PyReadonlyArray2<'_, f64>,
     ) -> PyResult<Self> {
@@ -114,7 +123,7 @@ impl<'a> List<'a> {
         })
     }
 
-    fn pairs<K: Kind>(&self) -> Result<Pairs<'_, K>, PairsError> {
+    fn pairs<K: Kind>(&self) -> Result<Pairs<'_, K, C>, PairsError> {
         let (start, end, indices) = (self.start, self.end, self.indices);
         // One radius for all saves to look at those of each.
         match *self.radii {
@@ -124,7 +133,10 @@ impl<'a> List<'a> {
     }
 }
 
-fn found<'py, K: Kind>(py: Python<'py>, list: &List) -> PyResult<Found<'py>> {
+fn found<'py, K: Kind, C: Coordinate + Element>(
+    py: Python<'py>,
+    list: &List<'_, C>,
+) -> PyResult<Found<'py>> {
     let pairs = list.pairs::<K>().map_err(|error| Refused::new(&error))?;
     let firsts: Vec<usize> = (0..pairs.len()).step_by(PART).collect();
     let hits = each(py, &firsts, |&first| {

@@ -43,6 +43,25 @@ impl Rows {
     }
 }
 
+/// Positions at both ends of a step, of shape `(n, 3)`, of the same type both.
+#[derive(FromPyObject)]
+pub(crate) enum Ends<'py> {
+    Double(PyReadonlyArray2<'py, f64>, PyReadonlyArray2<'py, f64>),
+    Single(PyReadonlyArray2<'py, f32>, PyReadonlyArray2<'py, f32>),
+}
+
+/// Asks about positions of either type.
+macro_rules! of_either {
+    ($ends:expr, ($start:ident, $end:ident) => $asked:expr) => {
+        match $ends {
+            $crate::queries::Ends::Double($start, $end) => $asked,
+            $crate::queries::Ends::Single($start, $end) => $asked,
+        }
+    };
+}
+
+pub(crate) use of_either;
+
 /// The rows of an array of shape `(n, N)`, where they are.
 pub(crate) fn rows<'a, T: numpy::Element, const N: usize>(
     name: &str,

@@ -156,7 +156,7 @@ def test_meshes_store_f32_where_that_is_asked():
     end[3:, 2] = np.float32(-1.7)
     single = mesh.step(start, end, precision="f32")
     double = mesh.step(start, end)
-    assert is_single(single.positions).all() and not is_single(double.positions).all()
+    assert single.positions.dtype == np.float32 and not is_single(double.positions).all()
     assert 0 < single.step < double.step and double.step - single.step < 1e-5
     assert mesh.is_free(start, single.positions)
     for refused in [
@@ -165,6 +165,54 @@ def test_meshes_store_f32_where_that_is_asked():
     ]:
         with pytest.raises(ValueError, match="precision is \"f16\""):
             refused()
+    # What it starts from is never rounded.
+    start[4, 1] = 0.1
+    with pytest.raises(ValueError, match=r"start\[4\]\[1\] is 0.1, which is no float32"):
+        mesh.step(start, end, precision="f32")
+    points = np.zeros((2, 8, 3))
+    points[1, 3, 2] = 1e39
+    with pytest.raises(ValueError, match=r"points\[1\]\[3\]\[2\] is 1e\+39, which is no float32"):
+        tunnelproof.advance("edge-edge", points, precision="f32")
+    end[5, 0] = -1e39
+    with pytest.raises(ValueError, match=r"end\[5\]\[0\] is -inf, not a finite number"):
+        mesh.step(start.astype(np.float32), end, precision="f32")
+
+
+@pytest.mark.parametrize("settings", [{}, {"clearance": 0.01}, {"share": 0.5}])
+@pytest.mark.parametrize("seed", range(10))
+def test_float32_arrays_are_answered_in_float32(seed, settings):
+    mesh, *ends = soup(seed)
+    start, end = (positions.astype(np.float32) for positions in ends)
+    double = [start.astype(np.float64), end.astype(np.float64)]
+    thickness = 0.0 if seed % 2 else 0.02
+    moved = mesh.step(start, end, thickness, **settings)
+    same = mesh.step(*double, thickness, **settings, precision="f32")
+    assert moved.positions.dtype == same.positions.dtype == np.float32
+    assert np.array_equal(moved.positions, same.positions) and moved.step == same.step
+    assert np.array_equal(moved.limits.vertices, same.limits.vertices)
+    wide = mesh.step(start, end, thickness, **settings, precision="f64")
+    assert wide.positions.dtype == np.float64 and abs(wide.step - moved.step) < 1e-4
+    # By the oracle, the motion to what is stored is free.
+    if moved.step > 0 and not len(moved.near):
+        assert not brute(mesh, double[0], moved.positions.astype(np.float64), thickness, tunnelproof.exact)
+    for ask in [mesh.all_contacts, mesh.first_contact]:
+        found, expected = ask(start, end, thickness), ask(*double, thickness)
+        assert np.array_equal(found.vertices, expected.vertices)
+        assert np.array_equal(found.toi, expected.toi) and np.array_equal(found.normal, expected.normal)
+    assert mesh.is_free(start, end, thickness) == mesh.is_free(*double, thickness)
+
+
+@pytest.mark.parametrize("kind", ["edge-edge", "vertex-face"])
+def test_points_that_are_float32_are_stored_as_such(kind):
+    family = "thick_uniform" if kind == "edge-edge" else "thick_face_uniform"
+    points, radii = tunnelproof.queries(family, 200, seed=8)
+    points = points.astype(np.float32)
+    moved = tunnelproof.advance(kind, points, radii)
+    same = tunnelproof.advance(kind, points.astype(np.float64), radii, precision="f32")
+    wide = tunnelproof.advance(kind, points, radii, precision="f64")
+    assert moved.points.dtype == same.points.dtype == np.float32 and wide.points.dtype == np.float64
+    assert np.array_equal(moved.points, same.points) and np.array_equal(moved.step, same.step)
+    assert not is_single(wide.points).all()
 
 
 @pytest.mark.parametrize("kind", ["edge-edge", "vertex-face"])
@@ -189,14 +237,17 @@ def test_stored_points_of_a_pair_keep_what_they_say(kind, settings):
 
 def test_arrays_in_order_are_read_where_they_are():
     mesh, start, end = soup(1)
-    assert tunnelproof._arrays.position_array("start", start) is start
+    for kind in [np.float64, np.float32]:
+        first, last = start.astype(kind), end.astype(kind)
+        found = tunnelproof._arrays.position_arrays(first, last)
+        assert found[0] is first and found[1] is last
     expected = mesh.step(start, end)
     for same in [np.asfortranarray, lambda x: np.repeat(x, 2, axis=0)[::2], lambda x: x.astype(">f8")]:
         found = mesh.step(same(start), same(end))
         assert found.step == expected.step
         assert np.array_equal(found.positions, expected.positions)
-    single = mesh.step(start.astype(np.float32), end.tolist())
-    assert single.positions.dtype == np.float64
+    mixed = mesh.step(start.astype(np.float32), end.tolist())
+    assert mixed.positions.dtype == np.float64
 
 
 def test_what_is_no_mesh_is_named():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import tunnelproof
-from test_mesh import all_pairs, is_single, soup
+from test_mesh import all_pairs, soup
 from tunnelproof import Blocked
 
 RANDOM = np.random.default_rng(3)
@@ -39,6 +39,21 @@ def test_pairs_are_decided_as_queries(kind, radius):
     assert (pairs == expected.hit.nonzero()[0]).all() and 100 < len(pairs) < 9000
     for found, column in zip(rows(hits, slice(None)), rows(expected, pairs)):
         assert np.array_equal(found, column)
+
+
+@pytest.mark.parametrize("kind", ["edge-edge", "vertex-face"])
+def test_positions_in_float32_are_decided_as_they_are(kind):
+    start, end = START.astype(np.float32), END.astype(np.float32)
+    pairs, hits = tunnelproof.decide_pairs(kind, start, end, INDICES, 0.05)
+    double = [start.astype(np.float64), end.astype(np.float64)]
+    expected, same = tunnelproof.decide_pairs(kind, *double, INDICES, 0.05)
+    assert np.array_equal(pairs, expected) and len(pairs) > 100
+    for found, column in zip(rows(hits, slice(None)), rows(same, slice(None))):
+        assert np.array_equal(found, column)
+    # Of one float32 and one float64 both are float64.
+    expected, _ = tunnelproof.decide_pairs(kind, double[0], END, INDICES, 0.05)
+    pairs, _ = tunnelproof.decide_pairs(kind, start, END, INDICES, 0.05)
+    assert np.array_equal(pairs, expected)
 
 
 def test_there_may_be_no_pairs():
@@ -83,7 +98,7 @@ def test_what_is_no_pair_is_named(change, message):
 @pytest.mark.parametrize("seed", range(10))
 def test_a_step_of_all_pairs_of_a_mesh_is_that_of_the_mesh(seed, settings, precision):
     mesh, start, end = soup(seed, integers=seed == 9)
-    start = start.astype(np.float32).astype(np.float64)
+    start = start.astype(np.float32)
     listed = all_pairs(mesh)
     radius = 0.0 if seed % 2 else 0.02
     of_mesh = mesh.step(start, end, radius, **settings, precision=precision)
@@ -98,7 +113,7 @@ def test_a_step_of_all_pairs_of_a_mesh_is_that_of_the_mesh(seed, settings, preci
         precision=precision,
     )
     assert moved.step == of_mesh.step and np.array_equal(moved.positions, of_mesh.positions)
-    assert precision == "f64" or is_single(moved.positions).all()
+    assert moved.positions.dtype == (np.float32 if precision == "f32" else np.float64)
     for found, expected in [(moved.limits, of_mesh.limits), (moved.near, of_mesh.near)]:
         vertices = [listed[kind][index] for kind, index in zip(found.kind, found.index)]
         assert vertices == expected.vertices.tolist() and len(found) == len(expected)

@@ -7,22 +7,21 @@ use super::block::{CHUNK, Source};
 use super::kind::Kind;
 use super::pairs::{Indexed, Pairs, PairsError, Radii};
 use super::queries::MayTouch;
-use super::step::{Blocked, Clearance, Limit, Precision};
-use super::together::{Moved, PairMotion, Together, targets};
+use super::step::{Blocked, Clearance, Limit};
+use super::together::{Moved, PairMotion, Together};
 use crate::environment;
 use crate::parallel::mapped_with;
-use crate::query::{EdgeEdge, QueryKind, Radius, VertexFace};
+use crate::query::{Coordinate, EdgeEdge, QueryKind, Radius, VertexFace};
 
-/// A step of all points that is proved.
+/// A step of all points that is proved, with positions in `f64`, or in `f32` for `C`.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct PairsStep {
+pub struct PairsStep<C = f64> {
     /// How much of the step is made, from 0 to 1.
     pub step: f64,
     /// The positions to store, of all points: those of [`interpolate_in`](super::interpolate_in) at
-    /// this step, so the end itself at 1, or the nearest `f32` of it where that is asked, and the start
-    /// at 0.
-    pub positions: Vec<[f64; 3]>,
+    /// this step, in the precision of their type, so the end itself at 1 and the start at 0.
+    pub positions: Vec<[C; 3]>,
     /// The pairs for which the step is no larger, edges first, in order; none if it is a whole one.
     pub limits: Vec<PairsLimit>,
     /// The pairs that keep less than they should, as they start nearer than that or as rounding leaves
@@ -52,7 +51,9 @@ pub struct ListedPair {
 /// The largest step, nearly, that keeps all pairs apart by more than their radius and a clearance,
 /// and the positions to store. How nearly is said at [`advance`](super::advance).
 ///
-/// Both lists are of the same points. One of them may be empty.
+/// Both lists are of the same points. One of them may be empty. Positions that are given in `f32` are
+/// returned in `f32`, and what is proved of them is as exact. There is less room then: two sides that
+/// are nearer than some 2^-21 of their coordinates, beyond what they keep, may be [`Blocked::Near`].
 ///
 /// # Guarantee
 ///
@@ -66,9 +67,8 @@ pub struct ListedPair {
 ///
 /// A pair that is in neither list stays apart as well, if the boxes around its two sides are farther
 /// apart, along an axis, than its radius and a [`Clearance::Distance`]. The box of a side is that
-/// around all its points both at the start and at the end, and with [`Precision::F32`] at what the end
-/// is rounded to: `interpolate_in` with a step of 1. Stored positions are in these boxes. That is what
-/// the broad phase has to see to, with its rounding outward. The next step starts at the stored
+/// around all its points both at the start and at the end. Stored positions are in these boxes. That is
+/// what the broad phase has to see to, with its rounding outward. The next step starts at the stored
 /// positions, with new lists: then nothing passes through anything in these pairs, however many steps
 /// follow. The preconditions are those of [`decide`](super::decide).
 ///
@@ -85,7 +85,7 @@ pub struct ListedPair {
 /// # Example
 ///
 /// ```
-/// use tunnelproof::{Clearance, Pairs, Precision, advance_pairs};
+/// use tunnelproof::{Clearance, Pairs, advance_pairs};
 ///
 /// // A hair above another one, and a vertex above a face, all of which fall.
 /// let start = [
@@ -98,7 +98,7 @@ pub struct ListedPair {
 /// }
 /// let edges = Pairs::new(&start, &end, &[[0, 1, 2, 3]], 0.01)?;
 /// let faces = Pairs::new(&start, &end, &[[7, 4, 5, 6]], 0.01)?;
-/// let moved = advance_pairs(&edges, &faces, Clearance::None, Precision::F64)?;
+/// let moved = advance_pairs(&edges, &faces, Clearance::None)?;
 /// // The vertex stops just above the face, and the hair as early.
 /// assert!(moved.positions[7][2] > 0.01 && moved.positions[7][2] < 0.010001);
 /// assert!((moved.step - 0.46).abs() < 1e-6);
@@ -107,34 +107,29 @@ pub struct ListedPair {
 /// assert!(rest.decide().is_empty());
 /// # Ok::<(), tunnelproof::PairsError>(())
 /// ```
-pub fn advance_pairs(
-    edges: &Pairs<EdgeEdge>,
-    faces: &Pairs<VertexFace>,
+pub fn advance_pairs<C: Coordinate>(
+    edges: &Pairs<EdgeEdge, C>,
+    faces: &Pairs<VertexFace, C>,
     clearance: Clearance,
-    precision: Precision,
-) -> Result<PairsStep, PairsError> {
+) -> Result<PairsStep<C>, PairsError> {
     let clearance = clearance.checked()?;
     let (edges, faces) = (&edges.indexed, &faces.indexed);
-    let are_same = |a: &[[f64; 3]], b: &[[f64; 3]]| ptr::eq(a, b) || a == b;
+    let are_same = |a: &[[C; 3]], b: &[[C; 3]]| ptr::eq(a, b) || a == b;
     if !are_same(edges.start, faces.start) || !are_same(edges.end, faces.end) {
         return Err(PairsError::Positions);
     }
-    let targets = targets(edges.end, precision);
-    let end = targets.as_deref().unwrap_or(edges.end);
-    let [edges, faces] = [edges, faces].map(|indexed| Indexed { end, ..*indexed });
-    let asked = Asked {
+    let mut close = close_pairs::<EdgeEdge, C>(edges, QueryKind::EdgeEdge, clearance);
+    close.extend(close_pairs::<VertexFace, C>(
+        faces,
+        QueryKind::VertexFace,
         clearance,
-        precision,
-    };
-    let mut close = asked.close::<EdgeEdge>(&edges, QueryKind::EdgeEdge);
-    close.extend(asked.close::<VertexFace>(&faces, QueryKind::VertexFace));
+    ));
     let together = Together {
         start: edges.start,
-        end,
-        precision,
+        end: edges.end,
         motion: &|pair: &ListedPair| match pair.kind {
-            QueryKind::EdgeEdge => motion(&edges, pair),
-            QueryKind::VertexFace => motion(&faces, pair),
+            QueryKind::EdgeEdge => motion(edges, pair),
+            QueryKind::VertexFace => motion(faces, pair),
         },
     };
     let Moved {
@@ -154,67 +149,59 @@ pub fn advance_pairs(
     })
 }
 
-/// What is asked of each pair.
-struct Asked {
+/// The limits of the pairs of a list that may come too near.
+fn close_pairs<K: Kind, C: Coordinate>(
+    indexed: &Indexed<C>,
+    kind: QueryKind,
     clearance: Clearance,
-    precision: Precision,
-}
-
-impl Asked {
-    /// The limits of the pairs of a list that may come too near.
-    fn close<K: Kind>(
-        &self,
-        indexed: &Indexed,
-        kind: QueryKind,
-    ) -> Vec<(ListedPair, Option<Limit>)> {
-        let count = indexed.indices.len();
-        let screen = || Box::new(MayTouch::new());
-        let parts = mapped_with(count.div_ceil(PART), screen, |screen, part| {
-            // By each thread that takes a part.
-            debug_assert_eq!(environment::check(), Ok(()));
-            let mut close = Vec::new();
-            let pairs = part * PART..count.min((part + 1) * PART);
-            for first in pairs.clone().step_by(CHUNK) {
-                let chunk = first..pairs.end.min(first + CHUNK);
-                self.ask::<K>(indexed, chunk, screen, |index| {
-                    let pair = ListedPair { kind, index };
-                    let radius = indexed.radius(index);
-                    let motion = motion(indexed, &pair);
-                    close.push((pair, motion.limit(radius, self.clearance, self.precision)));
-                });
-            }
-            close
-        });
-        parts.concat()
-    }
-
-    /// Calls `each` for pairs, of a chunk, of which rounded positions at any step may come too near.
-    fn ask<K: Kind>(
-        &self,
-        indexed: &Indexed,
-        chunk: Range<usize>,
-        screen: &mut MayTouch,
-        mut each: impl FnMut(usize),
-    ) {
-        let beyond = match self.clearance {
-            Clearance::Distance(distance) => distance,
-            _ => 0.0,
-        };
-        let mut radii = [Radius::ZERO; CHUNK];
-        for (radius, pair) in radii.iter_mut().zip(chunk.clone()) {
-            *radius = indexed.radius(pair).beyond(beyond);
+) -> Vec<(ListedPair, Option<Limit>)> {
+    let count = indexed.indices.len();
+    let screen = || Box::new(MayTouch::new());
+    let parts = mapped_with(count.div_ceil(PART), screen, |screen, part| {
+        // By each thread that takes a part.
+        debug_assert_eq!(environment::check(), Ok(()));
+        let mut close = Vec::new();
+        let pairs = part * PART..count.min((part + 1) * PART);
+        for first in pairs.clone().step_by(CHUNK) {
+            let chunk = first..pairs.end.min(first + CHUNK);
+            ask::<K, C>(indexed, chunk, clearance, screen, |index| {
+                let pair = ListedPair { kind, index };
+                let radius = indexed.radius(index);
+                let motion = motion(indexed, &pair);
+                close.push((pair, motion.limit(radius, clearance, C::PRECISION)));
+            });
         }
-        let (first, count) = (chunk.start, chunk.len());
-        let source = Indexed {
-            indices: &indexed.indices[chunk],
-            radii: Radii::Each(&radii[..count]),
-            ..*indexed
-        };
-        screen.with_room::<K>(&source, count, self.precision, |place| each(first + place));
-    }
+        close
+    });
+    parts.concat()
 }
 
-fn motion(indexed: &Indexed, pair: &ListedPair) -> PairMotion {
+/// Calls `each` for pairs, of a chunk, of which rounded positions at any step may come too near.
+fn ask<K: Kind, C: Coordinate>(
+    indexed: &Indexed<C>,
+    chunk: Range<usize>,
+    clearance: Clearance,
+    screen: &mut MayTouch,
+    mut each: impl FnMut(usize),
+) {
+    let beyond = match clearance {
+        Clearance::Distance(distance) => distance,
+        _ => 0.0,
+    };
+    let mut radii = [Radius::ZERO; CHUNK];
+    for (radius, pair) in radii.iter_mut().zip(chunk.clone()) {
+        *radius = indexed.radius(pair).beyond(beyond);
+    }
+    let (first, count) = (chunk.start, chunk.len());
+    let source = Indexed {
+        indices: &indexed.indices[chunk],
+        radii: Radii::Each(&radii[..count]),
+        ..*indexed
+    };
+    screen.with_room::<K>(&source, count, C::PRECISION, |place| each(first + place));
+}
+
+fn motion<C: Coordinate>(indexed: &Indexed<C>, pair: &ListedPair) -> PairMotion {
     PairMotion {
         kind: pair.kind,
         positions: indexed.positions(pair.index),

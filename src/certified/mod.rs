@@ -107,4 +107,4 @@ pub use step::{
     interpolate_in,
 };
 pub(crate) use step::{Limit, first_toi, rounding_of};
-pub(crate) use together::{Moved, PairMotion, Together, targets};
+pub(crate) use together::{Moved, PairMotion, Together};

@@ -9,9 +9,9 @@ use super::kind::{Kind, Stages};
 use super::motion::Positions;
 use super::queries;
 use super::stage::Stage;
-use super::step::{Clearance, ClearanceError};
+use super::step::{Clearance, ClearanceError, Precision};
 use crate::contact::Hit;
-use crate::query::{Coordinate, Counted, QueryError, Radius, first_not_finite};
+use crate::query::{Coordinate, Counted, QueryError, Radius, first_not_finite, widened};
 
 /// Queries of one kind, [`EdgeEdge`](crate::EdgeEdge) or [`VertexFace`](crate::VertexFace), whose
 /// points are given by their indices into arrays of positions: candidate pairs as the broad phase
@@ -235,8 +235,7 @@ impl<'a, K: Kind, C: Coordinate> Pairs<'a, K, C> {
 impl<C: Coordinate> Indexed<'_, C> {
     /// The motion of a pair.
     pub(super) fn positions(&self, pair: usize) -> Positions {
-        let of =
-            |all: &[[C; 3]]| self.indices[pair].map(|index| all[index as usize].map(Into::into));
+        let of = |all: &[[C; 3]]| self.indices[pair].map(|index| widened(&all[index as usize]));
         Positions {
             start: of(self.start),
             end: of(self.end),
@@ -295,7 +294,7 @@ impl<C: Coordinate> Source for Indexed<'_, C> {
         }
     }
 
-    const IS_SINGLE: bool = C::IS_SINGLE;
+    const IS_SINGLE: bool = matches!(C::PRECISION, Precision::F32);
 
     #[inline(always)]
     fn load_single(&self, tiles: &mut [SingleTile; CHUNK / LANES], queries: Range<usize>) {

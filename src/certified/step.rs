@@ -114,7 +114,7 @@ impl Precision {
     }
 
     /// The number that a coordinate moves to. What is not finite stays so.
-    pub(crate) fn target(self, x: f64) -> f64 {
+    fn target(self, x: f64) -> f64 {
         match self {
             Precision::F32 if x.is_finite() => {
                 f64::from(x.clamp(f32::MIN.into(), f32::MAX.into()) as f32)

@@ -8,7 +8,7 @@
 
 use super::motion::Positions;
 use super::step::{Blocked, Clearance, Limit, Precision, halved, is_apart_until, limit, stored};
-use crate::query::{EdgeEdge, QueryKind, Radius, VertexFace};
+use crate::query::{Coordinate, EdgeEdge, QueryKind, Radius, VertexFace, widened};
 
 /// The motion of a pair, of either kind.
 pub(crate) struct PairMotion {
@@ -48,49 +48,38 @@ impl PairMotion {
     }
 }
 
-/// What the positions at the end of a motion become; nothing where they stay what they are.
-pub(crate) fn targets(end: &[[f64; 3]], precision: Precision) -> Option<Vec<[f64; 3]>> {
-    let of = |position: &[f64; 3]| position.map(|x| precision.target(x));
-    (precision != Precision::F64).then(|| end.iter().map(of).collect())
-}
-
 /// The motion of all points, and how that of a pair `P` of them is looked up.
-pub(crate) struct Together<'a, P> {
-    pub(crate) start: &'a [[f64; 3]],
-    /// [Targets](targets) in the precision.
-    pub(crate) end: &'a [[f64; 3]],
-    pub(crate) precision: Precision,
+pub(crate) struct Together<'a, P, C> {
+    pub(crate) start: &'a [[C; 3]],
+    pub(crate) end: &'a [[C; 3]],
     pub(crate) motion: &'a dyn Fn(&P) -> PairMotion,
 }
 
 /// A step of all points that is proved.
-pub(crate) struct Moved<P> {
+pub(crate) struct Moved<P, C> {
     /// How much of the step is made.
     pub(crate) step: f64,
     /// The positions to store.
-    pub(crate) positions: Vec<[f64; 3]>,
+    pub(crate) positions: Vec<[C; 3]>,
     /// The pairs for which the step is no larger, in order.
     pub(crate) limits: Vec<(P, Blocked)>,
     /// The pairs that keep less than they should, in order, with what they keep.
     pub(crate) near: Vec<(P, Radius)>,
 }
 
-impl<P: Copy + Ord> Together<'_, P> {
+impl<P: Copy + Ord, C: Coordinate> Together<'_, P, C> {
     /// The step by the limits of the pairs that come too near during the motion to the end; those of
     /// `None` touch at the start.
-    pub(crate) fn moved(&self, mut close: Vec<(P, Option<Limit>)>) -> Moved<P> {
+    pub(crate) fn moved(&self, mut close: Vec<(P, Option<Limit>)>) -> Moved<P, C> {
         close.sort_unstable_by_key(|(pair, _)| *pair);
         let (step, limits) = self.furthest(&mut close);
         let near = close.iter().filter_map(|(pair, limit)| {
             let limit = limit.as_ref().filter(|limit| !limit.is_whole)?;
             Some((*pair, limit.kept))
         });
-        let positions = self.start.iter().zip(self.end);
         Moved {
             step,
-            positions: positions
-                .map(|(start, end)| stored(start, end, step, self.precision))
-                .collect(),
+            positions: self.stored(step).collect(),
             limits,
             near: near.collect(),
         }
@@ -137,7 +126,7 @@ impl<P: Copy + Ord> Together<'_, P> {
         let mut failing = Vec::new();
         for step in halved(largest).chain(least) {
             let fails = |(pair, limit): &&(P, &Limit)| {
-                !(self.motion)(pair).is_apart_until(limit.kept, step, self.precision)
+                !(self.motion)(pair).is_apart_until(limit.kept, step, C::PRECISION)
             };
             let now: Vec<_> = tight.iter().filter(fails).collect();
             if now.is_empty() && self.moves(step) {
@@ -175,7 +164,7 @@ impl<P: Copy + Ord> Together<'_, P> {
                 break;
             }
             if limit.is_rough() {
-                *limit = (self.motion)(pair).decided(*limit, self.precision);
+                *limit = (self.motion)(pair).decided(*limit, C::PRECISION);
             }
             if limit.until > 0.0 && !limit.is_short {
                 least = limit.until.min(least);
@@ -185,7 +174,16 @@ impl<P: Copy + Ord> Together<'_, P> {
 
     /// Whether any position at a step is another one than at the start.
     fn moves(&self, step: f64) -> bool {
-        let mut both = self.start.iter().zip(self.end);
-        both.any(|(start, end)| stored(start, end, step, self.precision) != *start)
+        let mut both = self.start.iter().zip(self.stored(step));
+        both.any(|(start, stored)| stored != *start)
+    }
+
+    /// The positions to store at a step.
+    fn stored(&self, step: f64) -> impl Iterator<Item = [C; 3]> {
+        let both = self.start.iter().zip(self.end);
+        both.map(move |(start, end)| {
+            // Of the type of both ends, as the precision says.
+            stored(&widened(start), &widened(end), step, C::PRECISION).map(C::of)
+        })
     }
 }

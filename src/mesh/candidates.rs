@@ -7,10 +7,7 @@ use super::tree::{Bounds, Grid, Lane, Meets, Task, Tree};
 use crate::certified::{Positions, Precision, rounding_of};
 use crate::environment;
 use crate::parallel::{both, mapped, mapped_with};
-use crate::query::{QueryKind, Radius, first_not_finite};
-
-/// A position as it is stored.
-pub(super) type Position = [f64; 3];
+use crate::query::{Coordinate, QueryKind, Radius, first_not_finite, widened};
 
 /// A pair of a mesh by its indices: of two segments, or of a vertex and a face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -22,31 +19,31 @@ pub(super) struct Candidate {
 
 /// A question about a mesh: positions at both ends of a step, and the thickness.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Question<'a> {
+pub(super) struct Question<'a, C> {
     pub(super) mesh: &'a Mesh,
-    pub(super) start: &'a [Position],
-    pub(super) end: &'a [Position],
+    pub(super) start: &'a [[C; 3]],
+    pub(super) end: &'a [[C; 3]],
     pub(super) thickness: Thickness<'a>,
 }
 
 /// The trees of a question.
-pub(super) struct Candidates<'a> {
-    question: Question<'a>,
+pub(super) struct Candidates<'a, C> {
+    question: Question<'a, C>,
     segments: Tree,
     vertices: Tree,
     faces: Tree,
     meets: Option<Meets>,
 }
 
-impl<'a> Question<'a> {
+impl<'a, C: Coordinate> Question<'a, C> {
     /// # Errors
     ///
     /// [`MeshError`] if an array has another length than it should have, or holds what is no
     /// coordinate or thickness.
     pub(super) fn new(
         mesh: &'a Mesh,
-        start: &'a [Position],
-        end: &'a [Position],
+        start: &'a [[C; 3]],
+        end: &'a [[C; 3]],
         thickness: Thickness<'a>,
     ) -> Result<Self, MeshError> {
         debug_assert_eq!(environment::check(), Ok(()));
@@ -84,7 +81,7 @@ impl<'a> Question<'a> {
     /// The motion of a pair.
     #[inline(always)]
     pub(super) fn positions(&self, vertices: &[u32; 4]) -> Positions {
-        let of = |all: &[Position]| vertices.map(|vertex| all[vertex as usize]);
+        let of = |all: &[[C; 3]]| vertices.map(|vertex| widened(&all[vertex as usize]));
         Positions {
             start: of(self.start),
             end: of(self.end),
@@ -125,8 +122,11 @@ struct Swept {
 }
 
 impl Swept {
-    fn new(question: &Question, rounded: Option<Precision>) -> Self {
-        let at = |vertex: usize| (&question.start[vertex], &question.end[vertex]);
+    fn new<C: Coordinate>(question: &Question<C>, rounded: Option<Precision>) -> Self {
+        let at = |vertex: usize| {
+            let of = |all: &[[C; 3]]| widened(&all[vertex]);
+            (of(question.start), of(question.end))
+        };
         let count = question.mesh.vertices;
         Swept {
             bounds: mapped(count, SHARE, |vertex| {
@@ -137,7 +137,7 @@ impl Swept {
                 }
             }),
             rounding: mapped(count, SHARE, |vertex| match (at(vertex), rounded) {
-                ((start, end), Some(precision)) => rounding_of(start, end, precision),
+                ((start, end), Some(precision)) => rounding_of(&start, &end, precision),
                 _ => 0.0,
             }),
         }
@@ -165,10 +165,10 @@ impl Swept {
     }
 }
 
-impl<'a> Candidates<'a> {
+impl<'a, C: Coordinate> Candidates<'a, C> {
     /// All pairs that come within the thickness and a distance beyond it, also if positions on the
     /// way are `rounded`.
-    pub(super) fn new(question: Question<'a>, beyond: f64, rounded: Option<Precision>) -> Self {
+    pub(super) fn new(question: Question<'a, C>, beyond: f64, rounded: Option<Precision>) -> Self {
         let mesh = question.mesh;
         let swept = Swept::new(&question, rounded);
         let grid = Grid::new(&swept.around());
@@ -276,9 +276,9 @@ pub(super) fn sides(kind: QueryKind, vertices: &[u32; 4]) -> (&[u32], &[u32]) {
     })
 }
 
-fn check_positions(
+fn check_positions<C: Coordinate>(
     array: &'static str,
-    positions: &[Position],
+    positions: &[[C; 3]],
     expected: usize,
 ) -> Result<(), MeshError> {
     if positions.len() != expected {

@@ -2,7 +2,7 @@
 
 use super::candidates::{Candidate, Question};
 use crate::certified::{CHUNK, Indexed, MayTouch, Precision, Radii};
-use crate::query::{EdgeEdge, QueryKind, Radius, VertexFace};
+use crate::query::{Coordinate, EdgeEdge, QueryKind, Radius, VertexFace};
 
 /// Pairs of a kind.
 pub(super) struct Chunk {
@@ -67,9 +67,9 @@ impl Screen {
     /// Calls `each` for pairs of a chunk, in order, with the indices of their points: for all that
     /// touch, and for some that do not.
     #[inline(always)]
-    pub(super) fn may_touch(
+    pub(super) fn may_touch<C: Coordinate>(
         &mut self,
-        question: &Question,
+        question: &Question<C>,
         chunk: &Chunk,
         each: impl FnMut(&Candidate, &[u32; 4]),
     ) {
@@ -80,22 +80,21 @@ impl Screen {
     /// The same for what rounded positions at any step touch, or come within a distance beyond the
     /// thickness.
     #[inline(always)]
-    pub(super) fn may_touch_rounded(
+    pub(super) fn may_touch_rounded<C: Coordinate>(
         &mut self,
-        question: &Question,
+        question: &Question<C>,
         chunk: &Chunk,
         beyond: f64,
-        precision: Precision,
         each: impl FnMut(&Candidate, &[u32; 4]),
     ) {
         let radius = |vertices: &[u32; 4]| question.radius(chunk.kind, vertices).beyond(beyond);
-        self.ask(question, chunk, radius, Some(precision), each);
+        self.ask(question, chunk, radius, Some(C::PRECISION), each);
     }
 
     #[inline(always)]
-    fn ask(
+    fn ask<C: Coordinate>(
         &mut self,
-        question: &Question,
+        question: &Question<C>,
         chunk: &Chunk,
         radius: impl Fn(&[u32; 4]) -> Radius,
         rounded: Option<Precision>,

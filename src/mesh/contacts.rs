@@ -2,12 +2,12 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::candidates::{Candidate, Candidates, Position, Question};
+use super::candidates::{Candidate, Candidates, Question};
 use super::error::MeshError;
 use super::topology::{Mesh, Pair, Thickness};
-use crate::certified::first_toi;
+use crate::certified::{Positions, first_toi};
 use crate::contact::{Contact, ContactKind};
-use crate::query::{EdgeEdge, Point, Query, QueryKind, Radius, VertexFace};
+use crate::query::{Coordinate, EdgeEdge, Point, Query, QueryKind, Radius, VertexFace};
 
 /// The first contact of a pair during a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,16 +30,16 @@ impl Mesh {
     /// The contact of the least time of impact during straight motion from `start` to `end`; of
     /// several with the same `toi`, that of the first pair.
     ///
-    /// Positions are in metres, one for each vertex. Certified: none is missed and none is false.
+    /// Positions are in metres, one for each vertex, in `f64` or in `f32`. Certified: none is missed and none is false.
     ///
     /// # Errors
     ///
     /// [`MeshError`] if there is not one position for each vertex, a coordinate is not finite, or
     /// the thickness is not a finite number of at least 0.
-    pub fn first_contact<'a>(
+    pub fn first_contact<'a, C: Coordinate>(
         &self,
-        start: &[Position],
-        end: &[Position],
+        start: &[[C; 3]],
+        end: &[[C; 3]],
         thickness: impl Into<Thickness<'a>>,
     ) -> Result<Option<MeshContact>, MeshError> {
         let question = Question::new(self, start, end, thickness.into())?;
@@ -67,10 +67,10 @@ impl Mesh {
     /// # Errors
     ///
     /// As [`first_contact`](Self::first_contact).
-    pub fn all_contacts<'a>(
+    pub fn all_contacts<'a, C: Coordinate>(
         &self,
-        start: &[Position],
-        end: &[Position],
+        start: &[[C; 3]],
+        end: &[[C; 3]],
         thickness: impl Into<Thickness<'a>>,
     ) -> Result<Vec<MeshContact>, MeshError> {
         let question = Question::new(self, start, end, thickness.into())?;
@@ -93,10 +93,10 @@ impl Mesh {
     /// # Errors
     ///
     /// As [`first_contact`](Self::first_contact).
-    pub fn is_free<'a>(
+    pub fn is_free<'a, C: Coordinate>(
         &self,
-        start: &[Position],
-        end: &[Position],
+        start: &[[C; 3]],
+        end: &[[C; 3]],
         thickness: impl Into<Thickness<'a>>,
     ) -> Result<bool, MeshError> {
         let question = Question::new(self, start, end, thickness.into())?;
@@ -122,11 +122,11 @@ impl Mesh {
     ///
     /// As [`first_contact`](Self::first_contact). `Ok(None)` if the two are no pair of this mesh by
     /// their kinds or indices.
-    pub fn query<'a>(
+    pub fn query<'a, C: Coordinate>(
         &self,
         pair: Pair,
-        start: &[Position],
-        end: &[Position],
+        start: &[[C; 3]],
+        end: &[[C; 3]],
         thickness: impl Into<Thickness<'a>>,
     ) -> Result<Option<Query>, MeshError> {
         let question = Question::new(self, start, end, thickness.into())?;
@@ -140,7 +140,7 @@ impl Mesh {
     }
 }
 
-impl Question<'_> {
+impl<C: Coordinate> Question<'_, C> {
     /// When a pair touches first.
     #[inline]
     fn toi(&self, kind: QueryKind, vertices: &[u32; 4]) -> Option<f64> {
@@ -154,8 +154,8 @@ impl Question<'_> {
 
     /// The query of a pair. All its numbers are finite; so it is always one.
     fn query(&self, kind: QueryKind, vertices: &[u32; 4]) -> Option<Query> {
-        let of = |all: &[Position]| vertices.map(|vertex| Point::from(all[vertex as usize]));
-        let (start, end): ([Point; 4], [Point; 4]) = (of(self.start), of(self.end));
+        let Positions { start, end } = self.positions(vertices);
+        let [start, end] = [start, end].map(|points| points.map(Point::from));
         let radius: Radius = self.radius(kind, vertices);
         match kind {
             QueryKind::EdgeEdge => EdgeEdge::new(start, end, radius).map(Query::EdgeEdge).ok(),

@@ -1,22 +1,20 @@
 //! The largest step of a mesh that is proved to touch nothing, and the positions to store.
 
-use super::candidates::{Candidate, Candidates, Position, Question};
+use super::candidates::{Candidate, Candidates, Question};
 use super::error::MeshError;
 use super::topology::{Mesh, Pair, Thickness};
-use crate::certified::{
-    Blocked, Clearance, Limit, Moved, PairMotion, Precision, Together, targets,
-};
-use crate::query::Radius;
+use crate::certified::{Blocked, Clearance, Limit, Moved, PairMotion, Together};
+use crate::query::{Coordinate, Radius};
 
-/// A step of a mesh that is proved.
+/// A step of a mesh that is proved, with positions in `f64`, or in `f32` for `C`.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct MeshStep {
+pub struct MeshStep<C = f64> {
     /// How much of the step is made, from 0 to 1.
     pub step: f64,
-    /// The positions to store: those of [`interpolate_in`](crate::interpolate_in) at this step, so
-    /// the end itself at 1 and the start at 0.
-    pub positions: Vec<[f64; 3]>,
+    /// The positions to store: those of [`interpolate_in`](crate::interpolate_in) at this step, in
+    /// the precision of their type, so the end itself at 1 and the start at 0.
+    pub positions: Vec<[C; 3]>,
     /// The pairs for which the step is no larger, in order; none if it is a whole one.
     pub limits: Vec<MeshLimit>,
     /// The pairs that keep less than the thickness and the clearance, as they start nearer than
@@ -54,17 +52,21 @@ impl Mesh {
     /// # Errors
     ///
     /// As [`first_contact`](Self::first_contact).
-    pub fn step<'a>(
+    pub fn step<'a, C: Coordinate>(
         &self,
-        start: &[Position],
-        end: &[Position],
+        start: &[[C; 3]],
+        end: &[[C; 3]],
         thickness: impl Into<Thickness<'a>>,
-    ) -> Result<MeshStep, MeshError> {
+    ) -> Result<MeshStep<C>, MeshError> {
         self.step_with_clearance(start, end, thickness, Clearance::None)
     }
 
     /// The largest step, nearly, that keeps all pairs apart by more than the thickness and a
     /// clearance, and the positions to store. How nearly is said at [`advance`](crate::advance).
+    ///
+    /// Positions that are given in `f32` are returned in `f32`, with the same guarantee. There is less
+    /// room then: two sides that are nearer than some 2^-21 of their coordinates, beyond what they keep,
+    /// may be [`Blocked::Near`].
     ///
     /// # Guarantee
     ///
@@ -87,55 +89,30 @@ impl Mesh {
     /// # Errors
     ///
     /// As [`first_contact`](Self::first_contact), and [`MeshError::Clearance`].
-    pub fn step_with_clearance<'a>(
+    pub fn step_with_clearance<'a, C: Coordinate>(
         &self,
-        start: &[Position],
-        end: &[Position],
+        start: &[[C; 3]],
+        end: &[[C; 3]],
         thickness: impl Into<Thickness<'a>>,
         clearance: Clearance,
-    ) -> Result<MeshStep, MeshError> {
-        self.step_in(start, end, thickness, clearance, Precision::F64)
-    }
-
-    /// [`step_with_clearance`](Self::step_with_clearance), with positions that are stored in `f32`
-    /// where that is asked.
-    ///
-    /// The guarantee is the same, and about the numbers that are stored: if all positions at the
-    /// start are `f32`, so are those of [`MeshStep::positions`], and `as f32` changes none of them. A
-    /// whole step ends at the `f32` nearest to `end`. There is less room, as
-    /// [`advance_in`](crate::advance_in) says.
-    ///
-    /// # Errors
-    ///
-    /// As [`step_with_clearance`](Self::step_with_clearance).
-    pub fn step_in<'a>(
-        &self,
-        start: &[Position],
-        end: &[Position],
-        thickness: impl Into<Thickness<'a>>,
-        clearance: Clearance,
-        precision: Precision,
-    ) -> Result<MeshStep, MeshError> {
+    ) -> Result<MeshStep<C>, MeshError> {
         let clearance = clearance.checked()?;
-        let targets = targets(end, precision);
-        let end = targets.as_deref().unwrap_or(end);
         let question = Question::new(self, start, end, thickness.into())?;
         let beyond = match clearance {
             Clearance::Distance(distance) => distance,
             _ => 0.0,
         };
-        let candidates = Candidates::new(question, beyond, Some(precision));
+        let candidates = Candidates::new(question, beyond, Some(C::PRECISION));
         let parts = candidates.visit(|found: &mut Found, screen, chunk| {
             found.counts[chunk.kind as usize] += chunk.len();
             let close = &mut found.close;
             let limit = |candidate: &Candidate, vertices: &[u32; 4]| {
                 let radius = question.radius(chunk.kind, vertices);
-                let limit = question
-                    .motion(candidate)
-                    .limit(radius, clearance, precision);
+                let motion = question.motion(candidate);
+                let limit = motion.limit(radius, clearance, C::PRECISION);
                 close.push((*candidate, limit));
             };
-            screen.may_touch_rounded(&question, chunk, beyond, precision, limit);
+            screen.may_touch_rounded(&question, chunk, beyond, limit);
         });
         let mut counts = [0; 2];
         let mut close = Vec::new();
@@ -146,7 +123,6 @@ impl Mesh {
         let together = Together {
             start,
             end,
-            precision,
             motion: &|candidate| question.motion(candidate),
         };
         let Moved {
@@ -170,7 +146,7 @@ impl Mesh {
     }
 }
 
-impl Question<'_> {
+impl<C: Coordinate> Question<'_, C> {
     fn motion(&self, candidate: &Candidate) -> PairMotion {
         PairMotion {
             kind: candidate.kind,

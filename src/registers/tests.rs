@@ -5,7 +5,7 @@ use std::sync::RwLock;
 use super::*;
 use crate::certified::testing::Random;
 use crate::mesh::Mesh;
-use crate::{Clearance, EdgeEdge, Pairs, Precision, VertexFace, advance_pairs};
+use crate::{Clearance, Coordinate, EdgeEdge, Pairs, VertexFace, advance_pairs};
 
 /// What work is done with, in place of the widest. Other tests may go on meanwhile.
 pub(super) static CHOSEN: RwLock<Option<Arch>> = RwLock::new(None);
@@ -48,21 +48,38 @@ impl Points {
     }
 
     /// All that is decided of quadruples of them, as text: it has every bit.
-    fn answers(&self, quadruples: &[[u32; 4]], radius: f64) -> [String; 4] {
+    fn answers(&self, quadruples: &[[u32; 4]], radius: f64) -> [String; 5] {
         let Points { start, end } = self;
         let edges = Pairs::<EdgeEdge>::new(start, end, quadruples, radius).unwrap();
         let faces = Pairs::<VertexFace>::new(start, end, quadruples, radius).unwrap();
-        let apart = &edges.part(0..1).unwrap();
-        let step = advance_pairs(apart, &faces, Clearance::Share(0.5), Precision::F32).unwrap();
+        let single = |all: &[[f64; 3]]| -> Vec<_> {
+            all.iter().map(|point| point.map(|x| x as f32)).collect()
+        };
+        let double_step = step(start, end, quadruples, radius);
+        let single_step = step(&single(start), &single(end), quadruples, radius);
         let faces_of_mesh = quadruples.iter().take(60).map(|q| [q[0], q[1], q[2]]);
         let mesh = Mesh::new(start.len(), &[], &faces_of_mesh.collect::<Vec<_>>()).unwrap();
         [
             format!("{:?}", edges.decide()),
             format!("{:?}", faces.decide()),
-            format!("{step:?}"),
+            double_step,
+            single_step,
             format!("{:?}", mesh.all_contacts(start, end, radius).unwrap()),
         ]
     }
+}
+
+/// The step of quadruples of points, of which one is a pair of edges.
+fn step<C: Coordinate>(
+    start: &[[C; 3]],
+    end: &[[C; 3]],
+    quadruples: &[[u32; 4]],
+    radius: f64,
+) -> String {
+    let edges = Pairs::<EdgeEdge, C>::new(start, end, &quadruples[..1], radius).unwrap();
+    let faces = Pairs::<VertexFace, C>::new(start, end, quadruples, radius).unwrap();
+    let step = advance_pairs(&edges, &faces, Clearance::Share(0.5)).unwrap();
+    format!("{step:?}")
 }
 
 #[test]

@@ -13,7 +13,7 @@ use tunnelproof_reference::corpus::locate::locate;
 use tunnelproof_reference::corpus::{self, Entries, Entry, Format, ReadOptions};
 
 use super::eval::write_lines;
-use super::keep::Keep;
+use super::keep::{Keep, precision};
 use super::{Failure, Reading};
 
 /// Find the largest step of each query that is proved to touch nothing, and the points to store
@@ -42,6 +42,10 @@ pub(super) struct Advance {
     files: Vec<String>,
     #[command(flatten)]
     keep: Keep,
+    /// Store positions in these numbers. With f32, coordinates that start at an f32 are stored as
+    /// f32, and those at the end are rounded to f32 first
+    #[arg(long, value_name = "PRECISION", default_value = "f64", value_parser = precision())]
+    precision: Precision,
     #[command(flatten)]
     reading: Reading,
 }
@@ -57,7 +61,7 @@ struct Line<'a> {
 
 impl Advance {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
-        let (clearance, precision) = (self.keep.clearance(), self.keep.precision());
+        let (clearance, precision) = (self.keep.clearance(), self.precision);
         let mut output = BufWriter::new(io::stdout().lock());
         for file in &self.files {
             let entries = entries(file, self.reading.options())?;

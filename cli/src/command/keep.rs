@@ -1,4 +1,4 @@
-//! How far two sides are kept apart during a step, and in which numbers positions are stored.
+//! How far two sides are kept apart during a step, and the numbers that positions are stored in.
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -16,17 +16,9 @@ pub(super) struct Keep {
     /// the start: from 0 to below 1
     #[arg(long, value_name = "S", value_parser = share, allow_negative_numbers = true, conflicts_with = "clearance")]
     share: Option<f64>,
-    /// Store positions in these numbers. With f32, coordinates that start at an f32 are stored as
-    /// f32, and those at the end are rounded to f32 first
-    #[arg(long, value_name = "PRECISION", default_value = "f64", value_parser = precision())]
-    precision: Precision,
 }
 
 impl Keep {
-    pub(super) fn precision(&self) -> Precision {
-        self.precision
-    }
-
     pub(super) fn clearance(&self) -> Clearance {
         match (self.clearance, self.share) {
             (Some(distance), _) => Clearance::Distance(distance),
@@ -36,7 +28,8 @@ impl Keep {
     }
 }
 
-fn precision() -> impl TypedValueParser<Value = Precision> {
+/// Reads a precision by its name.
+pub(super) fn precision() -> impl TypedValueParser<Value = Precision> {
     PossibleValuesParser::new(["f64", "f32"]).map(|name| match name.as_str() {
         "f32" => Precision::F32,
         _ => Precision::F64,

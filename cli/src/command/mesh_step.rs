@@ -5,13 +5,14 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::Args;
-use tunnelproof::certified::Clearance;
+use tunnelproof::Coordinate;
+use tunnelproof::certified::{Clearance, Precision};
 use tunnelproof::mesh::MeshError;
 use tunnelproof_cli::meshes::audit::{Audit, Claims};
-use tunnelproof_cli::meshes::{Motion, WritableFormat};
+use tunnelproof_cli::meshes::{Motion, Position, WritableFormat};
 use tunnelproof_cli::report::mesh::{Seconds, StepReport};
 
-use super::keep::Keep;
+use super::keep::{Keep, precision};
 use super::output::{JsonOutput, OutputFile};
 use super::{Failure, not_negative};
 
@@ -45,11 +46,15 @@ pub(super) struct MeshStep {
     radius: f64,
     #[command(flatten)]
     keep: Keep,
+    /// Store positions in these numbers. With f32, those of both files are rounded to f32 as they are
+    /// read
+    #[arg(long, value_name = "PRECISION", default_value = "f64", value_parser = precision())]
+    precision: Precision,
     /// Write the result to this file, as JSON; - is the standard output, in place of the summary
     #[arg(long, value_name = "OUT")]
     json: Option<PathBuf>,
-    /// Write the mesh at the positions to store to this file: .ply (binary, 64 bits) or .obj. Not
-    /// .stl, which holds f32 and would round what is proved
+    /// Write the mesh at the positions to store to this file: .ply (binary, 64 bits, or 32 of f32) or
+    /// .obj. Not .stl, which holds f32 and has no shared vertices
     #[arg(long, value_name = "SAFE")]
     out: Option<String>,
     /// Ask the exact oracle about every pair whose swept boxes meet, and about the motion to the
@@ -70,12 +75,15 @@ struct Outputs {
 
 impl MeshStep {
     pub(super) fn run(self) -> Result<ExitCode, Failure> {
-        let motion = Motion::read(&self.start, &self.end)?;
+        let motion = Motion::read(&self.start, &self.end, self.precision)?;
         let outputs = self.outputs()?;
-        let asked = self.ask(&motion);
+        let asked = match self.precision {
+            Precision::F32 => self.ask(&motion, |x| x as f32),
+            _ => self.ask(&motion, |x| x),
+        };
         let (report, positions) = asked.map_err(|error| Failure::file(&self.start, error))?;
         if let Some((format, file)) = outputs.safe {
-            file.write_bytes(&format.write(&motion, &positions))?;
+            file.write_bytes(&format.write(&motion, &positions, self.precision))?;
         }
         outputs.json.write(|| Ok(report.json()), || report.text())?;
         Ok(match (report.has_fault(), report.touches()) {
@@ -106,17 +114,22 @@ impl MeshStep {
         })
     }
 
-    /// What the engine says of a motion, and what the oracle says of that.
-    fn ask(&self, motion: &Motion) -> Result<(StepReport, Vec<[f64; 3]>), MeshError> {
+    /// What the engine says of a motion, whose coordinates are numbers of a type already, and what the
+    /// oracle says of that; and the positions to store.
+    fn ask<C: Coordinate>(
+        &self,
+        motion: &Motion,
+        of: impl Fn(f64) -> C,
+    ) -> Result<(StepReport, Vec<Position>), MeshError> {
         let Motion { mesh, start, end } = motion;
-        let start = &start.vertices;
+        let typed = |all: &[Position]| all.iter().map(|x| x.map(&of)).collect::<Vec<_>>();
+        let (start, end) = (&typed(&start.vertices), &typed(end));
         let clearance = self.keep.clearance();
         let clock = Instant::now();
         let first = mesh.first_contact(start, end, self.radius)?;
         let first_seconds = clock.elapsed().as_secs_f64();
         let clock = Instant::now();
-        let precision = self.keep.precision();
-        let step = mesh.step_in(start, end, self.radius, clearance, precision)?;
+        let step = mesh.step_with_clearance(start, end, self.radius, clearance)?;
         let seconds = Seconds {
             first_contact: first_seconds,
             step: clock.elapsed().as_secs_f64(),
@@ -133,7 +146,9 @@ impl MeshStep {
             Ok::<_, MeshError>(Audit::new(motion, &claims))
         });
         let report = StepReport::new(mesh, first.as_ref(), &step, seconds, audit.transpose()?);
-        Ok((report, step.positions))
+        let positions = step.positions.iter();
+        let positions = positions.map(|position| position.map(Into::into));
+        Ok((report, positions.collect()))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use tunnelproof::certified::{Advance, Clearance, Kind, Precision, advance_in, interpolate_in};
 use tunnelproof::mesh::{Feature, Mesh, Pair};
-use tunnelproof::query::{EdgeEdge, Point, Query, QueryKind, Radius, VertexFace};
+use tunnelproof::query::{Coordinate, EdgeEdge, Point, Query, QueryKind, Radius, VertexFace};
 use tunnelproof_reference::oracle::decide_query;
 use tunnelproof_reference::shape::Shape;
 
@@ -29,8 +29,9 @@ pub(super) fn check(query: &Query) -> Option<String> {
         Query::EdgeEdge(pair) => wrong(&query, pair, clearance, precision),
         Query::VertexFace(pair) => wrong(&query, pair, clearance, precision),
     });
-    let wrong = wrong.or_else(|| wrong_of_mesh(query, Precision::F64));
-    wrong.or_else(|| wrong_of_mesh(&in_single(query), Precision::F32))
+    let wrong = wrong.or_else(|| wrong_of_mesh(query, |x| x));
+    let single = |x: f64| x.clamp(f32::MIN.into(), f32::MAX.into()) as f32;
+    wrong.or_else(|| wrong_of_mesh(query, single))
 }
 
 /// The query with the coordinates rounded to `f32` that are not too large.
@@ -71,13 +72,14 @@ fn wrong<K: Kind>(
         return Some("a part of the step, and nothing that blocks it".to_owned());
     }
     match kept {
-        Some(kept) => touches(query, points, kept).then(|| "stored motion touches".to_owned()),
+        Some(kept) => touches(query.kind(), *query.start(), points, kept)
+            .then(|| "stored motion touches".to_owned()),
         None => (step > 0.0).then(|| "a step keeps nothing".to_owned()),
     }
 }
 
-/// The same of the two sides as a mesh.
-fn wrong_of_mesh(query: &Query, precision: Precision) -> Option<String> {
+/// The same of the two sides as a mesh, of positions that are stored as `stored` says.
+fn wrong_of_mesh<C: Coordinate>(query: &Query, stored: impl Fn(f64) -> C) -> Option<String> {
     let (mesh, pair) = match query.kind() {
         QueryKind::EdgeEdge => (
             Mesh::new(4, &[[0, 1], [2, 3]], &[]),
@@ -91,9 +93,9 @@ fn wrong_of_mesh(query: &Query, precision: Precision) -> Option<String> {
     let [first, second] = pair;
     let pair = Pair { first, second };
     let thickness = query.radius().rounded();
-    let [start, end] = [query.start(), query.end()].map(|points| points.map(<[f64; 3]>::from));
-    let step =
-        mesh.and_then(|mesh| mesh.step_in(&start, &end, thickness, Clearance::None, precision));
+    let stored = |point: Point| <[f64; 3]>::from(point).map(&stored);
+    let [start, end] = [query.start(), query.end()].map(|points| points.map(stored));
+    let step = mesh.and_then(|mesh| mesh.step(&start, &end, thickness));
     let step = match step {
         Ok(step) => step,
         Err(error) => return Some(error.to_string()),
@@ -106,15 +108,15 @@ fn wrong_of_mesh(query: &Query, precision: Precision) -> Option<String> {
     }
     let near = step.near.iter().find(|(near, _)| *near == pair);
     let kept = near.map_or(thickness.into(), |(_, kept)| *kept);
-    let points: Vec<Point> = step.positions.iter().copied().map(Point::from).collect();
-    let points = <[Point; 4]>::try_from(points).ok()?;
-    touches(query, points, kept).then(|| "stored motion of a mesh touches".to_owned())
+    let in_f64 = |position: [C; 3]| Point::from(position.map(Into::into));
+    let points = <[[C; 3]; 4]>::try_from(step.positions).ok()?.map(in_f64);
+    let is_near = touches(query.kind(), start.map(in_f64), points, kept);
+    is_near.then(|| "stored motion of a mesh touches".to_owned())
 }
 
-/// Whether the oracle finds a contact in the motion from the start of a query to other points.
-fn touches(query: &Query, points: [Point; 4], radius: Radius) -> bool {
-    let start = *query.start();
-    let motion = match query.kind() {
+/// Whether the oracle finds a contact in the motion from some points to others.
+fn touches(kind: QueryKind, start: [Point; 4], points: [Point; 4], radius: Radius) -> bool {
+    let motion = match kind {
         QueryKind::EdgeEdge => EdgeEdge::new(start, points, radius).map(Query::EdgeEdge),
         QueryKind::VertexFace => VertexFace::new(start, points, radius).map(Query::VertexFace),
     };

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use tunnelproof::broad::{Aabb, BroadPhase, Method};
 use tunnelproof::certified::Blocked;
 use tunnelproof::mesh::{Feature, Mesh, MeshContact, MeshStep, Pair};
-use tunnelproof::query::{Point, Query, QueryKind, Radius};
+use tunnelproof::query::{Coordinate, Point, Query, QueryKind, Radius};
 use tunnelproof_reference::answer::Enclosure;
 use tunnelproof_reference::oracle::decide_query;
 
@@ -17,7 +17,7 @@ use super::{Motion, Parts, Position};
 
 /// What the engine says of a motion.
 #[derive(Clone, Copy)]
-pub struct Claims<'a> {
+pub struct Claims<'a, C> {
     /// The distance at which parts touch.
     pub radius: f64,
     /// What the step keeps beyond it.
@@ -27,7 +27,7 @@ pub struct Claims<'a> {
     /// All contacts.
     pub contacts: &'a [MeshContact],
     /// The step.
-    pub step: &'a MeshStep,
+    pub step: &'a MeshStep<C>,
 }
 
 /// What the oracle says of it.
@@ -67,7 +67,7 @@ pub struct Place {
 
 impl Audit {
     /// Asks the oracle about every pair whose swept boxes meet.
-    pub fn new(motion: &Motion, claims: &Claims<'_>) -> Self {
+    pub fn new<C: Coordinate>(motion: &Motion, claims: &Claims<'_, C>) -> Self {
         let radius = claims.radius;
         let places = places(motion, &motion.end, radius);
         let truth: Vec<Option<Enclosure>> = places
@@ -216,11 +216,11 @@ fn half(distance: f64) -> f64 {
 }
 
 /// What the engine says of each pair, against the oracle.
-fn disagreements(
+fn disagreements<C>(
     mesh: &Mesh,
     places: &[Place],
     truth: &[Option<Enclosure>],
-    claims: &Claims<'_>,
+    claims: &Claims<'_, C>,
 ) -> Vec<Disagreement> {
     let toi = |contact: &MeshContact| [contact.toi, contact.toi_above];
     let mut said: BTreeMap<Place, Vec<[f64; 2]>> = BTreeMap::new();
@@ -264,13 +264,15 @@ fn disagreements(
 
 /// How many pairs may meet on the way to the stored positions, and those that come nearer than they
 /// are kept. Pairs that touch at the start cannot be kept apart.
-fn check_stored(motion: &Motion, claims: &Claims<'_>) -> (usize, Vec<Place>) {
-    let Claims {
+fn check_stored<C: Coordinate>(motion: &Motion, claims: &Claims<'_, C>) -> (usize, Vec<Place>) {
+    let &Claims {
         radius,
         clearance,
         step,
         ..
-    } = *claims;
+    } = claims;
+    let positions = step.positions.iter();
+    let positions: Vec<Position> = positions.map(|x| x.map(Into::into)).collect();
     let place = |pair| Place::of(&motion.mesh, pair);
     let touching = step.limits.iter();
     let touching = touching.filter(|limit| limit.blocked == Blocked::Touching);
@@ -283,13 +285,13 @@ fn check_stored(motion: &Motion, claims: &Claims<'_>) -> (usize, Vec<Place>) {
         0.0 => 0.0,
         sum => sum.next_up(),
     };
-    let mut places = places(motion, &step.positions, distance);
+    let mut places = places(motion, &positions, distance);
     places.retain(|place| !touching.contains(place));
     let count = places.len();
     let contacts = places.into_par_iter().filter(|place| {
         let all = [radius, clearance].into();
         let kept = near.get(place).copied().unwrap_or(all);
-        place.toi(motion, &step.positions, kept).is_some()
+        place.toi(motion, &positions, kept).is_some()
     });
     (count, contacts.collect())
 }

@@ -50,6 +50,16 @@ pub(super) enum Problem {
         /// The value refused.
         value: f64,
     },
+    /// A coordinate is too large for `f32`.
+    #[error("{axis} of vertex {vertex} is {value:e}, which is beyond f32")]
+    BeyondSingle {
+        /// Which vertex.
+        vertex: usize,
+        /// Which coordinate.
+        axis: &'static str,
+        /// The value refused.
+        value: f64,
+    },
     /// Edges or faces name vertices that do not exist, or there are too many.
     #[error("{0}")]
     Mesh(MeshError),

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use tunnelproof::certified::Precision;
+
 use super::error::{MeshFileError, Problem};
 use super::{Motion, Position, obj, ply};
 
@@ -19,7 +21,7 @@ pub enum Format {
 /// A format that holds `f64`, so that positions can be written without rounding them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WritableFormat {
-    /// Polygon File Format, binary, little-endian.
+    /// Polygon File Format, binary, little-endian, with `double` or `float`.
     Ply,
     /// Wavefront, with the shortest decimals that are read as the same numbers.
     Obj,
@@ -56,10 +58,11 @@ impl WritableFormat {
         }
     }
 
-    /// The file of a mesh with other positions: its triangles, and the edges that it names.
-    pub fn write(self, motion: &Motion, positions: &[Position]) -> Vec<u8> {
+    /// The file of a mesh with other positions, which are numbers of the precision: its triangles, and
+    /// the edges that it names.
+    pub fn write(self, motion: &Motion, positions: &[Position], precision: Precision) -> Vec<u8> {
         match self {
-            WritableFormat::Ply => ply::write(&motion.start, positions),
+            WritableFormat::Ply => ply::write(&motion.start, positions, precision),
             WritableFormat::Obj => obj::write(&motion.start, positions).into_bytes(),
         }
     }

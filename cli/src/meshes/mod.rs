@@ -2,7 +2,7 @@
 //!
 //! Read are `.ply` (ascii, binary of either byte order), `.obj` and `.stl` (ascii and binary), by
 //! their extensions. A coordinate is the `f64` that the file states: the nearest one to a decimal,
-//! and the `f32` of a PLY property `float` or an STL.
+//! and the `f32` of a PLY property `float` or an STL. A motion in `f32` has the `f32` nearest to that.
 //!
 //! - A polygon of more than three corners becomes a fan of triangles around its first corner.
 //! - PLY elements `edge` (`vertex1`, `vertex2`) and OBJ lines `l` are edges.
@@ -16,6 +16,7 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
+use tunnelproof::certified::Precision;
 use tunnelproof::mesh::Mesh;
 use tunnelproof_reference::corpus;
 
@@ -60,24 +61,28 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// Reads two files of one mesh.
+    /// Reads two files of one mesh. Positions are rounded to the precision.
     ///
     /// # Errors
     ///
     /// [`MeshFileError`] if a file cannot be read or is not of the format that its extension says,
-    /// or if the two differ in more than positions.
-    pub fn read(start: &str, end: &str) -> Result<Self, MeshFileError> {
+    /// if the two differ in more than positions, or if a coordinate is beyond the precision.
+    pub fn read(start: &str, end: &str, precision: Precision) -> Result<Self, MeshFileError> {
         let (first, last) = (Format::of_path(start)?, Format::of_path(end)?);
         let refuse = |path: &str, problem| MeshFileError::new(path, problem);
-        let [parts, moved] = match [first, last] {
+        let [mut parts, mut moved] = match [first, last] {
             [Format::Stl, Format::Stl] => stl::read_both(start, end)?,
             [Format::Stl, _] | [_, Format::Stl] => {
                 return Err(refuse(end, Problem::OneStl(start.to_owned())));
             }
             _ => [read(start, first)?, read(end, last)?],
         };
-        check(&parts).map_err(|problem| refuse(start, problem))?;
-        check(&moved).map_err(|problem| refuse(end, problem))?;
+        for (path, parts) in [(start, &mut parts), (end, &mut moved)] {
+            check(parts).map_err(|problem| refuse(path, problem))?;
+            if precision == Precision::F32 {
+                round(parts).map_err(|problem| refuse(path, problem))?;
+            }
+        }
         compare::same(&parts, &moved).map_err(|difference| {
             let start = start.to_owned();
             refuse(end, Problem::Differs { difference, start })
@@ -125,6 +130,25 @@ fn check(parts: &Parts) -> Result<(), Problem> {
                     value,
                 });
             }
+        }
+    }
+    Ok(())
+}
+
+/// Rounds the coordinates to `f32`, and refuses what is beyond it.
+fn round(parts: &mut Parts) -> Result<(), Problem> {
+    for (vertex, position) in parts.vertices.iter_mut().enumerate() {
+        for (axis, value) in ["x", "y", "z"].iter().zip(position) {
+            let single = *value as f32;
+            if !single.is_finite() {
+                let value = *value;
+                return Err(Problem::BeyondSingle {
+                    vertex,
+                    axis,
+                    value,
+                });
+            }
+            *value = single.into();
         }
     }
     Ok(())

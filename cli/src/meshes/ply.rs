@@ -7,6 +7,8 @@ use ply_rs_bw::ply::{
     ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult,
 };
 
+use tunnelproof::certified::Precision;
+
 use super::error::Problem;
 use super::{Parts, Position};
 
@@ -262,11 +264,13 @@ fn index(property: &Property) -> Option<u32> {
     Some(value as u32)
 }
 
-/// The bytes of a file: binary, little-endian, with coordinates of 64 bits.
-pub(super) fn write(parts: &Parts, positions: &[Position]) -> Vec<u8> {
+/// The bytes of a file: binary, little-endian, with coordinates in the precision that they have.
+pub(super) fn write(parts: &Parts, positions: &[Position], precision: Precision) -> Vec<u8> {
+    let is_single = precision == Precision::F32;
+    let real = if is_single { "float" } else { "double" };
     let mut header = format!(
         "ply\nformat binary_little_endian 1.0\nelement vertex {}\n\
-         property double x\nproperty double y\nproperty double z\n\
+         property {real} x\nproperty {real} y\nproperty {real} z\n\
          element face {}\nproperty list uchar uint vertex_indices\n",
         positions.len(),
         parts.faces.len()
@@ -278,7 +282,12 @@ pub(super) fn write(parts: &Parts, positions: &[Position]) -> Vec<u8> {
         );
     }
     let mut bytes = (header + "end_header\n").into_bytes();
-    bytes.extend(positions.iter().flatten().flat_map(|x| x.to_le_bytes()));
+    for &x in positions.iter().flatten() {
+        match is_single {
+            true => bytes.extend((x as f32).to_le_bytes()),
+            false => bytes.extend(x.to_le_bytes()),
+        }
+    }
     for face in &parts.faces {
         bytes.push(3);
         bytes.extend(face.iter().flat_map(|vertex| vertex.to_le_bytes()));

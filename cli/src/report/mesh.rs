@@ -100,10 +100,10 @@ const FAULTS: usize = 10;
 
 impl StepReport {
     /// A report of what was asked about a mesh.
-    pub fn new(
+    pub fn new<C>(
         mesh: &Mesh,
         first: Option<&MeshContact>,
-        step: &MeshStep,
+        step: &MeshStep<C>,
         seconds: Seconds,
         audit: Option<Audit>,
     ) -> Self {

@@ -144,6 +144,26 @@ fn mesh_step_writes_positions_that_touch_nothing() {
         let output = files.run(name, "start.obj", &["--audit"]);
         assert_eq!(code(&output), 0, "{}", stdout(&output));
     }
+    // In f32: from what is read as f32 to what is written as f32.
+    for name in ["single.obj", "single.ply"] {
+        let out = files.path(name);
+        let single = ["--precision", "f32", "--radius", "0.1", "--audit"];
+        let output = files.run(
+            "start.obj",
+            "end.obj",
+            &[&single[..], &["--out", &out]].concat(),
+        );
+        assert_eq!((code(&output), stderr(&output).as_str()), (1, ""));
+        for (start, end) in [("start.obj", name), (name, "start.obj")] {
+            let output = files.run(start, end, &single);
+            assert_eq!(code(&output), 0, "{}", stdout(&output));
+        }
+        let exact = ["--radius", "0.1", "--audit"];
+        let output = files.run("start.obj", name, &exact);
+        assert_eq!(code(&output), 0, "{}", stdout(&output));
+    }
+    let written = fs::read(files.path("single.ply")).unwrap();
+    assert!(String::from_utf8_lossy(&written).contains("property float x"));
     let out = files.path("safe.stl");
     let output = files.run("start.obj", "end.obj", &["--out", &out]);
     assert_refused(&output, &out, None, "an STL holds f32");

@@ -25,8 +25,8 @@ queries and results, and ``plot()`` gives the picture of what has one.
 
 All functions release the global interpreter lock and use all cores. Ctrl-C ends a call on many
 queries soon. Arrays of other types are converted to ``float64``; complex numbers are refused.
-Arguments are copied, but for positions of meshes and of pairs by index: these are read where they
-are, so no other thread may change them during a call. The proofs assume rounding to nearest and
+Arguments are copied, but for positions of meshes and of pairs by index: these may be ``float32``, and
+are read where they are, so no other thread may change them during a call. The proofs assume rounding to nearest and
 gradual underflow. Each function sets that for itself, on x86 with SSE2 and AArch64, and restores
 what the calling thread had: a library that switches on flush-to-zero changes no answer.
 """
@@ -49,7 +49,7 @@ from ._arrays import (
     Kind,
     Places,
     index_array,
-    position_array,
+    position_arrays,
     query_arrays,
     radius_array,
     whole,
@@ -176,7 +176,8 @@ def decide_pairs(
     your own delivers them. :func:`advance_pairs` gives positions to store.
 
     :param kind: ``"edge-edge"`` or ``"vertex-face"``.
-    :param start: the points at the start of the step, of shape ``(m, 3)``, in metres.
+    :param start: the points at the start of the step, of shape ``(m, 3)``, in metres: float64 or
+        float32, of the same type as ``end``.
     :param end: the same at its end.
     :param indices: A, B, C and D of each pair, integers of shape ``(n, 4)``.
     :param radius: a number, shape ``(n,)``, or shape ``(n, 2)`` for exact sums of two, in metres.
@@ -197,8 +198,7 @@ def decide_pairs(
     of_indices = index_array("indices", indices, (-1, 4))
     places, columns = _tunnelproof.decide_pairs(
         kind,
-        position_array("start", start),
-        position_array("end", end),
+        position_arrays(start, end),
         of_indices,
         radius_array(radius, len(of_indices), same=True),
     )

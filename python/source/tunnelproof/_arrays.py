@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import operator
-from typing import Literal
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -17,6 +17,8 @@ TurningKind = Literal[
 ]
 Precision = Literal["f64", "f32"]
 Floats = npt.NDArray[np.float64]
+Singles = npt.NDArray[np.float32]
+Ends: TypeAlias = "tuple[Floats, Floats] | tuple[Singles, Singles]"
 Bools = npt.NDArray[np.bool_]
 Codes = npt.NDArray[np.int8]
 Indices = npt.NDArray[np.uint32]
@@ -25,10 +27,14 @@ Places = npt.NDArray[np.intp]
 
 def reals(name: str, values: npt.ArrayLike) -> Floats:
     """Numbers as float64, where they are if they are that already. No complex ones, and no texts."""
+    return np.asarray(_reals(name, values), dtype=np.float64)
+
+
+def _reals(name: str, values: npt.ArrayLike) -> npt.NDArray[Any]:
     array = np.asarray(values)
     if array.dtype.kind not in "biufO":
         raise ValueError(f"{name}: {array.dtype} is no type of real numbers")
-    return np.asarray(array, dtype=np.float64)
+    return array
 
 
 def whole(name: str, value: int) -> int:
@@ -65,12 +71,46 @@ def radius_array(
     return of_radii
 
 
-def position_array(name: str, positions: npt.ArrayLike) -> Floats:
-    """Positions where they are, if they are float64 in the order of C; else a copy that is."""
-    array = np.require(reals(name, positions), requirements=["C", "A"])
-    if array.ndim != 2 or array.shape[1] != 3:
-        raise ValueError(f"{name} has the shape {array.shape}, not (n, 3)")
-    return array
+def position_arrays(
+    start: npt.ArrayLike, end: npt.ArrayLike, precision: Precision | None = None
+) -> Ends:
+    """Positions at both ends of a step, where they are if they have the type of the step and lie in
+    the order of C; else copies that do."""
+    arrays = [_reals("start", start), _reals("end", end)]
+    for name, array in zip(["start", "end"], arrays):
+        if array.ndim != 2 or array.shape[1] != 3:
+            raise ValueError(f"{name} has the shape {array.shape}, not (n, 3)")
+    if is_single(precision, *arrays):
+        return singles("start", arrays[0]), _require(arrays[1], np.float32)
+    return _require(arrays[0], np.float64), _require(arrays[1], np.float64)
+
+
+def is_single(precision: Precision | None, *arrays: npt.ArrayLike) -> bool:
+    """Whether a step stores positions as float32: as it is told, or else if all that come in are that."""
+    if precision is None:
+        return all(np.asarray(array).dtype.type is np.float32 for array in arrays)
+    if precision not in ("f64", "f32"):
+        raise ValueError(f'precision is "{precision}", neither "f64" nor "f32"')
+    return precision == "f32"
+
+
+def singles(name: str, numbers: npt.NDArray[Any]) -> Singles:
+    """Numbers as float32, where they are if they are that already. None is rounded."""
+    single = _require(numbers, np.float32)
+    if numbers.dtype.type is not np.float32:
+        # NaN is refused elsewhere.
+        differs = (numbers != single) & ~np.isnan(single)
+        if differs.any():
+            where = tuple(np.argwhere(differs)[0])
+            place = "".join(f"[{index}]" for index in where)
+            raise ValueError(f"{name}{place} is {numbers[where]}, which is no float32")
+    return single
+
+
+def _require(array: npt.NDArray[Any], dtype: npt.DTypeLike) -> npt.NDArray[Any]:
+    # What is beyond float32 becomes infinite, and is refused as such.
+    with np.errstate(over="ignore"):
+        return np.require(array, dtype=dtype, requirements=["C", "A"])
 
 
 def index_array(name: str, indices: npt.ArrayLike, shape: tuple[int, ...]) -> Indices:

@@ -10,7 +10,17 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _tunnelproof
-from ._arrays import Codes, Floats, Indices, Precision, index_array, position_array, reals
+from ._arrays import (
+    Codes,
+    Ends,
+    Floats,
+    Indices,
+    Precision,
+    Singles,
+    index_array,
+    position_arrays,
+    reals,
+)
 from ._kinds import ContactKind, Feature
 from ._rows import Rows, blocked_column, kept_column, step_html
 
@@ -102,9 +112,9 @@ class MeshStep:
 
     step: float
     """How much of the step is made, from 0 to 1."""
-    positions: Floats
-    """The positions to store, in metres, float64 of shape ``(n, 3)``: at a step of 1 the end, at 0
-    the start, bit for bit."""
+    positions: Floats | Singles
+    """The positions to store, in metres, float64 or float32 of shape ``(n, 3)``: at a step of 1 the
+    end, at 0 the start, bit for bit."""
     limits: MeshLimits
     """The pairs for which the step is no larger; none if it is a whole one."""
     near: NearPairs
@@ -124,9 +134,10 @@ class Mesh:
 
     Every edge may meet every edge, and every vertex every face. The edges of faces are edges,
     whether they are given or not. A vertex in no edge is a point. Parts that share a vertex never
-    meet. Positions come with each question: float64 of shape ``(vertex_count, 3)``, in metres. Arrays
-    in the order of C are read where they are; others are converted. Every vertex moves on a straight
-    line from its position in ``start`` to that in ``end``.
+    meet. Positions come with each question: float64 or float32 of shape ``(vertex_count, 3)``, in
+    metres, of the same type in ``start`` and in ``end``. Arrays in the order of C are read where they
+    are; others are converted. Every vertex moves on a straight line from its position in ``start`` to
+    that in ``end``.
 
     The thickness is the distance within which there is contact: one number, or one for each group,
     of shape ``(group_count,)``. Two parts of different thickness touch at the mean of both.
@@ -240,7 +251,7 @@ class Mesh:
         *,
         clearance: float = 0.0,
         share: float | None = None,
-        precision: Precision = "f64",
+        precision: Precision | None = None,
     ) -> MeshStep:
         """The largest step, within rounding, that keeps all pairs apart by more than the thickness
         and the clearance, and the positions to store.
@@ -265,21 +276,23 @@ class Mesh:
         :raises ValueError: as :meth:`first_contact`, for a clearance or a share that means nothing,
             and for another precision.
         """
-        question = _question(start, end, thickness)
-        fields = self._mesh.step(*question, float(clearance), share, precision)
+        question = _question(start, end, thickness, precision)
+        fields = self._mesh.step(*question, float(clearance), share)
         limits, near = MeshLimits(**fields.pop("limits")), NearPairs(**fields.pop("near"))
         return MeshStep(limits=limits, near=near, **fields)
 
 
 def _question(
-    start: npt.ArrayLike, end: npt.ArrayLike, thickness: npt.ArrayLike
-) -> tuple[Floats, Floats, Any]:
+    start: npt.ArrayLike,
+    end: npt.ArrayLike,
+    thickness: npt.ArrayLike,
+    precision: Precision | None = None,
+) -> tuple[Ends, Any]:
     """The arguments of a question as the extension takes them."""
     of_thickness = np.require(reals("thickness", thickness), requirements=["C", "A"])
     if of_thickness.ndim > 1:
         raise ValueError(f"thickness has the shape {of_thickness.shape}, not () or (group_count,)")
     return (
-        position_array("start", start),
-        position_array("end", end),
+        position_arrays(start, end, precision),
         of_thickness if of_thickness.ndim else float(of_thickness),
     )

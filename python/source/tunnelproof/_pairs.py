@@ -9,7 +9,16 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _tunnelproof
-from ._arrays import Codes, Floats, Places, Precision, index_array, position_array, radius_array
+from ._arrays import (
+    Codes,
+    Floats,
+    Places,
+    Precision,
+    Singles,
+    index_array,
+    position_arrays,
+    radius_array,
+)
 from ._rows import Rows, blocked_column, kept_column, step_html
 
 _KINDS = np.array(["edge-edge", "vertex-face"])
@@ -61,9 +70,9 @@ class PairsStep:
 
     step: float
     """How much of the step is made, from 0 to 1."""
-    positions: Floats
-    """The positions to store, of all points, in metres, float64 of shape ``(m, 3)``: at a step of 1
-    the end, at 0 the start, bit for bit."""
+    positions: Floats | Singles
+    """The positions to store, of all points, in metres, float64 or float32 of shape ``(m, 3)``: at a
+    step of 1 the end, at 0 the start, bit for bit."""
     limits: PairsLimits
     """The pairs for which the step is no larger, edges first, in order; none if it is a whole one."""
     near: NearListedPairs
@@ -84,7 +93,7 @@ def advance_pairs(
     face_radius: npt.ArrayLike = 0.0,
     clearance: float = 0.0,
     share: float | None = None,
-    precision: Precision = "f64",
+    precision: Precision | None = None,
 ) -> PairsStep:
     """The largest step, within rounding, of all points that keeps all pairs apart by more than their
     radius and the clearance, and the positions to store.
@@ -97,17 +106,18 @@ def advance_pairs(
 
     A pair that is in neither list stays apart as well, if the boxes around its two sides are farther
     apart, along an axis, than its radius and the clearance. The box of a side is around all its
-    points, at the start and at the end together, and with ``precision="f32"`` at the float32 nearest
-    to the end. Your broad phase has to see to that, with its rounding outward. The next step starts
-    at the stored positions, with new lists. So nothing passes through anything in these pairs,
-    however many steps follow. Steps of parts of the lists are no step of the whole.
+    points, at the start and at the end together. Your broad phase has to see to that, with its
+    rounding outward. The next step starts at the stored positions, with new lists. So nothing passes
+    through anything in these pairs, however many steps follow. Steps of parts of the lists are no
+    step of the whole.
 
     The step is 0 if a pair touches at the start, radius or not, or if rounding leaves no room to any
     step tried. :attr:`PairsStep.limits` names the pairs. Two sides that share a point touch always:
     leave them out. Where :attr:`Blocked.NEAR` ends a step, it may be as small as some rounding errors,
     so do not wait for 0. Part these pairs, or let them move otherwise.
 
-    :param start: all points at the start of the step, of shape ``(m, 3)``, in metres.
+    :param start: all points at the start of the step, of shape ``(m, 3)``, in metres. If they and
+        those of ``end`` are float32, so are the positions to store.
     :param end: the same at its end.
     :param edges: pairs of edges: A, B, C and D of each, integers of shape ``(n, 4)``. ``[]`` if there
         are none.
@@ -139,15 +149,13 @@ def advance_pairs(
     """
     of_edges, of_faces = index_array("edges", edges, (-1, 4)), index_array("faces", faces, (-1, 4))
     fields = _tunnelproof.advance_pairs(
-        position_array("start", start),
-        position_array("end", end),
+        position_arrays(start, end, precision),
         of_edges,
         of_faces,
         radius_array(edge_radius, len(of_edges), same=True, name="edge_radius"),
         radius_array(face_radius, len(of_faces), same=True, name="face_radius"),
         float(clearance),
         share,
-        precision,
     )
     limits, near = _named(fields.pop("limits")), _named(fields.pop("near"))
     return PairsStep(limits=PairsLimits(**limits), near=NearListedPairs(**near), **fields)

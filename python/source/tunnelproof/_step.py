@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
 import numpy.typing as npt
 
 from . import _tunnelproof
-from ._arrays import Codes, Floats, Kind, Precision, query_arrays
+from ._arrays import Codes, Floats, Kind, Precision, Singles, is_single, query_arrays, singles
 from ._html import table
 from ._kinds import Blocked
 
@@ -18,9 +19,9 @@ class Advances:
 
     step: Floats
     """How much of the step is made, in ``[0, 1]``, float64 of shape ``(n,)``."""
-    points: Floats
-    """A, B, C and D to store, in metres, float64 of shape ``(n, 4, 3)``: at a step of 1 the end, at
-    0 the start, bit for bit."""
+    points: Floats | Singles
+    """A, B, C and D to store, in metres, float64 or float32 of shape ``(n, 4, 3)``: at a step of 1
+    the end, at 0 the start, bit for bit."""
     kept: Floats
     """Straight motion from the start to ``points`` keeps a distance above this, in metres, exactly.
 
@@ -42,7 +43,7 @@ def advance(
     *,
     clearance: float = 0.0,
     share: float | None = None,
-    precision: Precision = "f64",
+    precision: Precision | None = None,
 ) -> Advances:
     """The largest step, within rounding, that keeps the two sides of each query apart, and the
     positions to store.
@@ -61,13 +62,13 @@ def advance(
     :param clearance: what is kept beyond the radius, in metres.
     :param share: instead of a clearance. Two sides that would come within the radius keep this
         share of what they have beyond it at the start; from 0 to below 1.
-    :param precision: the numbers that positions are stored in. With ``"f32"`` and float32
-        coordinates at the start, those of ``points`` are float32 too: ``astype(np.float32)``
-        changes nothing, and the guarantee is about these numbers. The end may have more digits, as
-        it is rounded to float32 first. There is less room: two sides that are nearer than some
-        2**-21 of their coordinates, beyond what they keep, may be :attr:`Blocked.NEAR`.
-    :raises ValueError: as :func:`decide`, for a clearance or a share that means nothing, and for
-        another precision.
+    :param precision: the numbers that positions are stored in. Without it these are float32 if the
+        positions that come in are, at both ends, else float64. With ``"f32"`` the end is rounded to
+        float32 first, and the start has to be float32 numbers, of whatever type. The guarantee is
+        about the numbers that are returned. In float32 there is less room: two sides that are nearer
+        than some 2**-21 of their coordinates, beyond what they keep, may be :attr:`Blocked.NEAR`.
+    :raises ValueError: as :func:`decide`, for a clearance or a share that means nothing, for another
+        precision, and for a start that is not in it.
 
     >>> falling = [[-1, 0, 0], [1, 0, 0], [0.5, -1, 1], [0.5, 1, 1],
     ...            [-1, 0, 0], [1, 0, 0], [0.5, -1, -3], [0.5, 1, -3]]
@@ -75,6 +76,13 @@ def advance(
     >>> moved.step.round(9), moved.points[0, 2].round(9)
     (array([0.2]), array([ 0.5, -1. ,  0.2]))
     """
-    arrays = query_arrays(points, radius)
-    columns = _tunnelproof.advance(kind, *arrays, float(clearance), share, precision)
-    return Advances(points=columns.pop("points").reshape(-1, 4, 3), **columns)
+    single = is_single(precision, points)
+    of_points, of_radii = query_arrays(points, radius)
+    if single:
+        singles("points", of_points[:, :4])
+    name: Precision = "f32" if single else "f64"
+    columns = _tunnelproof.advance(kind, of_points, of_radii, float(clearance), share, name)
+    stored = columns.pop("points").reshape(-1, 4, 3)
+    # What starts at a float32 is stored as one.
+    stored = stored.astype(np.float32) if single else stored
+    return Advances(points=stored, **columns)

@@ -1,7 +1,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from ._arrays import Floats, Indices, Kind, Places, Precision, TurningKind
+from ._arrays import Ends, Floats, Indices, Kind, Places, Precision, TurningKind
 
 VERSION: str
 
@@ -23,20 +23,18 @@ class Mesh:
     @property
     def faces(self) -> Indices: ...
     def first_contact(
-        self, start: Floats, end: Floats, thickness: float | Floats
+        self, ends: Ends, thickness: float | Floats
     ) -> dict[str, Any]: ...
     def all_contacts(
-        self, start: Floats, end: Floats, thickness: float | Floats
+        self, ends: Ends, thickness: float | Floats
     ) -> dict[str, Any]: ...
-    def is_free(self, start: Floats, end: Floats, thickness: float | Floats) -> bool: ...
+    def is_free(self, ends: Ends, thickness: float | Floats) -> bool: ...
     def step(
         self,
-        start: Floats,
-        end: Floats,
+        ends: Ends,
         thickness: float | Floats,
         clearance: float,
         share: float | None,
-        precision: Precision,
     ) -> dict[str, Any]: ...
 
 def advance(
@@ -52,18 +50,16 @@ def decide(
     kind: Kind, points: Floats, radii: Floats
 ) -> dict[str, Any]: ...
 def decide_pairs(
-    kind: Kind, start: Floats, end: Floats, indices: Indices, radii: Floats
+    kind: Kind, ends: Ends, indices: Indices, radii: Floats
 ) -> tuple[Places, dict[str, Any]]: ...
 def advance_pairs(
-    start: Floats,
-    end: Floats,
+    ends: Ends,
     edges: Indices,
     faces: Indices,
     edge_radii: Floats,
     face_radii: Floats,
     clearance: float,
     share: float | None,
-    precision: Precision,
 ) -> dict[str, Any]: ...
 def exact(
     kind: Kind, points: Floats, radii: Floats

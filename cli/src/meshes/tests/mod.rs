@@ -15,13 +15,17 @@ fn falling(height: f64) -> String {
 
 /// Files in a folder of their own, and a motion between two of them.
 fn motion(files: [(&str, &[u8]); 2]) -> Result<Motion, String> {
+    motion_in(files, Precision::F64)
+}
+
+fn motion_in(files: [(&str, &[u8]); 2], precision: Precision) -> Result<Motion, String> {
     let folder = TempDir::new().unwrap();
     let [start, end] = files.map(|(name, content)| {
         let path = folder.path().join(name);
         fs::write(&path, content).unwrap();
         path.to_str().unwrap().to_owned()
     });
-    Motion::read(&start, &end).map_err(|error| {
+    Motion::read(&start, &end, precision).map_err(|error| {
         error
             .to_string()
             .replace(folder.path().to_str().unwrap(), "")
@@ -323,6 +327,44 @@ fn meshes_that_differ_are_refused_by_what_differs() {
 }
 
 #[test]
+fn positions_in_f32_are_the_nearest_and_are_written_in_as_many_bits() {
+    let text = falling(0.1);
+    let files = [("a.obj", text.as_bytes()), ("b.obj", text.as_bytes())];
+    let motion = motion_in(files, Precision::F32).unwrap();
+    let tenth = f64::from(0.1f32);
+    assert_eq!(
+        (motion.start.vertices[3][2], motion.end[3][2]),
+        (tenth, tenth)
+    );
+    let hard = [0.1f32, f32::MAX, f32::from_bits(1), 16_777_217.0 / 3.0].map(f64::from);
+    let hard = hard.map(|x| [x, -x, -0.0]);
+    for (format, name) in [
+        (WritableFormat::Ply, "b.ply"),
+        (WritableFormat::Obj, "b.obj"),
+    ] {
+        let written = format.write(&motion, &hard, Precision::F32);
+        let read = alone(name, &written).unwrap().start;
+        let bits = |x: &Position| x.map(f64::to_bits);
+        assert!(
+            read.vertices.iter().map(bits).eq(hard.iter().map(bits)),
+            "{name}"
+        );
+        assert_eq!(read.faces, motion.start.faces);
+    }
+    let written = WritableFormat::Ply.write(&motion, &hard, Precision::F32);
+    assert!(String::from_utf8_lossy(&written).contains("property float x\nproperty float y\n"));
+    let text = falling(-1e39);
+    for (files, name) in [
+        ([("a.obj", text.as_bytes()), files[1]], "a"),
+        ([files[0], ("b.obj", text.as_bytes())], "b"),
+    ] {
+        let error = motion_in(files, Precision::F32).unwrap_err();
+        let expected = format!("/{name}.obj: z of vertex 3 is -1e39, which is beyond f32");
+        assert_eq!(error, expected);
+    }
+}
+
+#[test]
 fn positions_written_are_read_as_the_same_bits() {
     let motion = alone("a.obj", (falling(1.0) + "l 1 4\n").as_bytes()).unwrap();
     let hard = [
@@ -335,7 +377,8 @@ fn positions_written_are_read_as_the_same_bits() {
         (WritableFormat::Ply, "b.ply"),
         (WritableFormat::Obj, "b.obj"),
     ] {
-        let read = alone(name, &format.write(&motion, &hard)).unwrap().start;
+        let written = format.write(&motion, &hard, Precision::F64);
+        let read = alone(name, &written).unwrap().start;
         let bits = |positions: &[Position]| -> Vec<u64> {
             positions.iter().flatten().map(|x| x.to_bits()).collect()
         };
