@@ -1,6 +1,12 @@
 //! The scenes of docs/recipes.md: each runs at two steps without a finding of the audit, and comes to what
 //! the page says.
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
+
 use tunnelproof::certified::Certified;
 use tunnelproof::wire::{Mode, Node, NodeKind, StepRecord, World};
 use tunnelproof_cli::audit::Audit;
