@@ -312,11 +312,9 @@ impl Coordinate for f64 {}
 impl Coordinate for f32 {}
 
 mod sealed {
-    use crate::certified::Precision;
-
     pub trait Sealed {
-        /// What steps round to.
-        const PRECISION: Precision;
+        /// Whether it is `f32`.
+        const IS_SINGLE: bool;
 
         /// A number of this type, from an `f64` that is one.
         fn of(x: f64) -> Self;
@@ -326,7 +324,7 @@ mod sealed {
     }
 
     impl Sealed for f64 {
-        const PRECISION: Precision = Precision::F64;
+        const IS_SINGLE: bool = false;
 
         #[inline(always)]
         fn of(x: f64) -> Self {
@@ -340,7 +338,7 @@ mod sealed {
     }
 
     impl Sealed for f32 {
-        const PRECISION: Precision = Precision::F32;
+        const IS_SINGLE: bool = true;
 
         #[inline(always)]
         fn of(x: f64) -> Self {

@@ -7,7 +7,7 @@ use super::block::{CHUNK, Source};
 use super::kind::Kind;
 use super::pairs::{Indexed, Pairs, PairsError, Radii};
 use super::queries::MayTouch;
-use super::step::{Blocked, Clearance, Limit};
+use super::step::{Blocked, Clearance, Limit, Precision};
 use super::together::{Moved, PairMotion, Together};
 use crate::environment;
 use crate::parallel::mapped_with;
@@ -168,7 +168,7 @@ fn close_pairs<K: Kind, C: Coordinate>(
                 let pair = ListedPair { kind, index };
                 let radius = indexed.radius(index);
                 let motion = motion(indexed, &pair);
-                close.push((pair, motion.limit(radius, clearance, C::PRECISION)));
+                close.push((pair, motion.limit(radius, clearance, Precision::of::<C>())));
             });
         }
         close
@@ -198,7 +198,9 @@ fn ask<K: Kind, C: Coordinate>(
         radii: Radii::Each(&radii[..count]),
         ..*indexed
     };
-    screen.with_room::<K>(&source, count, C::PRECISION, |place| each(first + place));
+    screen.with_room::<K>(&source, count, Precision::of::<C>(), |place| {
+        each(first + place)
+    });
 }
 
 fn motion<C: Coordinate>(indexed: &Indexed<C>, pair: &ListedPair) -> PairMotion {

@@ -9,7 +9,7 @@ use super::kind::{Kind, Stages};
 use super::motion::Positions;
 use super::queries;
 use super::stage::Stage;
-use super::step::{Clearance, ClearanceError, Precision};
+use super::step::{Clearance, ClearanceError};
 use crate::contact::Hit;
 use crate::query::{Coordinate, Counted, QueryError, Radius, first_not_finite, widened};
 
@@ -294,7 +294,7 @@ impl<C: Coordinate> Source for Indexed<'_, C> {
         }
     }
 
-    const IS_SINGLE: bool = matches!(C::PRECISION, Precision::F32);
+    const IS_SINGLE: bool = C::IS_SINGLE;
 
     #[inline(always)]
     fn load_single(&self, tiles: &mut [SingleTile; CHUNK / LANES], queries: Range<usize>) {

@@ -48,7 +48,7 @@ use super::motion::Positions;
 use super::thick::{self, apart_until, start_distance, starts_within};
 use crate::contact::Hit;
 use crate::environment;
-use crate::query::{Point, Radius, Short};
+use crate::query::{Coordinate, Point, Radius, Short};
 
 /// How far apart the two sides are kept, beyond their radius.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -106,6 +106,15 @@ pub enum Precision {
 }
 
 impl Precision {
+    /// That of positions of a type.
+    #[inline(always)]
+    pub(crate) fn of<C: Coordinate>() -> Self {
+        match C::IS_SINGLE {
+            true => Precision::F32,
+            false => Precision::F64,
+        }
+    }
+
     /// Whether what is between two numbers is stored as an `f32`.
     #[inline(always)]
     fn is_single(self, start: f64, end: f64) -> bool {

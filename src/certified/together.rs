@@ -126,7 +126,7 @@ impl<P: Copy + Ord, C: Coordinate> Together<'_, P, C> {
         let mut failing = Vec::new();
         for step in halved(largest).chain(least) {
             let fails = |(pair, limit): &&(P, &Limit)| {
-                !(self.motion)(pair).is_apart_until(limit.kept, step, C::PRECISION)
+                !(self.motion)(pair).is_apart_until(limit.kept, step, Precision::of::<C>())
             };
             let now: Vec<_> = tight.iter().filter(fails).collect();
             if now.is_empty() && self.moves(step) {
@@ -164,7 +164,7 @@ impl<P: Copy + Ord, C: Coordinate> Together<'_, P, C> {
                 break;
             }
             if limit.is_rough() {
-                *limit = (self.motion)(pair).decided(*limit, C::PRECISION);
+                *limit = (self.motion)(pair).decided(*limit, Precision::of::<C>());
             }
             if limit.until > 0.0 && !limit.is_short {
                 least = limit.until.min(least);
@@ -183,7 +183,7 @@ impl<P: Copy + Ord, C: Coordinate> Together<'_, P, C> {
         let both = self.start.iter().zip(self.end);
         both.map(move |(start, end)| {
             // Of the type of both ends, as the precision says.
-            stored(&widened(start), &widened(end), step, C::PRECISION).map(C::of)
+            stored(&widened(start), &widened(end), step, Precision::of::<C>()).map(C::of)
         })
     }
 }

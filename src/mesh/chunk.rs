@@ -88,7 +88,7 @@ impl Screen {
         each: impl FnMut(&Candidate, &[u32; 4]),
     ) {
         let radius = |vertices: &[u32; 4]| question.radius(chunk.kind, vertices).beyond(beyond);
-        self.ask(question, chunk, radius, Some(C::PRECISION), each);
+        self.ask(question, chunk, radius, Some(Precision::of::<C>()), each);
     }
 
     #[inline(always)]

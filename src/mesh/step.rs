@@ -3,7 +3,7 @@
 use super::candidates::{Candidate, Candidates, Question};
 use super::error::MeshError;
 use super::topology::{Mesh, Pair, Thickness};
-use crate::certified::{Blocked, Clearance, Limit, Moved, PairMotion, Together};
+use crate::certified::{Blocked, Clearance, Limit, Moved, PairMotion, Precision, Together};
 use crate::query::{Coordinate, Radius};
 
 /// A step of a mesh that is proved, with positions in `f64`, or in `f32` for `C`.
@@ -102,14 +102,14 @@ impl Mesh {
             Clearance::Distance(distance) => distance,
             _ => 0.0,
         };
-        let candidates = Candidates::new(question, beyond, Some(C::PRECISION));
+        let candidates = Candidates::new(question, beyond, Some(Precision::of::<C>()));
         let parts = candidates.visit(|found: &mut Found, screen, chunk| {
             found.counts[chunk.kind as usize] += chunk.len();
             let close = &mut found.close;
             let limit = |candidate: &Candidate, vertices: &[u32; 4]| {
                 let radius = question.radius(chunk.kind, vertices);
                 let motion = question.motion(candidate);
-                let limit = motion.limit(radius, clearance, C::PRECISION);
+                let limit = motion.limit(radius, clearance, Precision::of::<C>());
                 close.push((*candidate, limit));
             };
             screen.may_touch_rounded(&question, chunk, beyond, limit);
