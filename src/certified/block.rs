@@ -332,7 +332,21 @@ impl Open {
         self.queries[self.count] = query;
         self.count += 1;
     }
+
+    /// Keeps a query of a tile of the chunk in `f32`.
+    #[inline(always)]
+    fn keep_single(&mut self, tile: usize, lane: usize, query: usize) {
+        let (to, to_lane) = (self.count / LANES, self.count % LANES);
+        for row in 0..COORDINATES {
+            self.tiles[to].coordinates[row][to_lane] = f64::from(self.singles[tile][row][lane]);
+        }
+        self.queries[self.count] = query;
+        self.count += 1;
+    }
 }
+
+/// Of a tile in `f32` from which so many queries are left, all are widened at once.
+const MOST_LEFT: u32 = 5;
 
 fn report<const N: usize>(stages: [Stage; N], decided: [u32; N], observe: &mut impl FnMut(Stage)) {
     for (stage, count) in stages.into_iter().zip(decided) {
@@ -663,11 +677,15 @@ impl<S: Source, K: Stages> WithSimd for FirstSingle<'_, S, K> {
             let decided = test_single_tile::<K>(single);
             let lanes = first_lanes(LANES.min(queries.len() - first));
             let left = counted(decided, lanes, &mut counts);
-            if left != 0 {
+            if left.count_ones() >= MOST_LEFT {
                 widen(&mut open.tiles[(at + first) / LANES], single);
-            }
-            for lane in Lanes(left) {
-                open.keep(at + first + lane, queries.start + first + lane, 0);
+                for lane in Lanes(left) {
+                    open.keep(at + first + lane, queries.start + first + lane, 0);
+                }
+            } else {
+                for lane in Lanes(left) {
+                    open.keep_single(first / LANES, lane, queries.start + first + lane);
+                }
             }
         }
         counts
