@@ -180,7 +180,8 @@ impl Mesh {
         self.groups
             .iter()
             .max()
-            .map_or(1, |&group| group as usize + 1)
+            // It would be 0 where `usize` has 32 bits.
+            .map_or(1, |&group| (group as usize).saturating_add(1))
     }
 
     /// The vertices A, B, C and D of the query of a pair. A point is both ends of its edge.
