@@ -50,11 +50,10 @@ fn names_that_are_unknown_are_answered_with_the_known_ones() {
     for name in ["oracle", "shadow", "shadow-published", "thesis"] {
         assert!(stderr(&output).contains(name));
     }
-    let output = tunnelproof(&["certify", "--family", "none"]);
+    // Of families there are too many to name.
+    let output = tunnelproof(&["certify", "--family", "latice"]);
     assert_eq!(code(&output), 2);
-    for name in ["uniform", "lattice"] {
-        assert!(stderr(&output).contains(name));
-    }
+    assert!(stderr(&output).contains("'lattice'"));
 }
 
 #[test]
