@@ -289,7 +289,7 @@ impl Run<'_> {
                 Ok(record) => {
                     overlaps::add(&mut summary.overlaps, &record, &world, self.scene);
                     summary.add(&record);
-                    summary.held_slides.add(&record, &world);
+                    summary.held_slides.add(&record);
                     let left = watch.left(&record, &world, self.scene);
                     summary.left.extend(left);
                     behind::add(&mut summary.behind, &record, &world, self.scene);

@@ -10,7 +10,7 @@ use super::model::check::{finite_vector, not_negative, positive};
 /// use tunnelproof::wire::{Settings, Vector};
 ///
 /// let mut settings = Settings::default().with_step(0.01).with_gravity(Vector::zeros());
-/// settings.slide_limit = 0.05;
+/// settings.sweeps = 50;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -44,8 +44,6 @@ pub struct Settings {
     /// A segment is split where it is longer than this many `l_min`; above 2 so that halves are not
     /// merged again; usual value 2.5.
     pub split_ratio: f64,
-    /// How far a wire slides over a contact node in one step at most, in m; usual value 0.1.
-    pub slide_limit: f64,
 }
 
 impl Default for Settings {
@@ -61,7 +59,6 @@ impl Default for Settings {
             contact_tolerance: 1e-8,
             stability_margin: 0.8,
             split_ratio: 2.5,
-            slide_limit: 0.1,
         }
     }
 }
@@ -103,6 +100,6 @@ impl Settings {
                 "finite and above 2",
             ));
         }
-        positive("slide_limit", self.slide_limit)
+        Ok(())
     }
 }

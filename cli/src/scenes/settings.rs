@@ -35,8 +35,6 @@ pub(super) struct Settings {
     /// A segment is split where it is longer than this many `l_min`; above 2 so that halves are not
     /// merged again; usual value 2.5.
     split_ratio: f64,
-    /// How far a wire slides over a contact node in one step at most, in m; usual value 0.1.
-    slide_limit: f64,
 }
 
 impl Default for Settings {
@@ -53,7 +51,6 @@ impl Default for Settings {
             contact_tolerance: usual.contact_tolerance,
             stability_margin: usual.stability_margin,
             split_ratio: usual.split_ratio,
-            slide_limit: usual.slide_limit,
         }
     }
 }

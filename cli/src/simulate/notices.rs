@@ -13,9 +13,6 @@ use crate::scenes::Scene;
 /// The part of its length by which a wire may be stretched at the start without a word.
 const STRETCHED: f64 = 0.05;
 
-/// The part of the limit of sliding from which on the limit held it.
-const HELD: f64 = 0.999;
-
 /// A wire that starts far longer than it is unstretched.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Stretched {
@@ -36,7 +33,7 @@ pub struct Left {
     pub time: f64,
 }
 
-/// Steps in which wire slid over a contact node as far as `slide_limit` lets it.
+/// Steps in which wire would have slid farther over a contact node than its segments let it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct HeldSlides {
     /// How many.
@@ -105,18 +102,8 @@ fn strain(wire: &Wire) -> f64 {
 }
 
 impl HeldSlides {
-    pub(super) fn add(&mut self, record: &StepRecord, world: &World) {
-        let limit = HELD * world.settings().slide_limit;
-        let mut slides = record.slides.iter();
-        let is_held = slides.any(|slide| {
-            // A reel lets out at the last node what it is told to.
-            let is_reel = !world.wires()[slide.wire.0].reel().is_empty()
-                && record.slides.iter().all(|other| {
-                    other.wire != slide.wire || other.left || other.node <= slide.node
-                });
-            slide.distance.abs() >= limit && !is_reel
-        });
-        if is_held {
+    pub(super) fn add(&mut self, record: &StepRecord) {
+        if record.slides.iter().any(|slide| slide.held) {
             self.steps += 1;
             self.first_at.get_or_insert(record.time);
         }
@@ -141,7 +128,7 @@ impl fmt::Display for HeldSlides {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let times = if self.steps == 1 { "step" } else { "steps" };
         let steps = grouped(self.steps);
-        write!(f, "as far as slide_limit in {steps} {times}")?;
+        write!(f, "as far as segments let it in {steps} {times}")?;
         match self.first_at {
             Some(time) => write!(f, ", first at {time:.3} s"),
             None => Ok(()),
@@ -173,15 +160,10 @@ mod tests {
     }
 
     #[test]
-    fn wires_that_start_far_longer_than_they_are_and_slides_that_are_held_are_named() {
+    fn wires_that_start_far_longer_than_they_are_are_named() {
         let usual = run("", "step = 0.01");
         assert!(usual.stretched.is_empty() && usual.left.is_empty());
         assert_eq!(usual.held_slides.steps, 0, "{}", usual.held_slides);
-        let held = run("", "step = 0.01\nslide_limit = 0.01");
-        assert!(held.held_slides.steps > 10);
-        let said = held.held_slides.to_string();
-        assert!(said.starts_with("as far as slide_limit in "), "{said}");
-        assert!(held.to_string().contains("slid"), "{held}");
         let stretched = run("length = 15\n", "step = 0.01").stretched;
         let [rope] = &stretched[..] else {
             panic!("one wire")
@@ -210,7 +192,7 @@ mod tests {
             )
         };
         let text = format!(
-            "title = \"pulley\"\nduration = 1\n[settings]\nstep = {}\nslide_limit = 10\n\
+            "title = \"pulley\"\nduration = 1\n[settings]\nstep = {}\n\
              [[bodies]]\nname = \"pulley\"\nshape = {{ cylinder = {{ radius = 0.5, half_height = 0.03 }} }}\n\
              position = [0, 0, 0]\nturn = {{ axis = [1, 0, 0], degrees = 90 }}\n{}{}\
              [[wires]]\nname = \"rope\"\nresolution = {resolution}\n\
@@ -255,5 +237,16 @@ mod tests {
             }
             assert_eq!(summary.held_slides.steps, 0, "{rate} {resolution} {speed}");
         }
+    }
+
+    #[test]
+    fn rope_that_starts_too_fast_for_its_resolution_is_braked_and_that_is_named() {
+        let (ends, summary) = atwood(60.0, 0.25, [120.0, 100.0], 20.0);
+        println!("{ends:?} {}", summary.held_slides);
+        assert!(ends.iter().all(|end| *end < 15.0), "{ends:?}");
+        let said = summary.held_slides.to_string();
+        assert!(said.starts_with("as far as segments let it in "), "{said}");
+        assert!(said.ends_with(", first at 0.017 s"), "{said}");
+        assert!(summary.to_string().contains("slid"), "{summary}");
     }
 }

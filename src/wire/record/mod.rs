@@ -142,6 +142,10 @@ pub struct Slide {
     pub node: usize,
     /// How far the node's arc length went, in m; 0 for a node that left its body.
     pub distance: f64,
+    /// Whether the wire would have slid farther, and what was left of a segment held it: half of the
+    /// segment that got shorter, or a sixteenth of one between two nodes. What moves the wire is braked
+    /// then. A resolution of more than twice what slides in a step avoids it.
+    pub held: bool,
     /// Whether the node left its body and is free now.
     pub left: bool,
 }

@@ -71,7 +71,7 @@ use crate::narrow::NarrowPhase;
 use content::Content;
 
 /// The version of the layout that is written, and the only one that is read.
-pub const VERSION: u32 = 4;
+pub const VERSION: u32 = 5;
 
 /// The most bytes that a state may have before it is packed: more than half a million segments.
 pub const MOST_BYTES: u32 = 1 << 28;

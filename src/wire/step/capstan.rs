@@ -139,9 +139,9 @@ fn halves(wire: &Wire, node: usize) -> [Vector; 2] {
     [before * masses[0], after * masses[1]]
 }
 
-/// How fast a node's arc length may fall and grow: as far as is set for one step, and to half of
-/// the segment that gets shorter, of which something has to be left. Between two contact nodes of
-/// one body a segment cannot get much shorter than it is long.
+/// How fast a node's arc length may fall and grow: to half of the segment that gets shorter, of which
+/// something has to be left. Between two contact nodes of one body a segment cannot get much shorter
+/// than it is long, and the wire slides as fast as it likes.
 fn reach(wire: &Wire, node: usize, world: &World) -> [f64; 2] {
     let body = |node: usize| match wire.nodes[node].kind {
         NodeKind::Contact { body, .. } => Some(body),
@@ -149,17 +149,26 @@ fn reach(wire: &Wire, node: usize, world: &World) -> [f64; 2] {
     };
     let sides = [(node - 1, node - 1), (node + 1, node)];
     sides.map(|(neighbour, segment)| {
-        let limit = world.settings.slide_limit;
         let rest = wire.rest_length(segment);
         let most = if body(neighbour) == body(node) {
-            limit
+            wire.length()
         } else {
-            limit
-                .min(rest / 2.0)
-                .min(rest - LEAST * wire.resolution.length)
+            (rest / 2.0).min(rest - LEAST * wire.resolution.length)
         };
         most.max(0.0) / world.settings.step
     })
+}
+
+/// Whether a wire slides over a node at a speed at which half of a segment holds it. What is left of a
+/// segment that is used up holds it, too, as a stop does; that is not meant.
+pub(super) fn is_held(world: &World, at: usize, node: usize, speed: f64) -> bool {
+    // What is beyond gives way by as little as what sticks.
+    const NEARLY: f64 = 1.0 - 1e-6;
+    let wire = &world.wires[at];
+    let side = usize::from(speed > 0.0);
+    let segment = node - 1 + side;
+    let used_up = wire.rest_length(segment) < 2.0 * LEAST * wire.resolution.length;
+    !used_up && speed.abs() >= reach(wire, node, world)[side] * NEARLY
 }
 
 /// The bounds of friction that follow from a solution.
@@ -219,7 +228,7 @@ pub(super) fn stop_slip(rows: &[Row], x: &mut [f64]) {
 }
 
 /// Leaves every segment at least a sixteenth of its length: the slides of a wire that would go
-/// farther are scaled down, at all its contact nodes. What they did not slide is stretch, and drawn
+/// farther are scaled down, at all its contact nodes, and are held. What they did not slide is stretch, and drawn
 /// over the nodes in the next steps.
 pub(super) fn shorten(world: &World, motion: &mut ProposedMotion) {
     let mut scales = vec![1.0_f64; world.wires.len()];
@@ -239,6 +248,7 @@ pub(super) fn shorten(world: &World, motion: &mut ProposedMotion) {
     }
     for slid in &mut motion.slides {
         slid.speed *= scales[slid.wire];
+        slid.held |= scales[slid.wire] < 1.0;
     }
 }
 
@@ -249,6 +259,7 @@ pub(super) fn slides(world: &World, slid: &[SlideRate]) -> Vec<Slide> {
         wire: WireId(sliding.wire),
         node: sliding.node,
         distance: sliding.speed * world.settings.step,
+        held: sliding.held,
         left: false,
     });
     slides.collect()

@@ -156,8 +156,7 @@ fn attached(
     let (along, _) = unit(along);
     let slide = (body.velocity_at(&local) - node.velocity).dot(&along);
     let length = world.wires[insertion.wire.0].resolution.length;
-    let farthest = world.settings.slide_limit.min(length / 4.0);
-    (slide.abs() * world.settings.step <= farthest).then(|| Node {
+    (slide.abs() * world.settings.step <= length / 4.0).then(|| Node {
         velocity: node.velocity + along * slide,
         kind: NodeKind::Contact {
             body: insertion.body,
@@ -195,6 +194,7 @@ pub(super) fn release(
                     wire: WireId(at),
                     node,
                     distance: 0.0,
+                    held: false,
                     left: true,
                 });
             }

@@ -2,6 +2,7 @@
 
 use nalgebra::UnitQuaternion;
 
+use super::capstan::is_held;
 use super::carrier::{Carrier, Layout};
 use super::islands::Island;
 use super::spin::turn;
@@ -33,11 +34,14 @@ pub(in crate::wire) struct ProposedMotion {
 }
 
 /// How fast a wire slides over a contact node, or is let out at its last one.
+#[derive(Clone, Copy)]
 pub(super) struct SlideRate {
     pub(super) wire: usize,
     pub(super) node: usize,
     /// How fast the node's arc length grows, in m/s.
     pub(super) speed: f64,
+    /// Whether what is left of a segment holds the wire.
+    pub(super) held: bool,
 }
 
 /// Where a body ends, and how fast it is there.
@@ -133,12 +137,19 @@ impl Velocities {
                     wire,
                     node: last,
                     speed,
+                    held: false,
                 });
             }
             for (node, column) in layout.slides[nodes].iter().enumerate() {
                 if let Some(column) = *column {
                     let speed = x[column];
-                    self.slides.push(SlideRate { wire, node, speed });
+                    let held = is_held(world, wire, node, speed);
+                    self.slides.push(SlideRate {
+                        wire,
+                        node,
+                        speed,
+                        held,
+                    });
                 }
             }
         }
@@ -195,9 +206,9 @@ impl World {
             });
             moved.wires.push(nodes.collect());
         }
-        for &SlideRate { wire, node, speed } in &solved.slides {
-            let speed = speed * motion_scales.nodes[wire][node];
-            moved.slides.push(SlideRate { wire, node, speed });
+        for &slid in &solved.slides {
+            let speed = slid.speed * motion_scales.nodes[slid.wire][slid.node];
+            moved.slides.push(SlideRate { speed, ..slid });
         }
         moved.slides.sort_by_key(|slid| (slid.wire, slid.node));
         moved

@@ -46,7 +46,6 @@ pub(super) fn every_field() -> State {
         contact_tolerance: n.next(),
         stability_margin: 0.25,
         split_ratio: n.next(),
-        slide_limit: n.next(),
     };
     let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]];
     let triangles = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
