@@ -260,11 +260,7 @@ impl From<FacePlace> for Place {
 impl<P> Hit<P> {
     /// The largest `f32` that is not above the exact time of impact: `toi as f32` may be above it.
     pub fn toi_f32(&self) -> f32 {
-        let nearest = self.toi as f32;
-        match f64::from(nearest) > self.toi {
-            true => nearest.next_down(),
-            false => nearest,
-        }
+        single_below(self.toi)
     }
 
     /// The same contact with its place in another form.
@@ -278,6 +274,15 @@ impl<P> Hit<P> {
             flags: self.flags,
             place: form(self.place),
         }
+    }
+}
+
+/// The largest `f32` that is not above a finite number.
+pub(crate) fn single_below(number: f64) -> f32 {
+    let nearest = number as f32;
+    match f64::from(nearest) > number {
+        true => nearest.next_down(),
+        false => nearest,
     }
 }
 

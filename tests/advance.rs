@@ -187,7 +187,7 @@ fn judge(q: &Query, Asked(precision, clearance): Asked, id: &str, tally: &mut Ta
             assert_eq!((moved.step, moved.points), (1.0, end), "{id}");
         }
         Some(Blocked::Ahead) => tally.ahead += 1,
-        Some(Blocked::Near) => {
+        Some(Blocked::Rounding) => {
             tally.near += 1;
             tally.near_moved += u64::from(moved.step > 0.0);
         }
@@ -313,7 +313,7 @@ fn advance_with_hardly_room_goes_as_far_as_without() {
             assert!(decide_query(&stored).hit.is_none(), "{radius}: {points:?}");
         }
     }
-    assert_eq!(blocked[..2], [Some(Blocked::Near); 2]);
+    assert_eq!(blocked[..2], [Some(Blocked::Rounding); 2]);
 }
 
 fn query_of_face(start: [Point; 4], end: [Point; 4], radius: f64) -> Query {
@@ -334,7 +334,7 @@ fn advance_that_moves_nothing_is_no_step() {
     let end = [p(0.25, 0.25, 1.), face[0], face[1], face[2]];
     let query = VertexFace::new(start, end, 1.000_000_035_762_787).unwrap();
     let moved = advance_in(&query, Clearance::None, Precision::F32).unwrap();
-    let expected = (0.0, start, None, Some(Blocked::Near));
+    let expected = (0.0, start, None, Some(Blocked::Rounding));
     assert_eq!(
         (moved.step, moved.points, moved.kept, moved.blocked),
         expected

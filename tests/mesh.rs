@@ -226,6 +226,9 @@ fn mesh_contacts_are_those_of_all_its_pairs() {
         let least = expected.iter().map(|(_, [toi, _])| *toi).reduce(f64::min);
         assert_eq!(first.map(|contact| contact.toi), least, "seed {seed}");
         if let Some(first) = first {
+            let below = first.toi_f32();
+            let [below, above] = [below, below.next_up()].map(f64::from);
+            assert!(below <= first.toi && first.toi < above, "seed {seed}");
             let pair = expected.iter().find(|(_, [toi, _])| Some(*toi) == least);
             assert_eq!(first.pair, pair.unwrap().0, "seed {seed}");
         }

@@ -282,7 +282,7 @@ enum tunnelproof_blocked {
   TUNNELPROOF_AHEAD = 1,
   /* The two sides come nearer, and start so near to what is kept that rounding has no room. A few
    * steps were tried; the largest of them that is proved is made, or none. */
-  TUNNELPROOF_NEAR = 2,
+  TUNNELPROOF_ROUNDING = 2,
   /* The two sides touch at the start, radius or not: no motion from there is apart. */
   TUNNELPROOF_TOUCHING = 3
 };
@@ -326,7 +326,7 @@ int32_t tunnelproof_advance_vertex_face(const double *points, const double *radi
 /* The same for engines that store float. If the coordinates at the start are floats, so are those of
  * `advance->points`: a cast to float changes nothing, and the proof is of what is stored. The end
  * may have more digits, as it is rounded to float first. There is less room: two sides that are
- * nearer than some 2^-21 of their coordinates, beyond what they keep, may be TUNNELPROOF_NEAR. */
+ * nearer than some 2^-21 of their coordinates, beyond what they keep, may be TUNNELPROOF_ROUNDING. */
 int32_t tunnelproof_advance_edge_edge_f32(const double *points, const double *radii,
                                           double clearance, double share,
                                           tunnelproof_advance *advance);
@@ -406,7 +406,7 @@ typedef struct tunnelproof_pairs_step_f32 {
  *
  * The step is 0 if a pair touches at the start, radius or not, or if rounding leaves no room to any
  * step tried. `limits` names the pairs. Two sides that share a point touch always: leave them out.
- * Where TUNNELPROOF_NEAR ends a step, it may be as small as some rounding errors, so do not wait for
+ * Where TUNNELPROOF_ROUNDING ends a step, it may be as small as some rounding errors, so do not wait for
  * 0. Part these pairs, or let them move otherwise.
  *
  * Uses all threads if the library was built with them, and gives the same answers on any number of

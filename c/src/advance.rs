@@ -36,7 +36,7 @@ impl From<EngineAdvance> for Advance {
 pub(crate) fn blocked(blocked: Blocked) -> i32 {
     match blocked {
         Blocked::Ahead => 1,
-        Blocked::Near => 2,
+        Blocked::Rounding => 2,
         Blocked::Touching => 3,
         // The engine may come to know others.
         _ => 4,

@@ -487,7 +487,7 @@ static void steps_of_a_mesh(const tunnelproof_mesh *mesh) {
   }
   CHECK(x[11] > 0.01 && x[11] < 0.01 + 1e-9 && x[17] > 1.9);
   CHECK(step.limit_count == 2 && limits[0].pair.vertices[0] == 3);
-  CHECK(limits[0].blocked == TUNNELPROOF_AHEAD || limits[0].blocked == TUNNELPROOF_NEAR);
+  CHECK(limits[0].blocked == TUNNELPROOF_AHEAD || limits[0].blocked == TUNNELPROOF_ROUNDING);
   CHECK(step.candidates[0] > 0 && step.candidates[1] > 0);
 
   memcpy(x, at_first, sizeof x);

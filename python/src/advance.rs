@@ -124,7 +124,7 @@ pub(crate) fn blocked(blocked: Option<Blocked>) -> i8 {
     match blocked {
         None => 0,
         Some(Blocked::Ahead) => 1,
-        Some(Blocked::Near) => 2,
+        Some(Blocked::Rounding) => 2,
         Some(Blocked::Touching) => 3,
         // The engine may come to know others.
         Some(_) => -1,

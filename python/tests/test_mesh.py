@@ -76,7 +76,7 @@ def test_positions_of_a_step_touch_nothing_by_the_oracle(seed, settings):
     if free and "clearance" not in settings:
         assert step.step == 1 and np.array_equal(step.positions, end)
     assert (step.step == 1) == (len(step.limits) == 0)
-    assert step.step > 0 and set(step.limits.blocked) <= {Blocked.AHEAD, Blocked.NEAR}
+    assert step.step > 0 and set(step.limits.blocked) <= {Blocked.AHEAD, Blocked.ROUNDING}
 
 
 def test_pairs_name_their_features():

@@ -53,7 +53,7 @@ pub struct ListedPair {
 ///
 /// Both lists are of the same points. One of them may be empty. Positions that are given in `f32` are
 /// returned in `f32`, and what is proved of them is as exact. There is less room then: two sides that
-/// are nearer than some 2^-21 of their coordinates, beyond what they keep, may be [`Blocked::Near`].
+/// are nearer than some 2^-21 of their coordinates, beyond what they keep, may be [`Blocked::Rounding`].
 ///
 /// # Guarantee
 ///
@@ -74,7 +74,7 @@ pub struct ListedPair {
 ///
 /// The step is 0 if a pair touches at the start, radius or not, or if rounding leaves no room to any
 /// step tried: [`PairsStep::limits`] names the pairs. Two sides that share a point touch always:
-/// leave them out of the lists. Where [`Blocked::Near`] ends a step, it may be as small as some
+/// leave them out of the lists. Where [`Blocked::Rounding`] ends a step, it may be as small as some
 /// rounding errors, so do not wait for 0. Part these pairs, or let them move otherwise.
 ///
 /// # Errors

@@ -156,7 +156,7 @@ pub enum Blocked {
     Ahead,
     /// The two sides come nearer, and start so near to what is kept that rounding has no room. A few
     /// steps were tried; the largest of them that is proved is made, or none.
-    Near,
+    Rounding,
     /// The two sides touch at the start, radius or not: no motion from there is apart.
     Touching,
 }
@@ -212,7 +212,7 @@ pub fn advance<K: Kind>(query: &K, clearance: Clearance) -> Result<Advance, Clea
 /// `query.start()` are `f32`, so are those of [`Advance::points`], and `as f32` changes none of them.
 /// A whole step ends at the nearest `f32` of each coordinate of `query.end()`, or the largest where
 /// that is beyond it. There is less room: two sides that are nearer than some 2^-21 of their
-/// coordinates, beyond what they keep, may be [`Near`](Blocked::Near).
+/// coordinates, beyond what they keep, may be [`Rounding`](Blocked::Rounding).
 ///
 /// # Errors
 ///
@@ -551,9 +551,9 @@ fn furthest<K: Kind>(
     let mut larger = halved(toi).take_while(|&step| step > until);
     let step = larger.find(|&step| moves(step) && is_apart(step));
     match step {
-        Some(step) => (step, Some(kept), Some(Blocked::Near)),
+        Some(step) => (step, Some(kept), Some(Blocked::Rounding)),
         None if is_proved => ahead,
-        None => (0.0, None, Some(Blocked::Near)),
+        None => (0.0, None, Some(Blocked::Rounding)),
     }
 }
 

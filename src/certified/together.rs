@@ -117,7 +117,7 @@ impl<P: Copy + Ord, C: Coordinate> Together<'_, P, C> {
             let near = tight
                 .iter()
                 .filter(move |(_, limit)| limit.toi.is_some_and(|toi| toi <= step));
-            ahead.chain(near.map(|(pair, _)| (*pair, Blocked::Near)))
+            ahead.chain(near.map(|(pair, _)| (*pair, Blocked::Rounding)))
         };
         // What those with hardly room prove at least.
         let short = tight.iter().filter(|(_, limit)| limit.is_short);
@@ -137,13 +137,13 @@ impl<P: Copy + Ord, C: Coordinate> Together<'_, P, C> {
             }
             if !now.is_empty() {
                 let now = now.into_iter();
-                failing = now.map(|(pair, _)| (*pair, Blocked::Near)).collect();
+                failing = now.map(|(pair, _)| (*pair, Blocked::Rounding)).collect();
             }
         }
         // No position that is stored would be another one.
         if failing.is_empty() {
             let ends = ends(largest);
-            failing = ends.map(|(pair, _)| (pair, Blocked::Near)).collect();
+            failing = ends.map(|(pair, _)| (pair, Blocked::Rounding)).collect();
         }
         (0.0, failing)
     }

@@ -6,7 +6,7 @@ use super::candidates::{Candidate, Candidates, Question};
 use super::error::MeshError;
 use super::topology::{Mesh, Pair, Thickness};
 use crate::certified::{Positions, first_toi};
-use crate::contact::{Contact, ContactKind};
+use crate::contact::{Contact, ContactKind, single_below};
 use crate::query::{Coordinate, EdgeEdge, Point, Query, QueryKind, Radius, VertexFace};
 
 /// The first contact of a pair during a step.
@@ -24,6 +24,13 @@ pub struct MeshContact {
     pub kind: ContactKind,
     /// Points, weights and normal.
     pub contact: Contact,
+}
+
+impl MeshContact {
+    /// The largest `f32` that is not above the exact time of impact: `toi as f32` may be above it.
+    pub fn toi_f32(&self) -> f32 {
+        single_below(self.toi)
+    }
 }
 
 impl Mesh {

@@ -66,7 +66,7 @@ impl Mesh {
     ///
     /// Positions that are given in `f32` are returned in `f32`, with the same guarantee. There is less
     /// room then: two sides that are nearer than some 2^-21 of their coordinates, beyond what they keep,
-    /// may be [`Blocked::Near`].
+    /// may be [`Blocked::Rounding`].
     ///
     /// # Guarantee
     ///
@@ -82,7 +82,7 @@ impl Mesh {
     /// however many steps follow. The preconditions are those of [`decide`](crate::decide).
     ///
     /// The step is 0 if a pair touches at the start, thickness or not, or if rounding leaves no room
-    /// to any step tried: [`MeshStep::limits`] names the pairs. Where [`Blocked::Near`] ends a step,
+    /// to any step tried: [`MeshStep::limits`] names the pairs. Where [`Blocked::Rounding`] ends a step,
     /// it may be as small as some rounding errors, so do not wait for 0. Do not ask again with the
     /// same motion. Part these pairs, let them move otherwise, or leave them out.
     ///

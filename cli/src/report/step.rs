@@ -7,7 +7,7 @@ use tunnelproof::query::Radius;
 pub fn blocked_name(blocked: Blocked) -> &'static str {
     match blocked {
         Blocked::Ahead => "ahead",
-        Blocked::Near => "near",
+        Blocked::Rounding => "rounding",
         _ => "touching",
     }
 }

@@ -22,7 +22,7 @@ class Blocked(IntEnum):
     """It is."""
     AHEAD = 1
     """A larger step would bring the two sides nearer than is kept, or a rounding error of that."""
-    NEAR = 2
+    ROUNDING = 2
     """The two sides come nearer, and start so near to what is kept that rounding has no room. A few
     steps were tried; the largest of them that is proved is made, or none."""
     TOUCHING = 3

@@ -113,7 +113,7 @@ def advance_pairs(
 
     The step is 0 if a pair touches at the start, radius or not, or if rounding leaves no room to any
     step tried. :attr:`PairsStep.limits` names the pairs. Two sides that share a point touch always:
-    leave them out. Where :attr:`Blocked.NEAR` ends a step, it may be as small as some rounding errors,
+    leave them out. Where :attr:`Blocked.ROUNDING` ends a step, it may be as small as some rounding errors,
     so do not wait for 0. Part these pairs, or let them move otherwise.
 
     :param start: all points at the start of the step, of shape ``(m, 3)``, in metres. If they and

@@ -66,7 +66,7 @@ def advance(
         positions that come in are, at both ends, else float64. With ``"f32"`` the end is rounded to
         float32 first, and the start has to be float32 numbers, of whatever type. The guarantee is
         about the numbers that are returned. In float32 there is less room: two sides that are nearer
-        than some 2**-21 of their coordinates, beyond what they keep, may be :attr:`Blocked.NEAR`.
+        than some 2**-21 of their coordinates, beyond what they keep, may be :attr:`Blocked.ROUNDING`.
     :raises ValueError: as :func:`decide`, for a clearance or a share that means nothing, for another
         precision, and for a start that is not in it.
 
