@@ -52,6 +52,7 @@
 use nalgebra::Matrix3;
 
 use super::carrier::Carrier;
+use super::lever::is_lever;
 use super::system::System;
 use super::transverse::is_short;
 use crate::wire::contact::{ContactConstraint, ContactSite};
@@ -319,8 +320,9 @@ impl Linearisation {
                 let own = &self.segments[at][segment];
                 let tension = row.impulse(x) / step;
                 // Before the first step no tension is known.
-                let is_more = world.steps > 0 && tension > GROWTH * own.tension;
-                if is_more && is_short(world, at, segment, tension) {
+                let is_short = || world.steps > 0 && is_short(world, at, segment, tension);
+                let is_more = tension > GROWTH * own.tension;
+                if is_more && (is_short() || is_lever(world, wire, segment, tension)) {
                     followed.next.segments[at][segment].tension = tension;
                     followed.is_off = true;
                 }

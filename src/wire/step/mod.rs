@@ -20,6 +20,7 @@ mod friction_bounds;
 mod gmres;
 mod implicit;
 mod islands;
+mod lever;
 mod linearisation;
 pub(super) mod motion;
 mod multipliers;

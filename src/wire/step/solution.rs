@@ -291,7 +291,8 @@ impl Solution {
             added.places += inertias.short.len() + inertias.nodes.len();
             let wire = |at: usize| &world.wires[own.island.wires[at]];
             let short = inertias.short.iter();
-            let short = short.map(|inertia| inertia.energy(wire(inertia.wire)));
+            let spin = |at: usize| world.bodies[own.island.bodies[at]].angular_velocity;
+            let short = short.map(|inertia| inertia.energy(wire(inertia.wire), spin));
             added.damped +=
                 short.sum::<f64>() + own.system.energy_of_steep_segments(&own.candidate.x);
         }

@@ -160,6 +160,13 @@ impl System {
                     carrier.columns(&part.row(axis).transpose(), columns);
                 }
             }
+            if let Some((body, part)) = inertia.spin
+                && let Some(first) = self.layout.bodies[body]
+            {
+                for (axis, columns) in columns.iter_mut().enumerate() {
+                    Carrier::Free(first + 3).columns(&part.row(axis).transpose(), columns);
+                }
+            }
             momentum *= inertia.mass;
             for (columns, momentum) in columns.iter().zip(&momentum) {
                 self.triplets.add_outer(columns, inertia.mass);

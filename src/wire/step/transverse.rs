@@ -28,7 +28,9 @@
 //! too, nothing would be damped, but a chain that whirls faster than a step can follow gains energy.
 //!
 //! A node on a body counts with the mass that the body has there, at least: what its mobility at the
-//! place leaves, shared by all nodes on it. A node whose motion is prescribed needs nothing. Nor does a
+//! place leaves, shared by all nodes on it; where the body is [kept](super::lever) from turning against the pull, that is its
+//! mass. A segment between two bodies that are heavy enough for it needs nothing, whatever it weighs itself: a ring above
+//! its load would hold back its swing. A node whose motion is prescribed needs nothing. Nor does a
 //! segment between two places of one body: it turns with the body, on which it pulls along one line,
 //! so that there is nothing to push back. (With it, a block over which a rope is hauled turned
 //! against a torque that grew with the step, and the rope slid over it instead.)
@@ -56,6 +58,7 @@
 use nalgebra::Matrix3;
 use smallvec::SmallVec;
 
+use super::lever::levers;
 use super::linearisation::Linearisation;
 use crate::wire::model::{Body, BodyId, NodeKind, Wire};
 use crate::wire::vector::{Vector, unit};
@@ -65,7 +68,7 @@ use crate::wire::world::World;
 const STEEPEST: f64 = 500.0;
 
 /// `12 + 8 sqrt(2)`.
-const FOLLOWED: f64 = 12.0 + 8.0 * std::f64::consts::SQRT_2;
+pub(super) const FOLLOWED: f64 = 12.0 + 8.0 * std::f64::consts::SQRT_2;
 
 /// What there is beside the masses in a step.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -78,29 +81,31 @@ pub(super) struct TransverseInertias {
     pub(super) nodes: Vec<SteepNode>,
 }
 
-/// What resists a velocity `u` that is linear in those of nodes, like a mass.
+/// What resists a velocity `u` that is linear in those of nodes and of a body, like a mass.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TransverseInertia {
     /// The wire.
     pub(super) wire: usize,
-    /// The mass `m` in kg.
+    /// The mass `m` in kg, or the inertia in kg m^2 of an angular velocity.
     pub(super) mass: f64,
     /// Nodes of the wire, and what their velocities give to `u`.
     pub(super) terms: SmallVec<[(usize, Matrix3<f64>); 3]>,
+    /// A body, and what its angular velocity gives to `u`.
+    pub(super) spin: Option<(usize, Matrix3<f64>)>,
 }
 
 impl TransverseInertia {
-    /// The velocity `u` of the wire in m/s.
-    pub(super) fn velocity(&self, wire: &Wire) -> Vector {
+    /// The velocity `u` in m/s or rad/s of the wire, and of a body with this angular velocity.
+    pub(super) fn velocity(&self, wire: &Wire, spin: impl Fn(usize) -> Vector) -> Vector {
         let terms = self.terms.iter();
-        terms
-            .map(|(node, part)| part * wire.nodes[*node].velocity)
-            .sum()
+        let of_nodes = terms.map(|(node, part)| part * wire.nodes[*node].velocity);
+        let of_body = self.spin.map(|(body, part)| part * spin(body));
+        of_nodes.chain(of_body).sum()
     }
 
-    /// `m |u|^2` of the wire in J.
-    pub(super) fn energy(&self, wire: &Wire) -> f64 {
-        self.mass * self.velocity(wire).norm_squared()
+    /// `m |u|^2` in J.
+    pub(super) fn energy(&self, wire: &Wire, spin: impl Fn(usize) -> Vector) -> f64 {
+        self.mass * self.velocity(wire, spin).norm_squared()
     }
 }
 
@@ -134,7 +139,19 @@ pub(super) fn transverse_inertias(
     linearisation: &Linearisation,
 ) -> TransverseInertias {
     let mut all = TransverseInertias::default();
-    let mut counts = None;
+    let is_carried = |wire: &Wire| wire.nodes.iter().any(|node| node.kind.carrier().is_some());
+    let mut masses = Masses {
+        world,
+        counts: Vec::new(),
+        held: Vec::new(),
+    };
+    if world.wires.iter().any(is_carried) {
+        masses.counts = nodes_on_bodies(world);
+        let levers = levers(world, linearisation, &masses.counts);
+        masses.held = levers.iter().map(|lever| lever.at).collect();
+        all.short = levers.into_iter().map(|lever| lever.inertia).collect();
+    }
+    let masses = masses;
     for (at, wire) in world.wires.iter().enumerate() {
         // That of the segment before the node.
         let mut before: Option<Short> = None;
@@ -143,12 +160,11 @@ pub(super) fn transverse_inertias(
                 let tension = linearisation.of(at, node).tension;
                 Short::new(world, wire, node, tension)
             });
-            let mut after = short.flatten();
+            let short = short.flatten();
+            let mut after = short.filter(|short| !masses.are_enough(at, node, short));
             if let Some(short) = &mut after {
-                let counts = counts.get_or_insert_with(|| nodes_on_bodies(world));
-                let masses =
-                    [node, node + 1].map(|node| mass_of(world, counts, wire, node, short.half));
-                short.is_steep = short.needed > STEEPEST * masses[0].min(masses[1]);
+                let ends = [node, node + 1].map(|node| masses.of(at, node, short.half));
+                short.is_steep = short.needed > STEEPEST * ends[0].min(ends[1]);
                 if short.is_steep {
                     all.steep.push(SteepSegment {
                         wire: at,
@@ -157,9 +173,7 @@ pub(super) fn transverse_inertias(
                     });
                 }
             }
-            if let Some(counts) = &counts {
-                all.add_node(world, counts, at, node, [before, after]);
-            }
+            all.add_node(&masses, at, node, [before, after]);
             before = after;
         }
     }
@@ -168,25 +182,17 @@ pub(super) fn transverse_inertias(
 
 impl TransverseInertias {
     /// Adds what acts at a node with these segments before and after it.
-    fn add_node(
-        &mut self,
-        world: &World,
-        counts: &[f64],
-        wire: usize,
-        node: usize,
-        sides: [Option<Short>; 2],
-    ) {
+    fn add_node(&mut self, masses: &Masses, wire: usize, node: usize, sides: [Option<Short>; 2]) {
         let of_kind =
             |is_steep: bool| sides.map(|side| side.filter(|short| short.is_steep == is_steep));
         let [short, steep] = [false, true].map(of_kind);
         let is_there = |sides: &[Option<Short>; 2]| sides.iter().any(Option::is_some);
-        let own = &world.wires[wire];
-        let is_free = own.nodes[node].kind == NodeKind::Free;
+        let is_free = masses.world.wires[wire].nodes[node].kind == NodeKind::Free;
         // What a body has there is shared by both kinds.
         let is_shared = !is_free && is_there(&short) && is_there(&steep);
         let mass = |sides: &[Option<Short>; 2]| {
             let half = sides.iter().flatten().map(|short| short.half).sum();
-            let mass = mass_of(world, counts, own, node, half);
+            let mass = masses.of(wire, node, half);
             if is_shared { mass / 2.0 } else { mass }
         };
         let moves = |sides: &[Option<Short>; 2]| is_there(sides) && mass(sides).is_finite();
@@ -260,19 +266,51 @@ fn of_node(
         terms.push((neighbour, -part));
     }
     terms.push((node, own));
-    TransverseInertia { wire, mass, terms }
+    TransverseInertia {
+        wire,
+        mass,
+        terms,
+        spin: None,
+    }
 }
 
-/// The mass in kg of a node of which `half` is on segments that are too short; infinite if its
-/// motion is prescribed.
-fn mass_of(world: &World, counts: &[f64], wire: &Wire, node: usize, half: f64) -> f64 {
-    let kind = wire.nodes[node].kind;
-    match kind.carrier() {
-        _ if kind == NodeKind::Free => half,
-        Some((body, local)) if world.bodies[body.0].dynamic => {
-            mass_at(&world.bodies[body.0], &local) / counts[body.0]
+/// What there is at nodes against what pushes them back across segments.
+struct Masses<'a> {
+    world: &'a World,
+    /// How many nodes there are on each body.
+    counts: Vec<f64>,
+    /// Wires and nodes of eyes at which the body is [kept](super::lever) from turning against the pull, in order.
+    held: Vec<(usize, usize)>,
+}
+
+impl Masses<'_> {
+    /// Whether a segment that is too short for what it has itself is between bodies, or a body and a place whose
+    /// motion is prescribed, that have enough: `h^2 T/l (1/m + 1/m') < 4` with the margin.
+    fn are_enough(&self, wire: usize, segment: usize, short: &Short) -> bool {
+        let ends = [segment, segment + 1];
+        let is_free = |node: &usize| self.world.wires[wire].nodes[*node].kind == NodeKind::Free;
+        let mobilities = ends.map(|node| 1.0 / self.of(wire, node, short.half));
+        !ends.iter().any(is_free) && short.needed * (mobilities[0] + mobilities[1]) < 4.0
+    }
+
+    /// The mass in kg of a node of which `half` is on segments that are too short; infinite if its
+    /// motion is prescribed.
+    fn of(&self, wire: usize, node: usize, half: f64) -> f64 {
+        let kind = self.world.wires[wire].nodes[node].kind;
+        match kind.carrier() {
+            _ if kind == NodeKind::Free => half,
+            Some((body, local)) if self.world.bodies[body.0].dynamic => {
+                let (body, count) = (&self.world.bodies[body.0], self.counts[body.0]);
+                let is_held = self.held.binary_search(&(wire, node)).is_ok();
+                let mass = if is_held {
+                    body.mass
+                } else {
+                    mass_at(body, &local)
+                };
+                mass / count
+            }
+            _ => f64::INFINITY,
         }
-        _ => f64::INFINITY,
     }
 }
 
