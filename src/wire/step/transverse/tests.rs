@@ -104,7 +104,7 @@ fn forms(world: &World, factor: f64) -> [f64; 3] {
     let short = inertias
         .short
         .iter()
-        .map(|inertia| inertia.energy(&world.wires[0]));
+        .map(|inertia| inertia.energy(&world.wires[0], |body| world.bodies[body].angular_velocity));
     let added = 2.0 * (short.sum::<f64>() + steep_form(world, &inertias));
     let wire = &world.wires[0];
     let step = world.settings.step;
@@ -207,7 +207,12 @@ fn what_moves_as_one_line_has_none_of_it() {
     for inertia in &inertias.short[1..8] {
         let largest = inertia.terms.iter().map(|(_, part)| part.amax());
         let largest = largest.fold(0.0, f64::max);
-        assert!(inertia.velocity(&world.wires[0]).norm() < 1e-12 * largest);
+        assert!(
+            inertia
+                .velocity(&world.wires[0], |body| world.bodies[body].angular_velocity)
+                .norm()
+                < 1e-12 * largest
+        );
     }
     // `W v` of steep segments is 0 where `K_s v` is.
     let world = line(3e6);
