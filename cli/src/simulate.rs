@@ -29,7 +29,7 @@ mod table;
 
 pub use balance::EnergyBalance;
 pub use behind::Behind;
-pub use notices::{HeldSlides, Left, Stretched};
+pub use notices::{Far, HeldSlides, Left, Stretched};
 pub use overlaps::Overlap;
 pub use table::StepTable;
 
@@ -142,6 +142,8 @@ pub struct Summary {
     pub wall_narrow: f64,
     /// What stands in each other at the start of the scene, the deepest first.
     pub overlaps: Vec<Overlap>,
+    /// Eyes and contact nodes that are far from their bodies.
+    pub far: Vec<Far>,
     /// Wires that are far longer at the start of the scene than they are unstretched.
     pub stretched: Vec<Stretched>,
     /// Pairs that the broad phase named.
@@ -275,6 +277,7 @@ impl Run<'_> {
         };
         let mut watch = notices::Watch::of(&world);
         if world.steps() == 0 {
+            summary.far = notices::far(&world, self.scene);
             summary.stretched = notices::stretched(&world, self.scene);
             overlaps::add_wires(&mut summary.overlaps, &world, self.scene);
         }
@@ -494,6 +497,9 @@ impl fmt::Display for Summary {
         }
         for (name, value) in rows {
             writeln!(f, "  {name:<22}{value}")?;
+        }
+        for far in &self.far {
+            writeln!(f, "  {:<22}{far}", "far from its body")?;
         }
         for stretched in &self.stretched {
             writeln!(f, "  {:<22}{stretched}", "stretched at start")?;

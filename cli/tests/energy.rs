@@ -165,7 +165,7 @@ fn thrown(rate: f64) -> String {
 }
 
 /// A log that two ropes hold from its one side, and a load from its other: it turns until they have wound up.
-fn turned_by_a_load(rate: f64) -> String {
+fn turned_by_a_load(rate: f64, density: f64) -> String {
     let material =
         "material = { radius = 0.006, density = 1200, stretch_modulus = 1e9, bend_modulus = 1e6 }";
     let rope = |name: &str, route: &str| {
@@ -183,7 +183,7 @@ fn turned_by_a_load(rate: f64) -> String {
          [[bodies]]\nname = \"log\"\nshape = {{ cylinder = {{ radius = 0.08, half_height = 0.4 }} }}\nposition = [0, 0, 0]\n\
          turn = {{ axis = [1, 0, 0], degrees = 90 }}\ndrive = {{ dynamic = {{ density = 1000 }} }}\n\
          [[bodies]]\nname = \"load\"\nshape = {{ box = {{ half = [0.1, 0.1, 0.1] }} }}\nposition = [-0.086, 0, -1]\n\
-         drive = {{ dynamic = {{ density = 2500 }} }}\n{}{}{}",
+         drive = {{ dynamic = {{ density = {density} }} }}\n{}{}{}",
         1.0 / rate,
         held("left", -0.3),
         held("right", 0.3),
@@ -195,14 +195,22 @@ fn turned_by_a_load(rate: f64) -> String {
 }
 
 /// With rows that are linear about the start of a step the crate, of 136 J, gained 147, 79 and 3 J in a step, the log 142, 63 and 8 J.
+/// Which step catches the load is chance: so there are 21 runs of the log.
 #[test]
 fn bodies_that_turn_on_ropes_gain_no_energy() {
     for rate in [30.0, 60.0, 240.0] {
-        for (name, scene) in [("crate", thrown(rate)), ("log", turned_by_a_load(rate))] {
-            let energy = run(&scene).energy;
-            assert!(energy.largest_gain < 6.0, "{name}, {rate}: {energy:?}");
+        let energy = run(&thrown(rate)).energy;
+        assert!(energy.largest_gain < 6.0, "{rate}: {energy:?}");
+    }
+    let mut gains = Vec::new();
+    for rate in [30.0, 45.0, 60.0, 75.0, 90.0, 120.0, 240.0] {
+        for density in [1500.0, 2500.0, 4000.0] {
+            gains.push(run(&turned_by_a_load(rate, density)).energy.largest_gain);
         }
     }
+    let mean = gains.iter().sum::<f64>() / gains.len() as f64;
+    assert!(gains.iter().all(|gain| *gain < 8.0), "{gains:?}");
+    assert!(mean < 1.0, "{mean} {gains:?}");
 }
 
 /// A chain draws a ball, which it holds by its centre, against the edge of a box: the node at which it comes out of the

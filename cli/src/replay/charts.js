@@ -29,12 +29,14 @@ function short(value) {
 const quantities = [
   ["Largest tension of each wire, N", run => run.names.wires.map((name, w) => [name, wireColour(run, w), frame => largest(frame.tensions[w], 0)])],
   ["Energy, J", run => {
-    const [, potential] = run.frames[0].energy;
+    const potential = run.frames.find(frame => frame.energy)?.energy[1];
+    const of = value => frame => frame.energy ? value(frame.energy) : null;
     return [
-      ["kinetic", "#d6592b", frame => frame.energy[0]],
-      ["elastic", "#2ca02c", frame => frame.energy[2]],
-      ["potential since the start", "#2f7fd0", frame => frame.energy[1] - potential],
-      ["sum of the three", "#8a949e", frame => frame.energy[0] + frame.energy[1] + frame.energy[2] - potential],
+      ["kinetic", "#d6592b", of(([kinetic]) => kinetic)],
+      ["elastic", "#2ca02c", of(([, , elastic]) => elastic)],
+      ["potential since the first step", "#2f7fd0", of(([, height]) => height - potential)],
+      ["sum of the three", "#8a949e", of(([kinetic, height, elastic]) => kinetic + height - potential + elastic)],
+      ["work of scripted bodies and reels", "#9467bd", of(([, , , work]) => work)],
     ];
   }],
   ["Contacts", () => [["contacts", "#d6592b", frame => frame.contacts.length], ["pairs that met on the way", "#9467bd", frame => frame.met]], true],

@@ -26,8 +26,8 @@ pub(super) struct Frame {
     spin: Vec<f64>,
     /// ContactSite, normal and force on A of each contact.
     pub(super) contacts: Vec<[f64; 9]>,
-    /// Kinetic, potential, elastic, in J.
-    energy: [f64; 3],
+    /// Kinetic, potential, elastic, and the work of scripted bodies and reels so far, in J; none before the first step.
+    energy: Option<[f64; 4]>,
     /// Pairs of segments that met on their way.
     met: usize,
     /// What happened since the last frame.
@@ -165,7 +165,7 @@ impl Frame {
             bodies: bodies.iter().map(rest).collect(),
             spin: vec![0.0; bodies.len()],
             contacts: Vec::new(),
-            energy: [0.0; 3],
+            energy: None,
             met: 0,
             marks: Vec::new(),
         }
@@ -186,8 +186,8 @@ impl Frame {
             wire.after.clone_from(&wire.before);
             wire.tensions.fill(0.0);
         }
-        let mut frame = Frame::after(&start, step, Vec::new());
-        (frame.time, frame.step) = (record.time - step, 0);
+        let mut frame = Frame::after(&start, step, Vec::new(), 0.0);
+        (frame.time, frame.step, frame.energy) = (record.time - step, 0, None);
         frame
     }
 
@@ -200,8 +200,8 @@ impl Frame {
         })
     }
 
-    /// Where a step ends.
-    pub(super) fn after(record: &StepRecord, step: f64, marks: Vec<Mark>) -> Self {
+    /// Where a step ends, with the work in J that scripted bodies and reels have done until then.
+    pub(super) fn after(record: &StepRecord, step: f64, marks: Vec<Mark>, work: f64) -> Self {
         let flat = |wire: &WireRecord| wire.after.iter().flat_map(triple).collect();
         let energy = &record.energy;
         let met = |said: &&PairRecord| matches!(said.answer, PairAnswer::Met { .. });
@@ -220,7 +220,7 @@ impl Frame {
                 .iter()
                 .map(|contact| drawn(record, contact))
                 .collect(),
-            energy: [energy.kinetic, energy.potential, energy.elastic].map(cent),
+            energy: Some([energy.kinetic, energy.potential, energy.elastic, work].map(cent)),
             met: record.collisions.pairs.iter().filter(met).count(),
             marks,
         }

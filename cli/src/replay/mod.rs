@@ -50,6 +50,9 @@ pub struct Replay {
     /// What happened since the last frame.
     #[serde(skip)]
     marks: Vec<Mark>,
+    /// What scripted bodies and reels did so far, in J.
+    #[serde(skip)]
+    work: f64,
 }
 
 /// What wires and bodies are called.
@@ -95,6 +98,7 @@ impl Replay {
             frames: Vec::new(),
             stride: steps.div_ceil(MOST_FRAMES).max(1),
             marks: Vec::new(),
+            work: 0.0,
         }
     }
 
@@ -121,9 +125,10 @@ impl Replay {
             self.frames.push(start);
         }
         self.marks.extend(frame::marks(record));
+        self.work += record.work;
         if (record.step + 1).is_multiple_of(self.stride) {
             let marks = std::mem::take(&mut self.marks);
-            let frame = Frame::after(record, self.header.settings.step, marks);
+            let frame = Frame::after(record, self.header.settings.step, marks, self.work);
             self.frames.push(frame);
         }
     }
@@ -144,9 +149,10 @@ impl Replay {
         self.verdict = match report.is_clean() {
             true => "audited: nothing passed unnoticed".to_owned(),
             false => format!(
-                "audited: {} contacts missed, {} standing tunnels, {} ambiguous, {} jumps",
+                "audited: {} contacts missed, {} standing tunnels, {} standing in bodies, {} ambiguous, {} jumps",
                 report.missed.iter().sum::<u64>() + report.body_missed + report.core_missed,
-                report.standing.len() + report.body_standing.len() + report.core_standing.len(),
+                report.standing.len(),
+                report.body_standing.len() + report.core_standing.len(),
                 report.ambiguous.len(),
                 report.jumps + report.astray
             ),

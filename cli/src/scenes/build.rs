@@ -271,21 +271,25 @@ impl Material {
             ["density", "mass_per_length"],
             [self.density, self.mass_per_length],
             area,
+            check::positive,
         )?;
         let stretch = self.modulus(
             ["stretch_modulus", "stretch_stiffness"],
             [self.stretch_modulus, self.stretch_stiffness],
             area,
+            check::positive,
         )?;
         let bend = self.modulus(
             ["bend_modulus", "bend_stiffness"],
             [self.bend_modulus, self.bend_stiffness],
             second_moment,
+            check::not_negative,
         )?;
         let twist = self.modulus(
             ["twist_modulus", "twist_stiffness"],
             [self.twist_modulus, self.twist_stiffness],
             2.0 * second_moment,
+            check::not_negative,
         )?;
         Ok(wire::Material {
             density: density.unwrap_or(steel.density),
@@ -300,22 +304,26 @@ impl Material {
     }
 
     /// A modulus, from the field that has it or from the one that has the stiffness of the whole wire,
-    /// `factor` times as much.
+    /// `factor` times as much, which has to be `accepted`.
     fn modulus(
         &self,
         [of_material, of_wire]: [&'static str; 2],
         [modulus, stiffness]: [Option<f64>; 2],
         factor: f64,
+        accepted: fn(&'static str, f64) -> Result<(), ModelError>,
     ) -> Result<Option<f64>, (&'static str, Reason)> {
+        let refused = |field| move |error| (field, Reason::Model(error));
         let Some(stiffness) = stiffness else {
+            modulus
+                .map_or(Ok(()), |modulus| accepted(of_material, modulus))
+                .map_err(refused(of_material))?;
             return Ok(modulus);
         };
         if modulus.is_some() {
             return Err((of_wire, Reason::Both(of_material)));
         }
-        let refused = |field| move |error| (field, Reason::Model(error));
         check::positive("radius", self.radius).map_err(refused("radius"))?;
-        check::not_negative(of_wire, stiffness).map_err(refused(of_wire))?;
+        accepted(of_wire, stiffness).map_err(refused(of_wire))?;
         Ok(Some(stiffness / factor))
     }
 }

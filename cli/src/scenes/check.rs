@@ -25,7 +25,8 @@ pub(super) fn finite(field: &'static str, value: f64) -> Result<(), ModelError> 
 pub(super) fn direction(field: &'static str, vector: &Vector) -> Result<Vector, ModelError> {
     vector.iter().try_for_each(|&value| finite(field, value))?;
     let length = vector.norm();
-    positive(field, length)?;
+    let is_some = length > 0.0 && length.is_finite();
+    accept(is_some, field, length, "a vector longer than 0")?;
     Ok(vector / length)
 }
 

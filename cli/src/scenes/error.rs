@@ -173,7 +173,7 @@ impl fmt::Display for Reason {
             },
             Reason::Twice(name) => write!(f, "the name {name:?} is there twice"),
             Reason::Both(other) => {
-                write!(f, "{other} says the same; only one of the two may be there")
+                write!(f, "{other} is given as well; give one of the two")
             }
             Reason::State(what) => write!(f, "not as in the state to go on from, which has {what}"),
             Reason::Hang { length, why } => {

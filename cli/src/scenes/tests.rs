@@ -135,7 +135,7 @@ fn scene_file_errors_name_line_and_field() {
         (
             "[0, 0, 2], degrees",
             "[0, 0, 0], degrees",
-            "line 13: bodies[0].turn.axis: axis is 0, it must be finite and above 0",
+            "line 13: bodies[0].turn.axis: axis is 0, it must be a vector longer than 0",
         ),
         (
             "[1, 2, 3]]",
@@ -235,24 +235,23 @@ fn scene_file_says_a_stiffness_once() {
     for (both, message) in [
         (
             "density = 1, mass_per_length",
-            "mass_per_length: density says the same",
+            "mass_per_length: density is given as well",
         ),
         (
             "stretch_modulus = 1, stretch_stiffness",
-            "stretch_stiffness: stretch_modulus says the same",
+            "stretch_stiffness: stretch_modulus is given as well",
         ),
         (
             "bend_modulus = 1, bend_stiffness",
-            "bend_stiffness: bend_modulus says the same",
+            "bend_stiffness: bend_modulus is given as well",
         ),
         (
             "twist_modulus = 1, twist_stiffness",
-            "twist_stiffness: twist_modulus says the same",
+            "twist_stiffness: twist_modulus is given as well",
         ),
     ] {
         let from = both.split(", ").last().unwrap();
-        let message =
-            format!("line 10: wires[0].material.{message}; only one of the two may be there");
+        let message = format!("line 10: wires[0].material.{message}; give one of the two");
         assert_eq!(refused(from, both), message);
     }
     let cases = [
@@ -265,6 +264,16 @@ fn scene_file_says_a_stiffness_once() {
             "bend_stiffness = 0.5",
             "bend_stiffness = 0",
             "line 10: wires[0].material.twist_stiffness: twist_stiffness is 0.25, it must be 0 for a chain",
+        ),
+        (
+            "mass_per_length = 0.4",
+            "mass_per_length = 0",
+            "line 10: wires[0].material.mass_per_length: mass_per_length is 0, it must be finite and above 0",
+        ),
+        (
+            "mass_per_length = 0.4",
+            "density = 0",
+            "line 10: wires[0].material.density: density is 0, it must be finite and above 0",
         ),
         (
             "radius = 0.01",

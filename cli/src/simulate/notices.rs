@@ -1,7 +1,7 @@
 //! What a run does that its author may not have meant: wires stretched at the start, wires that leave bodies of their
 //! routes, and sliding as far as a step lets it.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use serde::Serialize;
@@ -12,6 +12,22 @@ use crate::scenes::Scene;
 
 /// The part of its length by which a wire may be stretched at the start without a word.
 const STRETCHED: f64 = 0.05;
+
+/// How many times as far from a body's centre as any point of its surface an eye or a contact node may be without a word.
+const FAR: f64 = 2.0;
+
+/// An eye or a contact node that is far from the body that carries it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Far {
+    /// The wire's name in the scene.
+    pub wire: String,
+    /// The body's name.
+    pub body: String,
+    /// How far it is from the centre of mass, in m.
+    pub distance: f64,
+    /// How far the farthest point of the body's surface is, in m.
+    pub reach: f64,
+}
 
 /// A wire that starts far longer than it is unstretched.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -95,6 +111,33 @@ pub(super) fn stretched(world: &World, scene: &Scene) -> Vec<Stretched> {
     strained.collect()
 }
 
+/// The eyes and contact nodes that are far from their bodies, of each wire and body the farthest.
+pub(super) fn far(world: &World, scene: &Scene) -> Vec<Far> {
+    let mut farthest = BTreeMap::new();
+    for (wire, of_wire) in world.wires().iter().enumerate() {
+        for node in of_wire.nodes() {
+            let (NodeKind::Eye { body, local } | NodeKind::Contact { body, local, .. }) = node.kind
+            else {
+                continue;
+            };
+            let reach = world.bodies()[body.0].shape().reach();
+            let distance = local.norm();
+            if distance > FAR * reach {
+                let most = farthest.entry((wire, body.0)).or_insert((distance, reach));
+                most.0 = distance.max(most.0);
+            }
+        }
+    }
+    let farthest = farthest.into_iter();
+    let shown = farthest.map(|((wire, body), (distance, reach))| Far {
+        wire: scene.wires[wire].name.clone(),
+        body: scene.bodies[body].name.clone(),
+        distance,
+        reach,
+    });
+    shown.collect()
+}
+
 /// By how much a wire is longer than unstretched, as a part of that.
 fn strain(wire: &Wire) -> f64 {
     let spans = (0..wire.segments().len()).map(|segment| wire.span(segment).norm());
@@ -114,6 +157,21 @@ impl fmt::Display for Stretched {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Stretched { wire, strain } = self;
         write!(f, "{wire} by {:.0}% of its length", 100.0 * strain)
+    }
+}
+
+impl fmt::Display for Far {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Far {
+            wire,
+            body,
+            distance,
+            reach,
+        } = self;
+        write!(
+            f,
+            "{wire} is carried {distance:.3} m from the centre of {body}, whose surface is {reach:.3} m from it at most"
+        )
     }
 }
 
@@ -169,6 +227,34 @@ mod tests {
             panic!("one wire")
         };
         assert_eq!(rope.to_string(), "rope by 49% of its length");
+    }
+
+    #[test]
+    fn places_that_are_far_from_their_body_are_named() {
+        let text = |z: f64| {
+            format!(
+                "title = \"far\"\nduration = 0.02\n\
+                 [[bodies]]\nname = \"ball\"\nshape = {{ sphere = {{ radius = 0.1 }} }}\nposition = [0, 0, 0]\n\
+                 drive = {{ dynamic = {{ density = 1000 }} }}\n\
+                 [[wires]]\nname = \"rope\"\nresolution = 1\nmaterial = {{ radius = 0.005 }}\n\
+                 route = [{{ pinned = [0, 0, 9] }}, {{ eye = {{ body = \"ball\", local = [0, 0, {z}] }} }}]\n"
+            )
+        };
+        let far = |z: f64| {
+            let summary = Summary::of_guarded(&Scene::from_toml(&text(z)).unwrap()).unwrap();
+            summary
+                .far
+                .iter()
+                .map(ToString::to_string)
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(far(0.15), [""; 0]);
+        assert_eq!(
+            far(5.0),
+            [
+                "rope is carried 5.000 m from the centre of ball, whose surface is 0.100 m from it at most"
+            ]
+        );
     }
 
     /// Two loads on a rope over a pulley, which start at a speed; how fast they are at the end.

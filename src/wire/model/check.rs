@@ -58,7 +58,7 @@ pub(crate) fn unit(field: &'static str, length: f64) -> Result<(), ModelError> {
 pub(crate) fn direction(field: &'static str, vector: &Vector) -> Result<Vector, ModelError> {
     finite_vector(field, vector)?;
     let largest = vector.amax();
-    positive(field, largest)?;
+    accept(largest > 0.0, field, largest, "a vector longer than 0")?;
     let length = vector.norm();
     // Squares of huge and tiny coordinates leave the range of `f64`.
     match (length * length).is_normal() {

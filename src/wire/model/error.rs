@@ -120,7 +120,8 @@ impl fmt::Display for ModelError {
                 stop + 1
             ),
             ModelError::ShortRoute { stops } => {
-                write!(f, "the route has {stops} stops, it must have at least 2")
+                let noun = if *stops == 1 { "stop" } else { "stops" };
+                write!(f, "the route has {stops} {noun}, it must have at least 2")
             }
             ModelError::ContactAtEnd { stop } => write!(
                 f,

@@ -81,8 +81,8 @@ impl Shape {
         Ok(properties)
     }
 
-    /// The largest distance of a point of it from the body's centre, in m, rounded.
-    pub(in crate::wire) fn reach(&self) -> f64 {
+    /// The largest distance of a point of it from the body's centre of mass, in m, rounded; infinite of a plane.
+    pub fn reach(&self) -> f64 {
         match self {
             Shape::Box { half } => half.norm(),
             Shape::Sphere { radius } => *radius,

@@ -115,7 +115,7 @@ fn wires_are_refused_by_what_is_wrong_with_their_route() {
             "resolution is 0, it must be finite and above 0",
             "length is -2, it must be finite and above 0",
             "velocity is NaN, it must be finite",
-            "the route has 1 stops, it must have at least 2",
+            "the route has 1 stop, it must have at least 2",
             "stops 0 and 1 of the route are at the same place, their distance must be above 0",
             "position is NaN, it must be finite",
             "position is inf, it must be finite",
@@ -145,7 +145,7 @@ fn wires_are_refused_by_what_is_wrong_with_their_route() {
         *friction = 0.5;
     }
     let text = world.add_wire(&sticky).unwrap_err().to_string();
-    assert_eq!(text, "normal is 0, it must be finite and above 0");
+    assert_eq!(text, "normal is 0, it must be a vector longer than 0");
 }
 
 #[test]
