@@ -51,8 +51,8 @@
 
 use nalgebra::Matrix3;
 
+use super::body_inertia::is_strong;
 use super::carrier::Carrier;
-use super::lever::is_lever;
 use super::system::System;
 use super::transverse::is_short;
 use crate::wire::contact::{ContactConstraint, ContactSite};
@@ -322,7 +322,7 @@ impl Linearisation {
                 // Before the first step no tension is known.
                 let is_short = || world.steps > 0 && is_short(world, at, segment, tension);
                 let is_more = tension > GROWTH * own.tension;
-                if is_more && (is_short() || is_lever(world, wire, segment, tension)) {
+                if is_more && (is_short() || is_strong(world, at, segment, tension)) {
                     followed.next.segments[at][segment].tension = tension;
                     followed.is_off = true;
                 }
@@ -372,15 +372,31 @@ impl Linearisation {
         let is_pushed = held.segments.iter().flatten().any(|is_held| *is_held);
         followed.is_large = !is_pushed && paid > LARGE * world.kinetic_energy();
         let allowed = if followed.is_large { FINE } else { 1.0 };
-        for (wire, segment, on, off, next) in paths {
-            let mut bodies = on.into_iter().flatten();
-            if off > allowed || bodies.any(|body| turned[body.0] > allowed) {
-                followed.next.segments[wire][segment] = next;
-                followed.has_other_directions = true;
+        let mut is_turned: Vec<bool> = turned.iter().map(|turned| *turned > allowed).collect();
+        let mut is_followed: Vec<bool> = paths.iter().map(|path| path.3 > allowed).collect();
+        // A body with mean arms has segments with mean directions on it, and the other way round: else they turn it.
+        let mut before = 0;
+        loop {
+            for ((_, _, on, _, _), is_followed) in paths.iter().zip(&mut is_followed) {
+                let bodies = on.iter().flatten();
+                *is_followed |= bodies.clone().any(|body| is_turned[body.0]);
+                if *is_followed {
+                    bodies.for_each(|body| is_turned[body.0] = true);
+                }
             }
+            let count = is_turned.iter().filter(|is_turned| **is_turned).count();
+            if count == before {
+                break;
+            }
+            before = count;
+        }
+        for ((wire, segment, _, _, next), _) in paths.into_iter().zip(is_followed).filter(|at| at.1)
+        {
+            followed.next.segments[wire][segment] = next;
+            followed.has_other_directions = true;
         }
         let bodies = followed.next.turns.iter_mut().zip(&turns);
-        for ((next, turn), _) in bodies.zip(turned).filter(|(_, turned)| *turned > allowed) {
+        for ((next, turn), _) in bodies.zip(is_turned).filter(|(_, is_turned)| *is_turned) {
             *next = turn.map(|(_, mean)| mean);
             followed.has_other_directions = true;
         }

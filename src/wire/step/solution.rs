@@ -291,8 +291,8 @@ impl Solution {
             added.places += inertias.short.len() + inertias.nodes.len();
             let wire = |at: usize| &world.wires[own.island.wires[at]];
             let short = inertias.short.iter();
-            let spin = |at: usize| world.bodies[own.island.bodies[at]].angular_velocity;
-            let short = short.map(|inertia| inertia.energy(wire(inertia.wire), spin));
+            let body = |at: usize| &world.bodies[own.island.bodies[at]];
+            let short = short.map(|inertia| inertia.energy(wire, body));
             added.damped +=
                 short.sum::<f64>() + own.system.energy_of_steep_segments(&own.candidate.x);
         }

@@ -150,21 +150,22 @@ impl System {
     /// What there is at segments that are too short, and not steep.
     fn add_transverse_inertias(&mut self) {
         for inertia in &self.inertias.short {
-            let first = self.layout.first_node[inertia.wire];
             let mut momentum = Vector::zeros();
             let mut columns: [Columns; 3] = Default::default();
-            for (node, part) in &inertia.terms {
-                let carrier = self.layout.nodes[first + node];
+            for (wire, node, part) in &inertia.terms {
+                let carrier = self.layout.nodes[self.layout.first_node[*wire] + node];
                 momentum -= part * carrier.prescribed_velocity();
                 for (axis, columns) in columns.iter_mut().enumerate() {
                     carrier.columns(&part.row(axis).transpose(), columns);
                 }
             }
-            if let Some((body, part)) = inertia.spin
+            if let Some((body, parts)) = inertia.body
                 && let Some(first) = self.layout.bodies[body]
             {
-                for (axis, columns) in columns.iter_mut().enumerate() {
-                    Carrier::Free(first + 3).columns(&part.row(axis).transpose(), columns);
+                for (part, first) in parts.iter().zip([first, first + 3]) {
+                    for (axis, columns) in columns.iter_mut().enumerate() {
+                        Carrier::Free(first).columns(&part.row(axis).transpose(), columns);
+                    }
                 }
             }
             momentum *= inertia.mass;

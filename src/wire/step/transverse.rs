@@ -28,9 +28,9 @@
 //! too, nothing would be damped, but a chain that whirls faster than a step can follow gains energy.
 //!
 //! A node on a body counts with the mass that the body has there, at least: what its mobility at the
-//! place leaves, shared by all nodes on it; where the body is [kept](super::lever) from turning against the pull, that is its
-//! mass. A segment between two bodies that are heavy enough for it needs nothing, whatever it weighs itself: a ring above
-//! its load would hold back its swing. A node whose motion is prescribed needs nothing. Nor does a
+//! place leaves, shared by all nodes on it; one that wires pull on more than a step can follow has [inertias of its
+//! own](super::body_inertia). A segment between two bodies that are heavy enough for it needs nothing, whatever it weighs
+//! itself. A node whose motion is prescribed needs nothing. Nor does a
 //! segment between two places of one body: it turns with the body, on which it pulls along one line,
 //! so that there is nothing to push back. (With it, a block over which a rope is hauled turned
 //! against a torque that grew with the step, and the rope slid over it instead.)
@@ -58,7 +58,7 @@
 use nalgebra::Matrix3;
 use smallvec::SmallVec;
 
-use super::lever::levers;
+use super::body_inertia::body_inertias;
 use super::linearisation::Linearisation;
 use crate::wire::model::{Body, BodyId, NodeKind, Wire};
 use crate::wire::vector::{Vector, unit};
@@ -84,28 +84,37 @@ pub(super) struct TransverseInertias {
 /// What resists a velocity `u` that is linear in those of nodes and of a body, like a mass.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TransverseInertia {
-    /// The wire.
-    pub(super) wire: usize,
     /// The mass `m` in kg, or the inertia in kg m^2 of an angular velocity.
     pub(super) mass: f64,
-    /// Nodes of the wire, and what their velocities give to `u`.
-    pub(super) terms: SmallVec<[(usize, Matrix3<f64>); 3]>,
-    /// A body, and what its angular velocity gives to `u`.
-    pub(super) spin: Option<(usize, Matrix3<f64>)>,
+    /// Wires and their nodes, and what their velocities give to `u`.
+    pub(super) terms: SmallVec<[(usize, usize, Matrix3<f64>); 3]>,
+    /// A body, and what its velocity and angular velocity give to `u`.
+    pub(super) body: Option<(usize, [Matrix3<f64>; 2])>,
 }
 
 impl TransverseInertia {
-    /// The velocity `u` in m/s or rad/s of the wire, and of a body with this angular velocity.
-    pub(super) fn velocity(&self, wire: &Wire, spin: impl Fn(usize) -> Vector) -> Vector {
+    /// The velocity `u` in m/s or rad/s in a world with these wires and bodies.
+    pub(super) fn velocity<'a>(
+        &self,
+        wire: impl Fn(usize) -> &'a Wire,
+        body: impl Fn(usize) -> &'a Body,
+    ) -> Vector {
         let terms = self.terms.iter();
-        let of_nodes = terms.map(|(node, part)| part * wire.nodes[*node].velocity);
-        let of_body = self.spin.map(|(body, part)| part * spin(body));
+        let of_nodes = terms.map(|(at, node, part)| part * wire(*at).nodes[*node].velocity);
+        let of_body = self.body.map(|(at, [moved, turned])| {
+            let body = body(at);
+            moved * body.velocity + turned * body.angular_velocity
+        });
         of_nodes.chain(of_body).sum()
     }
 
     /// `m |u|^2` in J.
-    pub(super) fn energy(&self, wire: &Wire, spin: impl Fn(usize) -> Vector) -> f64 {
-        self.mass * self.velocity(wire, spin).norm_squared()
+    pub(super) fn energy<'a>(
+        &self,
+        wire: impl Fn(usize) -> &'a Wire,
+        body: impl Fn(usize) -> &'a Body,
+    ) -> f64 {
+        self.mass * self.velocity(wire, body).norm_squared()
     }
 }
 
@@ -143,13 +152,12 @@ pub(super) fn transverse_inertias(
     let mut masses = Masses {
         world,
         counts: Vec::new(),
-        held: Vec::new(),
+        is_held: Vec::new(),
     };
     if world.wires.iter().any(is_carried) {
         masses.counts = nodes_on_bodies(world);
-        let levers = levers(world, linearisation, &masses.counts);
-        masses.held = levers.iter().map(|lever| lever.at).collect();
-        all.short = levers.into_iter().map(|lever| lever.inertia).collect();
+        let inertias = body_inertias(world, linearisation);
+        (all.short, masses.is_held) = (inertias.all, inertias.is_held);
     }
     let masses = masses;
     for (at, wire) in world.wires.iter().enumerate() {
@@ -263,14 +271,13 @@ fn of_node(
     {
         let part = short.across * (short.needed / (32f64.sqrt() * mass));
         own += part;
-        terms.push((neighbour, -part));
+        terms.push((wire, neighbour, -part));
     }
-    terms.push((node, own));
+    terms.push((wire, node, own));
     TransverseInertia {
-        wire,
         mass,
         terms,
-        spin: None,
+        body: None,
     }
 }
 
@@ -279,8 +286,8 @@ struct Masses<'a> {
     world: &'a World,
     /// How many nodes there are on each body.
     counts: Vec<f64>,
-    /// Wires and nodes of eyes at which the body is [kept](super::lever) from turning against the pull, in order.
-    held: Vec<(usize, usize)>,
+    /// By bodies: whether a body has [inertias of its own](super::body_inertia), so that nodes on it need none.
+    is_held: Vec<bool>,
 }
 
 impl Masses<'_> {
@@ -293,21 +300,14 @@ impl Masses<'_> {
         !ends.iter().any(is_free) && short.needed * (mobilities[0] + mobilities[1]) < 4.0
     }
 
-    /// The mass in kg of a node of which `half` is on segments that are too short; infinite if its
-    /// motion is prescribed.
+    /// The mass in kg of a node of which `half` is on segments that are too short; infinite if it needs
+    /// nothing, or its motion is prescribed.
     fn of(&self, wire: usize, node: usize, half: f64) -> f64 {
         let kind = self.world.wires[wire].nodes[node].kind;
         match kind.carrier() {
             _ if kind == NodeKind::Free => half,
-            Some((body, local)) if self.world.bodies[body.0].dynamic => {
-                let (body, count) = (&self.world.bodies[body.0], self.counts[body.0]);
-                let is_held = self.held.binary_search(&(wire, node)).is_ok();
-                let mass = if is_held {
-                    body.mass
-                } else {
-                    mass_at(body, &local)
-                };
-                mass / count
+            Some((body, local)) if self.world.bodies[body.0].dynamic && !self.is_held[body.0] => {
+                mass_at(&self.world.bodies[body.0], &local) / self.counts[body.0]
             }
             _ => f64::INFINITY,
         }
