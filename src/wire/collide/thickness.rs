@@ -12,9 +12,12 @@
 
 use std::f64::consts::FRAC_2_PI;
 
+use smallvec::SmallVec;
+
 use super::segment::{reach, stretch_between};
 use crate::certified::decide_discrete;
 use crate::query::{EdgeEdge, Point, QueryError};
+use crate::wire::model::BodyId;
 use crate::wire::site::{SegmentId, WireSite};
 use crate::wire::world::World;
 
@@ -56,9 +59,9 @@ impl Thickness {
         reach(world, pair) - self.allowance(world, pair, sites)
     }
 
-    /// Whether two places are no contact at any distance, because they are so close along one wire
-    /// that its thickness brings them together. Where thickness is guarded there are no such places,
-    /// but an [`allowance`](Self::allowance).
+    /// Whether two places are no contact at any distance, because they are so close along one wire, or along two
+    /// to places of one body, that thickness brings them together. Where thickness is guarded there are no such
+    /// places, but an [`allowance`](Self::allowance), and what one body [holds](is_held).
     pub(super) fn is_bend(
         self,
         world: &World,
@@ -66,8 +69,10 @@ impl Thickness {
         sites: &[WireSite; 2],
     ) -> bool {
         let [a, b] = sites;
-        let near = || (a.arc - b.arc).abs() <= 2.0 * reach(world, pair);
-        !self.is_guarded() && a.wire == b.wire && near()
+        let reach = reach(world, pair);
+        let near = || (a.arc - b.arc).abs() <= 2.0 * reach;
+        let is_bend = || a.wire == b.wire && near() || is_held(world, pair, sites, reach);
+        !self.is_guarded() && is_bend()
     }
 
     /// How far along both wires contacts are one, in m: as far as they are thick. Where thickness is
@@ -144,6 +149,24 @@ impl Thickness {
         let share = self.0 * (f64::from(step) / f64::from(STEPS));
         pair.map(|segment| share * segment.of(world).material.radius)
     }
+}
+
+/// Whether two places are no farther along their segments than `within`, in m, from two nodes on one body: what
+/// is between the nodes never changes.
+pub(super) fn is_held(
+    world: &World,
+    pair: [SegmentId; 2],
+    sites: &[WireSite; 2],
+    within: f64,
+) -> bool {
+    let bodies = [0, 1].map(|k| {
+        let nodes = pair[k].nodes(world).into_iter();
+        let near = nodes.filter(move |node| (node.arc - sites[k].arc).abs() <= within);
+        near.filter_map(|node| Some(node.kind.carrier()?.0))
+    });
+    let [a, b] = bodies;
+    let b: SmallVec<[BodyId; 2]> = b.collect();
+    a.into_iter().any(|body| b.contains(&body))
 }
 
 #[cfg(test)]

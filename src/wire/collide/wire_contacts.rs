@@ -11,7 +11,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::segment::{Closest, direction, joined, pair_at, reach};
-use super::thickness::Thickness;
+use super::thickness::{Thickness, is_held};
 use crate::wire::Vector;
 use crate::wire::contact::ContactConstraint;
 use crate::wire::record::ContactRecord;
@@ -128,7 +128,12 @@ impl WireContacts {
                 let pair = touch.pair(world);
                 pair.is_some_and(|pair| thickness.is_bend(world, pair, &touch.sites))
             };
-            if !stays || !touch.wrong && is_bend() {
+            // At two places of one body nothing can push.
+            let is_held = || {
+                let pair = touch.pair(world);
+                pair.is_some_and(|pair| is_held(world, pair, &touch.sites, 0.0))
+            };
+            if !stays || is_held() || !touch.wrong && is_bend() {
                 continue;
             }
             let is_one =

@@ -26,8 +26,8 @@
 //! as they are, however light it is. What a step follows well loses the part `(omega h)^4 / 2 c` of its amplitude, and what is
 //! far beyond goes to rest in some steps.
 //!
-//! A body that lies far aside of its pull is turned by the moment `N` itself, whatever its stiffness. Where `h^2 |N| / s^2 = k` is
-//! above the moment of inertia `i` about its axis `n`, `M` has `k^2 / (c i + k) n n^T` more.
+//! A body that lies far aside of its pull is turned by the moment `N` itself, whatever its stiffness. Where `4 h^2 |N| / s^2 = k` is
+//! above the moment of inertia `i` about its axis `n`, `M` has `k^2 / (c i + k) n n^T` more: it turns by at most 9 degrees in a step.
 
 use nalgebra::{Matrix3, Matrix6, SMatrix};
 use smallvec::SmallVec;
@@ -37,6 +37,9 @@ use super::transverse::{FOLLOWED, TransverseInertia};
 use crate::wire::model::{Body, Wire};
 use crate::wire::vector::{Vector, unit};
 use crate::wire::world::World;
+
+/// A moment turns a body by `s^2` over this in a step, in rad: by so much that mean arms follow.
+const TURNS: f64 = 4.0;
 
 /// What there is at the bodies of a world.
 pub(super) struct BodyInertias {
@@ -196,10 +199,16 @@ fn against_forces(
     pulls: &[Pull],
     reach: f64,
 ) -> Option<[TransverseInertia; 2]> {
-    let own = OwnStiffness::new(pulls);
-    if reach * own.strength(body) <= 1.0 {
+    let is_followed = reach * OwnStiffness::new(pulls).strength(body) <= 1.0;
+    if is_followed {
         return None;
     }
+    parts(body, at, pulls, reach)
+}
+
+/// `W`, whether or not it is needed; none if the body has no inertia in some direction.
+fn parts(body: &Body, at: usize, pulls: &[Pull], reach: f64) -> Option<[TransverseInertia; 2]> {
+    let own = OwnStiffness::new(pulls);
     let stiffness = own.whole();
     let mut masses = Matrix6::identity() * body.mass;
     masses
@@ -242,7 +251,7 @@ fn against_forces(
 fn against_moment(body: &Body, at: usize, pulls: &[Pull], reach: f64) -> Option<TransverseInertia> {
     let moment: Vector = pulls.iter().map(|pull| pull.arm.cross(&pull.force)).sum();
     let (axis, size) = unit(&moment);
-    let needed = reach * size;
+    let needed = TURNS * reach * size;
     let inertia = 1.0 / axis.dot(&(mobility(body)? * axis));
     (needed > inertia).then(|| TransverseInertia {
         mass: needed * needed / (FOLLOWED * inertia + needed),

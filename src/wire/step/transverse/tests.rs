@@ -104,7 +104,7 @@ fn forms(world: &World, factor: f64) -> [f64; 3] {
     let short = inertias
         .short
         .iter()
-        .map(|inertia| inertia.energy(&world.wires[0], |body| world.bodies[body].angular_velocity));
+        .map(|inertia| inertia.energy(|at| &world.wires[at], |at| &world.bodies[at]));
     let added = 2.0 * (short.sum::<f64>() + steep_form(world, &inertias));
     let wire = &world.wires[0];
     let step = world.settings.step;
@@ -205,11 +205,11 @@ fn what_moves_as_one_line_has_none_of_it() {
     let inertias = inertias_of(&world);
     assert_eq!([inertias.short.len(), inertias.steep.len()], [9, 0]);
     for inertia in &inertias.short[1..8] {
-        let largest = inertia.terms.iter().map(|(_, part)| part.amax());
+        let largest = inertia.terms.iter().map(|(_, _, part)| part.amax());
         let largest = largest.fold(0.0, f64::max);
         assert!(
             inertia
-                .velocity(&world.wires[0], |body| world.bodies[body].angular_velocity)
+                .velocity(|at| &world.wires[at], |at| &world.bodies[at])
                 .norm()
                 < 1e-12 * largest
         );
