@@ -26,8 +26,10 @@
 //! as they are, however light it is. What a step follows well loses the part `(omega h)^4 / 2 c` of its amplitude, and what is
 //! far beyond goes to rest in some steps.
 //!
-//! A body that lies far aside of its pull is turned by the moment `N` itself, whatever its stiffness. Where `4 h^2 |N| / s^2 = k` is
-//! above the moment of inertia `i` about its axis `n`, `M` has `k^2 / (c i + k) n n^T` more: it turns by at most 9 degrees in a step.
+//! A body that lies far aside of its pulls is turned by their moment `N` itself, or is at its top, where `K_b` is below 0 by
+//! `b`. Where `4 h^2 (|N| + b) / s^2 = k` is above eight times its least moment of inertia `i`, so that the moment would turn it by
+//! more than a radian in a step, each axis has `k^2 / (c i + k)` more: it turns by some 9 degrees. That is not zero for what moves as
+//! one; it ends as the body comes into line.
 
 use nalgebra::{Matrix3, Matrix6, SMatrix};
 use smallvec::SmallVec;
@@ -38,8 +40,11 @@ use crate::wire::model::{Body, Wire};
 use crate::wire::vector::{Vector, unit};
 use crate::wire::world::World;
 
-/// A moment turns a body by `s^2` over this in a step, in rad: by so much that mean arms follow.
+/// A moment turns a body by at most `s^2` over this in a step, in rad: by so much that mean arms follow.
 const TURNS: f64 = 4.0;
+
+/// How many times its least moment of inertia what acts against a moment has to be.
+const AT_ONCE: f64 = 8.0;
 
 /// What there is at the bodies of a world.
 pub(super) struct BodyInertias {
@@ -250,13 +255,12 @@ fn parts(body: &Body, at: usize, pulls: &[Pull], reach: f64) -> Option<[Transver
 /// What resists a moment that turns the body by more than a step can follow.
 fn against_moment(body: &Body, at: usize, pulls: &[Pull], reach: f64) -> Option<TransverseInertia> {
     let moment: Vector = pulls.iter().map(|pull| pull.arm.cross(&pull.force)).sum();
-    let (axis, size) = unit(&moment);
-    let needed = TURNS * reach * size;
-    let inertia = 1.0 / axis.dot(&(mobility(body)? * axis));
-    (needed > inertia).then(|| TransverseInertia {
+    let needed = TURNS * reach * (moment.norm() + OwnStiffness::new(pulls).below_zero());
+    let inertia = 1.0 / mobility(body)?.trace();
+    (needed > AT_ONCE * inertia).then(|| TransverseInertia {
         mass: needed * needed / (FOLLOWED * inertia + needed),
         terms: SmallVec::new(),
-        body: Some((at, [Matrix3::zeros(), axis * axis.transpose()])),
+        body: Some((at, [Matrix3::zeros(), Matrix3::identity()])),
     })
 }
 
