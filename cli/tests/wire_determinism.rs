@@ -40,7 +40,7 @@ fn steps_give_the_same_bits_in_every_build() {
     }
     // All parts of a step took part.
     assert!(touched && remeshed > 0, "{touched} {remeshed}");
-    assert_eq!(hash(&world), 0x17e6_21ef_9032_b2dd, "{:#x}", hash(&world));
+    assert_eq!(hash(&world), 0xfb01_3ad7_df75_6aa4, "{:#x}", hash(&world));
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn steps_of_twisted_wires_give_the_same_bits_in_every_build() {
     assert!(remeshed > 0);
     let twists = [0, 1].map(|wire: usize| world.wires()[wire].twist());
     let bits = twists.map(f64::to_bits);
-    let expected = [0xc00b_f992_488d_6548, 0x402d_ca5e_0c62_6b80];
+    let expected = [0x4025_bae2_5d06_e9a0, 0x402d_ca5e_0c62_6b80];
     assert_eq!(bits, expected, "{bits:#x?} {twists:?}");
     assert_eq!(hash(&world), 0x4887_16c5_8d38_546b, "{:#x}", hash(&world));
 }
@@ -153,7 +153,7 @@ fn other_scenes_of_the_thesis_give_the_same_bits_in_every_build() {
     // So many steps reach contacts in each.
     for (name, steps, expected) in [
         ("pulling-anchor", 600, 0x078e_dac1_df43_8c95),
-        ("twisting-under-load", 60, 0x59fd_ae5c_b016_297c),
+        ("twisting-under-load", 60, 0xff71_ad16_120f_7c46),
         ("chains-on-deck", 60, 0x3265_c5fa_89bf_69b3),
     ] {
         let scene = Scene::embedded(name).unwrap();

@@ -197,8 +197,8 @@ fn ring_under_a_hook_comes_to_rest_at_any_step() {
         for degrees in [0.0, 5.0, 40.0, 90.0] {
             let [gain, tension, spin] = ring(rate, degrees);
             let text = format!("{rate} {degrees}: {gain} J, {tension} N, {spin} rad/s");
-            println!("{text}");
-            assert!(gain < 200.0 && tension < 2e5 && spin < 4.0, "{text}");
+            let most = if rate < 60.0 { 200.0 } else { 10.0 };
+            assert!(gain < most && tension < 2e5 && spin < 4.0, "{text}");
             if degrees == 0.0 {
                 assert!(gain < 0.5 && tension < 5e3 && spin == 0.0, "{text}");
             }
