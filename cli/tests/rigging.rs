@@ -31,16 +31,16 @@ fn eye(body: &str, local: [f64; 3]) -> String {
 
 /// The summary of a run, and the largest kinetic energy in J in each of so many parts of it.
 fn run(text: &str, parts: usize) -> (Summary, Vec<f64>) {
-    let scene = Scene::from_toml(text).unwrap();
-    let mut world = scene.world().unwrap();
+    let scene = Scene::from_toml(text).expect("a scene");
+    let mut world = scene.world().expect("a world");
     let steps = scene.steps() as usize;
     let mut most = vec![0.0_f64; parts];
     for step in 0..steps {
-        let record = world.step(&[]).unwrap();
+        let record = world.step(&[]).expect("a step");
         let part = &mut most[step * parts / steps];
         *part = part.max(record.energy.kinetic);
     }
-    (Summary::of_guarded(&scene).unwrap(), most)
+    (Summary::of_guarded(&scene).expect("a run"), most)
 }
 
 /// A load of 500 kg swings by 20 degrees under a ring of 0.1 kg. Inertias at the ends of short wires took 27% of the

@@ -13,7 +13,8 @@
 //! F' = sum T/l P (v - v_place),   M' = sum r x F' + (omega x r) x F
 //! ```
 //!
-//! with the tension `T`, the length `l` and the direction of each segment, across which `P` takes a part. Let `K_b` be the
+//! with the tension `T`, the length `l` and the direction of each segment, across which `P` takes a part. The last part is of
+//! eyes alone: at contact nodes wire slides, and a block that turns under its rope is not held. Let `K_b` be the
 //! part of `K` that the body's own velocities have, and `M` its masses. Where the trace of `h^2 / s^2 K_b M^-1` is above 1 the
 //! step has beside the masses
 //!
@@ -36,7 +37,7 @@ use smallvec::SmallVec;
 
 use super::linearisation::Linearisation;
 use super::transverse::{FOLLOWED, TransverseInertia};
-use crate::wire::model::{Body, Wire};
+use crate::wire::model::{Body, NodeKind, Wire};
 use crate::wire::vector::{Vector, unit};
 use crate::wire::world::World;
 
@@ -59,7 +60,7 @@ struct Pull {
     neighbour: (usize, usize),
     /// From the centre of mass to the place, in m.
     arm: Vector,
-    /// In N.
+    /// In N; 0 at a contact node, over which wire slides as the body turns.
     force: Vector,
     /// `T/l P` in N/m.
     stiffness: Matrix3<f64>,
@@ -120,6 +121,7 @@ fn pull(
     let wire: &Wire = &world.wires[at];
     let (id, local) = wire.nodes[node].kind.carrier()?;
     let body = &world.bodies[id.0];
+    let is_eye = matches!(wire.nodes[node].kind, NodeKind::Eye { .. });
     let is_on_same = wire.nodes[neighbour].kind.is_on(id);
     let (t, length) = unit(&(wire.nodes[neighbour].position - wire.nodes[node].position));
     if !body.dynamic || is_on_same || length <= 0.0 || tension <= 0.0 {
@@ -128,7 +130,7 @@ fn pull(
     let pull = Pull {
         neighbour: (at, neighbour),
         arm: body.arm(&local),
-        force: t * tension,
+        force: if is_eye { t * tension } else { Vector::zeros() },
         stiffness: (Matrix3::identity() - t * t.transpose()) * (tension / length),
     };
     Some((id.0, pull))
