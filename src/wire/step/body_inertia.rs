@@ -85,7 +85,7 @@ pub(super) fn body_inertias(world: &World, linearisation: &Linearisation) -> Bod
         is_held: vec![false; world.bodies.len()],
     };
     let reach = world.settings.step / world.settings.stability_margin;
-    for (at, pulls) in pulls.iter().enumerate() {
+    for (at, pulls) in pulls.iter().enumerate().filter(|of| !of.1.is_empty()) {
         let body = &world.bodies[at];
         if let Some(parts) = against_forces(body, at, pulls, reach * reach) {
             inertias.all.extend(parts);
