@@ -71,9 +71,12 @@ pub(super) fn body_inertias(world: &World, linearisation: &Linearisation) -> Bod
     let mut pulls: Vec<SmallVec<[Pull; 4]>> = Vec::new();
     pulls.resize_with(world.bodies.len(), SmallVec::new);
     for (at, wire) in world.wires.iter().enumerate() {
-        for segment in 0..wire.segments.len() {
-            let tension = linearisation.of(at, segment).tension;
-            for (node, neighbour) in [(segment, segment + 1), (segment + 1, segment)] {
+        let nodes = wire.nodes.iter().enumerate();
+        for (node, _) in nodes.filter(|(_, node)| node.kind.carrier().is_some()) {
+            let before = node.checked_sub(1).map(|other| (other, other));
+            let after = (node + 1 < wire.nodes.len()).then_some((node, node + 1));
+            for (segment, neighbour) in before.into_iter().chain(after) {
+                let tension = linearisation.of(at, segment).tension;
                 if let Some((body, pull)) = pull(world, at, node, neighbour, tension) {
                     pulls[body].push(pull);
                 }
@@ -87,6 +90,9 @@ pub(super) fn body_inertias(world: &World, linearisation: &Linearisation) -> Bod
     let reach = world.settings.step / world.settings.stability_margin;
     for (at, pulls) in pulls.iter().enumerate().filter(|of| !of.1.is_empty()) {
         let body = &world.bodies[at];
+        if are_weak(body, pulls, reach * reach) {
+            continue;
+        }
         if let Some(parts) = against_forces(body, at, pulls, reach * reach) {
             inertias.all.extend(parts);
             inertias.is_held[at] = true;
@@ -96,6 +102,23 @@ pub(super) fn body_inertias(world: &World, linearisation: &Linearisation) -> Bod
             .extend(against_moment(body, at, pulls, reach * reach));
     }
     inertias
+}
+
+/// Whether a bound says that pulls need nothing: `K_b` and a moment are no larger than with arms across.
+fn are_weak(body: &Body, pulls: &[Pull], reach: f64) -> bool {
+    // Of the trace of `K_b M^-1`, and of what a moment has to be: `4 (1 + 4) |r| |F| <= 8 i` at most.
+    const WEAK: f64 = 0.8;
+    let turning = body
+        .inertia
+        .try_inverse()
+        .map_or(f64::INFINITY, |m| m.trace());
+    let strengths = pulls.iter().map(|pull| {
+        let across = pull.stiffness.trace();
+        let arm = pull.arm.norm();
+        let turned = across * arm * arm + 2.0 * arm * pull.force.norm();
+        across / body.mass + turning * turned
+    });
+    reach * strengths.sum::<f64>() <= WEAK
 }
 
 /// Whether a step cannot follow what a segment with this tension in N does to a body at one of its ends.
