@@ -56,6 +56,8 @@ pub(super) struct BodyInertias {
 
 /// A segment that pulls on a place of a body.
 struct Pull {
+    /// Which body.
+    body: usize,
     /// The wire, and which of its nodes is at the other end.
     neighbour: (usize, usize),
     /// From the centre of mass to the place, in m.
@@ -68,8 +70,7 @@ struct Pull {
 
 /// Those of all bodies that a step cannot follow.
 pub(super) fn body_inertias(world: &World, linearisation: &Linearisation) -> BodyInertias {
-    let mut pulls: Vec<SmallVec<[Pull; 4]>> = Vec::new();
-    pulls.resize_with(world.bodies.len(), SmallVec::new);
+    let mut pulls = Vec::new();
     for (at, wire) in world.wires.iter().enumerate() {
         let nodes = wire.nodes.iter().enumerate();
         for (node, _) in nodes.filter(|(_, node)| node.kind.carrier().is_some()) {
@@ -77,9 +78,7 @@ pub(super) fn body_inertias(world: &World, linearisation: &Linearisation) -> Bod
             let after = (node + 1 < wire.nodes.len()).then_some((node, node + 1));
             for (segment, neighbour) in before.into_iter().chain(after) {
                 let tension = linearisation.of(at, segment).tension;
-                if let Some((body, pull)) = pull(world, at, node, neighbour, tension) {
-                    pulls[body].push(pull);
-                }
+                pulls.extend(pull(world, at, node, neighbour, tension));
             }
         }
     }
@@ -88,7 +87,9 @@ pub(super) fn body_inertias(world: &World, linearisation: &Linearisation) -> Bod
         is_held: vec![false; world.bodies.len()],
     };
     let reach = world.settings.step / world.settings.stability_margin;
-    for (at, pulls) in pulls.iter().enumerate().filter(|of| !of.1.is_empty()) {
+    pulls.sort_by_key(|pull| pull.body);
+    for pulls in pulls.chunk_by(|one, other| one.body == other.body) {
+        let at = pulls[0].body;
         let body = &world.bodies[at];
         if are_weak(body, pulls, reach * reach) {
             continue;
@@ -127,20 +128,14 @@ pub(super) fn is_strong(world: &World, wire: usize, segment: usize, tension: f64
     [(segment, segment + 1), (segment + 1, segment)]
         .into_iter()
         .filter_map(|(node, neighbour)| pull(world, wire, node, neighbour, tension))
-        .any(|(body, pull)| {
-            let body = &world.bodies[body];
+        .any(|pull| {
+            let body = &world.bodies[pull.body];
             reach * reach * OwnStiffness::new(&[pull]).strength(body) > 1.0
         })
 }
 
 /// What a segment does to a dynamic body at one of its nodes; none if its other end is on the same body.
-fn pull(
-    world: &World,
-    at: usize,
-    node: usize,
-    neighbour: usize,
-    tension: f64,
-) -> Option<(usize, Pull)> {
+fn pull(world: &World, at: usize, node: usize, neighbour: usize, tension: f64) -> Option<Pull> {
     let wire: &Wire = &world.wires[at];
     let (id, local) = wire.nodes[node].kind.carrier()?;
     let body = &world.bodies[id.0];
@@ -150,13 +145,13 @@ fn pull(
     if !body.dynamic || is_on_same || length <= 0.0 || tension <= 0.0 {
         return None;
     }
-    let pull = Pull {
+    Some(Pull {
+        body: id.0,
         neighbour: (at, neighbour),
         arm: body.arm(&local),
         force: if is_eye { t * tension } else { Vector::zeros() },
         stiffness: (Matrix3::identity() - t * t.transpose()) * (tension / length),
-    };
-    Some((id.0, pull))
+    })
 }
 
 /// What the velocities of a body itself have of `K`.

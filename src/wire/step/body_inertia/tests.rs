@@ -129,7 +129,7 @@ fn pulls_of(world: &World) -> Vec<Pull> {
     let wire = &world.wires[0];
     let pulls = [(1, 1), (2, 3)].map(|(segment, to)| {
         let tension = wire.segments[segment].largest_tension();
-        pull(world, 0, 2, to, tension).unwrap().1
+        pull(world, 0, 2, to, tension).unwrap()
     });
     pulls.into()
 }
