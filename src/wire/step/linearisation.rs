@@ -372,6 +372,10 @@ impl Linearisation {
         let is_pushed = held.segments.iter().flatten().any(|is_held| *is_held);
         followed.is_large = !is_pushed && paid > LARGE * world.kinetic_energy();
         let allowed = if followed.is_large { FINE } else { 1.0 };
+        let is_off = paths.iter().any(|path| path.3 > allowed);
+        if !is_off && turned.iter().all(|turned| *turned <= allowed) {
+            return followed;
+        }
         let mut is_turned: Vec<bool> = turned.iter().map(|turned| *turned > allowed).collect();
         let mut is_followed: Vec<bool> = paths.iter().map(|path| path.3 > allowed).collect();
         // A body with mean arms has segments with mean directions on it, and the other way round: else they turn it.
