@@ -328,7 +328,6 @@ mod tests {
     #[test]
     fn rope_that_starts_too_fast_for_its_resolution_is_braked_and_that_is_named() {
         let (ends, summary) = atwood(60.0, 0.25, [120.0, 100.0], 20.0);
-        println!("{ends:?} {}", summary.held_slides);
         assert!(ends.iter().all(|end| *end < 15.0), "{ends:?}");
         let said = summary.held_slides.to_string();
         assert!(said.starts_with("as far as segments let it in "), "{said}");

@@ -94,13 +94,15 @@ pub(super) fn body_inertias(world: &World, linearisation: &Linearisation) -> Bod
         if are_weak(body, pulls, reach * reach) {
             continue;
         }
-        if let Some(parts) = against_forces(body, at, pulls, reach * reach) {
+        let own = OwnStiffness::new(pulls);
+        if reach * reach * own.strength(body) > 1.0
+            && let Some(parts) = against_forces(body, pulls, &own, reach * reach)
+        {
             inertias.all.extend(parts);
             inertias.is_held[at] = true;
         }
-        inertias
-            .all
-            .extend(against_moment(body, at, pulls, reach * reach));
+        let against_moment = against_moment(body, pulls, &own, reach * reach);
+        inertias.all.extend(against_moment);
     }
     inertias
 }
@@ -217,31 +219,23 @@ fn mobility(body: &Body) -> Option<Matrix3<f64>> {
     body.world_inertia().try_inverse()
 }
 
-/// `W`, as two inertias with three components each; none where a step follows what wires do.
+/// `W`, as two inertias with three components each; none if the body has no inertia in some direction.
 fn against_forces(
     body: &Body,
-    at: usize,
     pulls: &[Pull],
+    own: &OwnStiffness,
     reach: f64,
 ) -> Option<[TransverseInertia; 2]> {
-    let is_followed = reach * OwnStiffness::new(pulls).strength(body) <= 1.0;
-    if is_followed {
-        return None;
-    }
-    parts(body, at, pulls, reach)
-}
-
-/// `W`, whether or not it is needed; none if the body has no inertia in some direction.
-fn parts(body: &Body, at: usize, pulls: &[Pull], reach: f64) -> Option<[TransverseInertia; 2]> {
-    let own = OwnStiffness::new(pulls);
+    let at = pulls.first()?.body;
     let stiffness = own.whole();
     let mut masses = Matrix6::identity() * body.mass;
     masses
         .fixed_view_mut::<3, 3>(3, 3)
         .copy_from(&body.world_inertia());
     let mut bound = masses * FOLLOWED + stiffness * (2.0 * reach);
+    let below_zero = own.below_zero();
     for axis in 3..6 {
-        bound[(axis, axis)] += 2.0 * reach * own.below_zero();
+        bound[(axis, axis)] += 2.0 * reach * below_zero;
     }
     // `W = |C^-1 k v|^2` with `C C^T` the bound.
     let inverse: Matrix6<f64> = bound.cholesky()?.l().try_inverse()?;
@@ -273,9 +267,15 @@ fn parts(body: &Body, at: usize, pulls: &[Pull], reach: f64) -> Option<[Transver
 }
 
 /// What resists a moment that turns the body by more than a step can follow.
-fn against_moment(body: &Body, at: usize, pulls: &[Pull], reach: f64) -> Option<TransverseInertia> {
+fn against_moment(
+    body: &Body,
+    pulls: &[Pull],
+    own: &OwnStiffness,
+    reach: f64,
+) -> Option<TransverseInertia> {
+    let at = pulls.first()?.body;
     let moment: Vector = pulls.iter().map(|pull| pull.arm.cross(&pull.force)).sum();
-    let needed = TURNS * reach * (moment.norm() + OwnStiffness::new(pulls).below_zero());
+    let needed = TURNS * reach * (moment.norm() + own.below_zero());
     let inertia = 1.0 / mobility(body)?.trace();
     (needed > AT_ONCE * inertia).then(|| TransverseInertia {
         mass: needed * needed / (FOLLOWED * inertia + needed),

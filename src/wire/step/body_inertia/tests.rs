@@ -120,7 +120,7 @@ fn what_is_held_is_how_force_and_moment_change() {
     let expected = force.norm_squared() / body.mass + moment.dot(&(inverse * moment));
     let expected = expected * reach * reach / FOLLOWED;
     let pulls = pulls_of(&world);
-    let parts = parts(body, 0, &pulls, reach).unwrap();
+    let parts = against_forces(body, &pulls, &OwnStiffness::new(&pulls), reach).unwrap();
     let found = energy(&world, &parts);
     assert!((found / expected - 1.0).abs() < 2e-2, "{found} {expected}");
 }
