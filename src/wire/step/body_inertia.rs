@@ -35,8 +35,8 @@
 use nalgebra::{Matrix3, Matrix6, SMatrix};
 use smallvec::SmallVec;
 
+use super::inertia_term::{FOLLOWED, InertiaTerm};
 use super::linearisation::Linearisation;
-use super::transverse::{FOLLOWED, TransverseInertia};
 use crate::wire::model::{Body, NodeKind, Wire};
 use crate::wire::vector::{Vector, unit};
 use crate::wire::world::World;
@@ -49,7 +49,7 @@ const AT_ONCE: f64 = 8.0;
 
 /// What there is at the bodies of a world.
 pub(super) struct BodyInertias {
-    pub(super) all: Vec<TransverseInertia>,
+    pub(super) terms: Vec<InertiaTerm>,
     /// By bodies: whether nodes on it need nothing else.
     pub(super) is_held: Vec<bool>,
 }
@@ -83,7 +83,7 @@ pub(super) fn body_inertias(world: &World, linearisation: &Linearisation) -> Bod
         }
     }
     let mut inertias = BodyInertias {
-        all: Vec::new(),
+        terms: Vec::new(),
         is_held: vec![false; world.bodies.len()],
     };
     let reach = world.settings.step / world.settings.stability_margin;
@@ -98,11 +98,11 @@ pub(super) fn body_inertias(world: &World, linearisation: &Linearisation) -> Bod
         if reach * reach * own.strength(body) > 1.0
             && let Some(parts) = against_forces(body, pulls, &own, reach * reach)
         {
-            inertias.all.extend(parts);
+            inertias.terms.extend(parts);
             inertias.is_held[at] = true;
         }
         let against_moment = against_moment(body, pulls, &own, reach * reach);
-        inertias.all.extend(against_moment);
+        inertias.terms.extend(against_moment);
     }
     inertias
 }
@@ -225,7 +225,7 @@ fn against_forces(
     pulls: &[Pull],
     own: &OwnStiffness,
     reach: f64,
-) -> Option<[TransverseInertia; 2]> {
+) -> Option<[InertiaTerm; 2]> {
     let at = pulls.first()?.body;
     let stiffness = own.whole();
     let mut masses = Matrix6::identity() * body.mass;
@@ -242,9 +242,9 @@ fn against_forces(
     let mut parts = [0, 3].map(|row| {
         let rows: SMatrix<f64, 3, 6> = inverse.fixed_view::<3, 6>(row, 0).into();
         let own = rows * stiffness * -reach;
-        TransverseInertia {
+        InertiaTerm {
             mass: 1.0,
-            terms: SmallVec::new(),
+            nodes: SmallVec::new(),
             body: Some((
                 at,
                 [0, 3].map(|column| own.fixed_view::<3, 3>(0, column).into()),
@@ -256,7 +256,7 @@ fn against_forces(
             let force: Matrix3<f64> = inverse.fixed_view::<3, 3>(row, 0).into();
             let moment: Matrix3<f64> = inverse.fixed_view::<3, 3>(row, 3).into();
             let of_force = (force + moment * pull.arm.cross_matrix()) * reach;
-            part.terms.push((
+            part.nodes.push((
                 pull.neighbour.0,
                 pull.neighbour.1,
                 of_force * pull.stiffness,
@@ -272,14 +272,14 @@ fn against_moment(
     pulls: &[Pull],
     own: &OwnStiffness,
     reach: f64,
-) -> Option<TransverseInertia> {
+) -> Option<InertiaTerm> {
     let at = pulls.first()?.body;
     let moment: Vector = pulls.iter().map(|pull| pull.arm.cross(&pull.force)).sum();
     let needed = TURNS * reach * (moment.norm() + own.below_zero());
     let inertia = 1.0 / mobility(body)?.trace();
-    (needed > AT_ONCE * inertia).then(|| TransverseInertia {
+    (needed > AT_ONCE * inertia).then(|| InertiaTerm {
         mass: needed * needed / (FOLLOWED * inertia + needed),
-        terms: SmallVec::new(),
+        nodes: SmallVec::new(),
         body: Some((at, [Matrix3::zeros(), Matrix3::identity()])),
     })
 }

@@ -344,13 +344,13 @@ impl Linearisation {
                 let stiffness = wire.material.stretch_stiffness() / rest;
                 followed.error += stiffness * off * off / 2.0;
                 off_by += off;
-                let on = if is_held {
+                let carriers = if is_held {
                     [None; 2]
                 } else {
                     carriers(wire, segment)
                 };
                 let off = off / allowed;
-                if off <= FINE && on == [None; 2] {
+                if off <= FINE && carriers == [None; 2] {
                     continue;
                 }
                 let along = mean_direction(&span, &end);
@@ -363,7 +363,13 @@ impl Linearisation {
                         way,
                     }),
                 };
-                paths.push((at, segment, on, off, next));
+                paths.push(Path {
+                    wire: at,
+                    segment,
+                    carriers,
+                    off,
+                    next,
+                });
             }
             let stiffness = wire.material.stretch_stiffness() / wire.length();
             let moved = mass / (step * step);
@@ -372,31 +378,13 @@ impl Linearisation {
         let is_pushed = held.segments.iter().flatten().any(|is_held| *is_held);
         followed.is_large = !is_pushed && paid > LARGE * world.kinetic_energy();
         let allowed = if followed.is_large { FINE } else { 1.0 };
-        let is_off = paths.iter().any(|path| path.3 > allowed);
+        let is_off = paths.iter().any(|path| path.off > allowed);
         if !is_off && turned.iter().all(|turned| *turned <= allowed) {
             return followed;
         }
         let mut is_turned: Vec<bool> = turned.iter().map(|turned| *turned > allowed).collect();
-        let mut is_followed: Vec<bool> = paths.iter().map(|path| path.3 > allowed).collect();
-        // A body with mean arms has segments with mean directions on it, and the other way round: else they turn it.
-        let mut before = 0;
-        loop {
-            for ((_, _, on, _, _), is_followed) in paths.iter().zip(&mut is_followed) {
-                let bodies = on.iter().flatten();
-                *is_followed |= bodies.clone().any(|body| is_turned[body.0]);
-                if *is_followed {
-                    bodies.for_each(|body| is_turned[body.0] = true);
-                }
-            }
-            let count = is_turned.iter().filter(|is_turned| **is_turned).count();
-            if count == before {
-                break;
-            }
-            before = count;
-        }
-        for ((wire, segment, _, _, next), _) in paths.into_iter().zip(is_followed).filter(|at| at.1)
-        {
-            followed.next.segments[wire][segment] = next;
+        for path in followed_together(paths, allowed, &mut is_turned) {
+            followed.next.segments[path.wire][path.segment] = path.next;
             followed.has_other_directions = true;
         }
         let bodies = followed.next.turns.iter_mut().zip(&turns);
@@ -422,6 +410,41 @@ impl Linearised {
         let [after, by_row] = lengths.map(|length| (length - rest).max(least));
         let counts = before > 0.0 && (after > least || by_row > least);
         counts.then(|| (after - by_row).abs())
+    }
+}
+
+/// Where a segment goes that may have to be followed.
+struct Path {
+    wire: usize,
+    segment: usize,
+    /// The bodies at its ends; none where contacts push on it.
+    carriers: [Option<BodyId>; 2],
+    /// By how much its length is another one than its row says, in parts of what is allowed.
+    off: f64,
+    /// What it is linear about if it is followed.
+    next: Linearised,
+}
+
+/// Those that are off by more than is allowed, and what goes with them: a body with mean arms has segments with mean directions on it,
+/// and the other way round, as they would turn it else.
+fn followed_together(paths: Vec<Path>, allowed: f64, is_turned: &mut [bool]) -> Vec<Path> {
+    let (mut followed, mut others): (Vec<_>, Vec<_>) =
+        paths.into_iter().partition(|path| path.off > allowed);
+    let mut new = 0;
+    loop {
+        for path in &followed[new..] {
+            let bodies = path.carriers.iter().flatten();
+            bodies.for_each(|body| is_turned[body.0] = true);
+        }
+        new = followed.len();
+        let is_carried = |path: &mut Path| {
+            let mut bodies = path.carriers.iter().flatten();
+            bodies.any(|body| is_turned[body.0])
+        };
+        followed.extend(others.extract_if(.., is_carried));
+        if followed.len() == new {
+            return followed;
+        }
     }
 }
 

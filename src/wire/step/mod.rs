@@ -1,6 +1,7 @@
 //! One step: SPOOK with contacts.
 
 mod active_set;
+mod added_inertia;
 pub(super) mod advance;
 mod anderson;
 mod augmented;
@@ -20,6 +21,7 @@ mod friction;
 mod friction_bounds;
 mod gmres;
 mod implicit;
+mod inertia_term;
 mod islands;
 mod linearisation;
 pub(super) mod motion;

@@ -283,18 +283,17 @@ impl Solution {
         self.islands.iter().map(|own| own.work).sum()
     }
 
-    /// What there was beside the masses, at short segments, in the motion that was made.
+    /// What there was beside the masses in the motion that was made.
     pub(super) fn added_inertia(&self, world: &World) -> AddedInertia {
         let mut added = AddedInertia::default();
         for own in &self.islands {
             let inertias = &own.system.inertias;
-            added.places += inertias.short.len() + inertias.nodes.len();
+            added.places += inertias.terms.len() + inertias.nodes.len();
             let wire = |at: usize| &world.wires[own.island.wires[at]];
-            let short = inertias.short.iter();
             let body = |at: usize| &world.bodies[own.island.bodies[at]];
-            let short = short.map(|inertia| inertia.energy(wire, body));
-            added.damped +=
-                short.sum::<f64>() + own.system.energy_of_steep_segments(&own.candidate.x);
+            let terms = inertias.terms.iter();
+            let damped: f64 = terms.map(|term| term.energy(wire, body)).sum();
+            added.damped += damped + own.system.energy_of_steep_segments(&own.candidate.x);
         }
         added
     }

@@ -1,6 +1,7 @@
 //! The system of one step: `[[M~, G^T], [G, -Sigma]] [v+; -lambda] = [M~ v + h f; target]`, where
-//! `M~` is the mass and what [short segments](super::transverse) have beside it.
+//! `M~` is the mass and [what there is beside it](super::added_inertia).
 
+use super::added_inertia::{AddedInertias, added_inertias};
 use super::capstan;
 use super::carrier::{Carrier, Columns, Layout};
 use super::constitutive::Branch;
@@ -10,7 +11,7 @@ use super::order::Block;
 use super::rows::{Row, rows};
 use super::spin::spin_freely;
 use super::start::Start;
-use super::transverse::{SteepSegment, TransverseInertias, transverse_inertias};
+use super::transverse::SteepSegment;
 use crate::wire::contact::ContactConstraint;
 use crate::wire::error::Reason;
 use crate::wire::sparse::{Ldl, SparseColumns, Structure, Symmetric, Triplets};
@@ -28,8 +29,8 @@ const MORE_REFINEMENTS: usize = 4;
 pub(super) struct System {
     pub(super) layout: Layout,
     pub(super) rows: Vec<Row>,
-    /// What there is beside the masses, at short segments.
-    pub(super) inertias: TransverseInertias,
+    /// What there is beside the masses.
+    pub(super) inertias: AddedInertias,
     /// Contacts that are solved with the rest.
     pub(super) implicit: Vec<Implicit>,
     /// How they are.
@@ -62,7 +63,7 @@ impl System {
         order: &[Block],
         structure: Option<Structure>,
     ) -> Self {
-        let inertias = transverse_inertias(world, linearisation);
+        let inertias = added_inertias(world, linearisation);
         let layout = Layout::new(world, linearisation, order, &inertias.nodes);
         let mut rows = rows(world, linearisation, &layout);
         rows.extend(capstan::friction_rows(world, &layout));
@@ -87,7 +88,7 @@ impl System {
         }
         system.add_nodes(world);
         system.add_bodies(world);
-        system.add_transverse_inertias();
+        system.add_inertia_terms();
         system.add_steep_segments();
         system.add_geometric_stiffness(world, linearisation);
         system.mass_entries = system.triplets.index.len();
@@ -147,19 +148,19 @@ impl System {
         }
     }
 
-    /// What there is at segments that are too short, and not steep.
-    fn add_transverse_inertias(&mut self) {
-        for inertia in &self.inertias.short {
+    /// What there is at bodies, and at segments that are too short, and not steep.
+    fn add_inertia_terms(&mut self) {
+        for term in &self.inertias.terms {
             let mut momentum = Vector::zeros();
             let mut columns: [Columns; 3] = Default::default();
-            for (wire, node, part) in &inertia.terms {
+            for (wire, node, part) in &term.nodes {
                 let carrier = self.layout.nodes[self.layout.first_node[*wire] + node];
                 momentum -= part * carrier.prescribed_velocity();
                 for (axis, columns) in columns.iter_mut().enumerate() {
                     carrier.columns(&part.row(axis).transpose(), columns);
                 }
             }
-            if let Some((body, parts)) = inertia.body
+            if let Some((body, parts)) = term.body
                 && let Some(first) = self.layout.bodies[body]
             {
                 for (part, first) in parts.iter().zip([first, first + 3]) {
@@ -168,9 +169,9 @@ impl System {
                     }
                 }
             }
-            momentum *= inertia.mass;
+            momentum *= term.mass;
             for (columns, momentum) in columns.iter().zip(&momentum) {
-                self.triplets.add_outer(columns, inertia.mass);
+                self.triplets.add_outer(columns, term.mass);
                 push(&mut self.right, columns, *momentum);
             }
         }

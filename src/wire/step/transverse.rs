@@ -58,7 +58,7 @@
 use nalgebra::Matrix3;
 use smallvec::SmallVec;
 
-use super::body_inertia::body_inertias;
+use super::inertia_term::{FOLLOWED, InertiaTerm};
 use super::linearisation::Linearisation;
 use crate::wire::model::{Body, BodyId, NodeKind, Wire};
 use crate::wire::vector::{Vector, unit};
@@ -67,55 +67,15 @@ use crate::wire::world::World;
 /// The largest `h^2 T / (l s^2)` over the mass of an end of a segment that is not steep.
 const STEEPEST: f64 = 500.0;
 
-/// `12 + 8 sqrt(2)`.
-pub(super) const FOLLOWED: f64 = 12.0 + 8.0 * std::f64::consts::SQRT_2;
-
-/// What there is beside the masses in a step.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// What there is at segments that are too short.
+#[derive(Default)]
 pub(super) struct TransverseInertias {
-    /// At nodes beside segments that are too short, and not steep.
-    pub(super) short: Vec<TransverseInertia>,
+    /// At nodes beside those that are not steep.
+    pub(super) short: Vec<InertiaTerm>,
     /// Segments that are steep.
     pub(super) steep: Vec<SteepSegment>,
     /// Ends of these that can move.
     pub(super) nodes: Vec<SteepNode>,
-}
-
-/// What resists a velocity `u` that is linear in those of nodes and of a body, like a mass.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct TransverseInertia {
-    /// The mass `m` in kg, or the inertia in kg m^2 of an angular velocity.
-    pub(super) mass: f64,
-    /// Wires and their nodes, and what their velocities give to `u`.
-    pub(super) terms: SmallVec<[(usize, usize, Matrix3<f64>); 3]>,
-    /// A body, and what its velocity and angular velocity give to `u`.
-    pub(super) body: Option<(usize, [Matrix3<f64>; 2])>,
-}
-
-impl TransverseInertia {
-    /// The velocity `u` in m/s or rad/s in a world with these wires and bodies.
-    pub(super) fn velocity<'a>(
-        &self,
-        wire: impl Fn(usize) -> &'a Wire,
-        body: impl Fn(usize) -> &'a Body,
-    ) -> Vector {
-        let terms = self.terms.iter();
-        let of_nodes = terms.map(|(at, node, part)| part * wire(*at).nodes[*node].velocity);
-        let of_body = self.body.map(|(at, [moved, turned])| {
-            let body = body(at);
-            moved * body.velocity + turned * body.angular_velocity
-        });
-        of_nodes.chain(of_body).sum()
-    }
-
-    /// `m |u|^2` in J.
-    pub(super) fn energy<'a>(
-        &self,
-        wire: impl Fn(usize) -> &'a Wire,
-        body: impl Fn(usize) -> &'a Body,
-    ) -> f64 {
-        self.mass * self.velocity(wire, body).norm_squared()
-    }
 }
 
 /// What a steep segment gives to `K_s`.
@@ -142,24 +102,19 @@ pub(super) struct SteepNode {
     pub(super) needed: f64,
 }
 
-/// The inertias of a world in its next step.
+/// The inertias of a world in its next step. `is_held` says of each body whether it has [inertias of its own](super::body_inertia), so
+/// that nodes on it need none.
 pub(super) fn transverse_inertias(
     world: &World,
     linearisation: &Linearisation,
+    is_held: &[bool],
 ) -> TransverseInertias {
     let mut all = TransverseInertias::default();
-    let is_carried = |wire: &Wire| wire.nodes.iter().any(|node| node.kind.carrier().is_some());
-    let mut masses = Masses {
+    let masses = Masses {
         world,
-        counts: Vec::new(),
-        is_held: Vec::new(),
+        counts: nodes_on_bodies(world),
+        is_held,
     };
-    if world.wires.iter().any(is_carried) {
-        masses.counts = nodes_on_bodies(world);
-        let inertias = body_inertias(world, linearisation);
-        (all.short, masses.is_held) = (inertias.all, inertias.is_held);
-    }
-    let masses = masses;
     for (at, wire) in world.wires.iter().enumerate() {
         // That of the segment before the node.
         let mut before: Option<Short> = None;
@@ -261,8 +216,8 @@ fn of_node(
     node: usize,
     mass: f64,
     [before, after]: [Option<Short>; 2],
-) -> TransverseInertia {
-    let mut terms = SmallVec::new();
+) -> InertiaTerm {
+    let mut nodes = SmallVec::new();
     let mut own = Matrix3::zeros();
     let before = before.map(|short| (node - 1, short));
     for (neighbour, short) in before
@@ -271,12 +226,12 @@ fn of_node(
     {
         let part = short.across * (short.needed / (32f64.sqrt() * mass));
         own += part;
-        terms.push((wire, neighbour, -part));
+        nodes.push((wire, neighbour, -part));
     }
-    terms.push((wire, node, own));
-    TransverseInertia {
+    nodes.push((wire, node, own));
+    InertiaTerm {
         mass,
-        terms,
+        nodes,
         body: None,
     }
 }
@@ -286,8 +241,8 @@ struct Masses<'a> {
     world: &'a World,
     /// How many nodes there are on each body.
     counts: Vec<f64>,
-    /// By bodies: whether a body has [inertias of its own](super::body_inertia), so that nodes on it need none.
-    is_held: Vec<bool>,
+    /// By bodies: whether nodes on it need nothing.
+    is_held: &'a [bool],
 }
 
 impl Masses<'_> {

@@ -28,8 +28,8 @@ fn hanging(tension: f64) -> World {
 }
 
 /// What there is at the ball.
-fn inertias(world: &World) -> Vec<TransverseInertia> {
-    body_inertias(world, &Linearisation::at_start(world)).all
+fn inertias(world: &World) -> Vec<InertiaTerm> {
+    body_inertias(world, &Linearisation::at_start(world)).terms
 }
 
 /// Sets velocities of all nodes; those that a body carries have the body's.
@@ -43,9 +43,8 @@ fn set(world: &mut World, velocity: impl Fn(usize) -> Vector) {
     }
 }
 
-fn energy(world: &World, inertias: &[TransverseInertia]) -> f64 {
-    let energy =
-        |inertia: &TransverseInertia| inertia.energy(|at| &world.wires[at], |at| &world.bodies[at]);
+fn energy(world: &World, inertias: &[InertiaTerm]) -> f64 {
+    let energy = |term: &InertiaTerm| term.energy(|at| &world.wires[at], |at| &world.bodies[at]);
     inertias.iter().map(energy).sum()
 }
 

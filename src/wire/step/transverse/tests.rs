@@ -1,5 +1,6 @@
 use nalgebra::{DMatrix, DVector};
 
+use super::super::added_inertia::{AddedInertias, added_inertias};
 use super::*;
 use crate::query::Point;
 use crate::wire::{BodyPlan, Material, Settings, Shape, Stop, WirePlan};
@@ -55,7 +56,7 @@ fn shake(world: &mut World, next: &mut impl FnMut() -> f64) {
 }
 
 /// `K_s`, and `K_s v`.
-fn steep_pushes(world: &World, inertias: &TransverseInertias) -> (DMatrix<f64>, DVector<f64>) {
+fn steep_pushes(world: &World, inertias: &AddedInertias) -> (DMatrix<f64>, DVector<f64>) {
     let nodes = &world.wires[0].nodes;
     let mut stiffness = DMatrix::zeros(3 * nodes.len(), 3 * nodes.len());
     for steep in &inertias.steep {
@@ -71,7 +72,7 @@ fn steep_pushes(world: &World, inertias: &TransverseInertias) -> (DMatrix<f64>, 
 }
 
 /// `v . W v` of steep segments, from dense matrices.
-fn steep_form(world: &World, inertias: &TransverseInertias) -> f64 {
+fn steep_form(world: &World, inertias: &AddedInertias) -> f64 {
     if inertias.nodes.is_empty() {
         return 0.0;
     }
@@ -93,8 +94,8 @@ fn steep_form(world: &World, inertias: &TransverseInertias) -> f64 {
     pushed.dot(&solved)
 }
 
-fn inertias_of(world: &World) -> TransverseInertias {
-    transverse_inertias(world, &Linearisation::at_start(world))
+fn inertias_of(world: &World) -> AddedInertias {
+    added_inertias(world, &Linearisation::at_start(world))
 }
 
 /// `4 v M v`, what is added to it for a step to be stable, and `h^2 v K v` of tensions `factor` times
@@ -102,7 +103,7 @@ fn inertias_of(world: &World) -> TransverseInertias {
 fn forms(world: &World, factor: f64) -> [f64; 3] {
     let inertias = inertias_of(world);
     let short = inertias
-        .short
+        .terms
         .iter()
         .map(|inertia| inertia.energy(|at| &world.wires[at], |at| &world.bodies[at]));
     let added = 2.0 * (short.sum::<f64>() + steep_form(world, &inertias));
@@ -203,9 +204,9 @@ fn line(tension: f64) -> World {
 fn what_moves_as_one_line_has_none_of_it() {
     let world = line(3e3);
     let inertias = inertias_of(&world);
-    assert_eq!([inertias.short.len(), inertias.steep.len()], [9, 0]);
-    for inertia in &inertias.short[1..8] {
-        let largest = inertia.terms.iter().map(|(_, _, part)| part.amax());
+    assert_eq!([inertias.terms.len(), inertias.steep.len()], [9, 0]);
+    for inertia in &inertias.terms[1..8] {
+        let largest = inertia.nodes.iter().map(|(_, _, part)| part.amax());
         let largest = largest.fold(0.0, f64::max);
         assert!(
             inertia
@@ -217,7 +218,7 @@ fn what_moves_as_one_line_has_none_of_it() {
     // `W v` of steep segments is 0 where `K_s v` is.
     let world = line(3e6);
     let inertias = inertias_of(&world);
-    assert_eq!([inertias.short.len(), inertias.steep.len()], [0, 8]);
+    assert_eq!([inertias.terms.len(), inertias.steep.len()], [0, 8]);
     let (stiffness, pushed) = steep_pushes(&world, &inertias);
     let inner = pushed.rows(3, 3 * 7);
     assert!(inner.amax() < 1e-12 * stiffness.amax());
@@ -236,7 +237,7 @@ fn segments_that_are_long_enough_have_none() {
     let counts = |tension| {
         let inertias = inertias_of(&world(tension));
         [
-            inertias.short.len(),
+            inertias.terms.len(),
             inertias.steep.len(),
             inertias.nodes.len(),
         ]
