@@ -7,7 +7,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-const SCENES: &str = include_str!("../../docs/scenes.md");
+const SCENES: &str = include_str!("../../docs/scene-outcomes.md");
 const THICKNESS: &str = include_str!("../../docs/thickness.md");
 
 /// What is said of a run.
@@ -87,7 +87,7 @@ fn figures_of_the_built_in_scenes_are_those_of_a_run() {
         )
     };
     let rows: Vec<_> = BUILT_IN.iter().map(row).collect();
-    assert_has(SCENES, "docs/scenes.md", &rows);
+    assert_has(SCENES, "docs/scene-outcomes.md", &rows);
 }
 
 #[test]
@@ -114,7 +114,7 @@ fn figures_of_thin_bodies_are_those_of_a_run() {
         ("two-plates", "two thin plates are thrown at each other"),
     ];
     let rows: Vec<_> = scenes.iter().map(row).collect();
-    assert_has(SCENES, "docs/scenes.md", &rows);
+    assert_has(SCENES, "docs/scene-outcomes.md", &rows);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //!
 //! A body goes from pose to pose as `RigidMotion` says, and nodes go straight, but for those fixed
 //! to the body: on the way of such a segment there are more places at which the node is where the
-//! body has it (docs/wires.md). Each part of a way is asked of the oracle: each node against each
+//! body has it (docs/wires-and-bodies.md). Each part of a way is asked of the oracle: each node against each
 //! face, the segment against each edge. Left out before that is what is apart in the body's frame:
 //! there a node strays from the straight line between its places by at most
 //! `((1.5 a^2 r + 2.5 a d) / 8`, with the angle `a` of the turn, at most 45 degrees, the largest

@@ -1,4 +1,4 @@
-//! Cores of bodies, made from the list of their corners (docs/wires.md) and from nothing else of the
+//! Cores of bodies, made from the list of their corners (docs/wires-and-bodies.md) and from nothing else of the
 //! stepper: faces are found as those of the convex hull.
 
 use nalgebra::Vector3;

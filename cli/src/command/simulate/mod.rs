@@ -39,8 +39,8 @@ Examples:
   tunnelproof simulate my-scene.toml --duration 3600 --from hour.tpstate
   tunnelproof simulate --schema > scene.schema.json
 
-Scenes of your own: docs/recipes.md has some to start from, docs/scenes.md all that they may have. The hang of a route
-knows no bodies: free stops lay a wire on a floor.
+Scenes of your own: docs/recipes.md has some to start from, docs/scenes.md all that they may have. docs/simulate.md
+says what is printed and written. The hang of a route knows no bodies: free stops lay a wire on a floor.
 
 Scenes of the thesis (4.2): basic-collision, pulling-anchor, twisting-under-load, chains-on-deck. Exit code 1 if
 a step cannot be done, or the audit finds that something passed unnoticed, or stands or may stand on the wrong side.
