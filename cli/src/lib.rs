@@ -27,4 +27,6 @@ mod pages {
     struct Engines;
     #[doc = include_str!("../../docs/meshes.md")]
     struct Meshes;
+    #[doc = include_str!("../../docs/wires.md")]
+    struct Wires;
 }

@@ -4,7 +4,7 @@ use super::Vector;
 use super::model::ModelError;
 use super::model::check::{finite_vector, not_negative, positive};
 
-/// What a [`World`](super::World) is stepped with. The default is that of docs/wires.md.
+/// What a [`World`](super::World) is stepped with. docs/wires.md says how to choose it.
 ///
 /// ```
 /// use tunnelproof::wire::{Settings, Vector};

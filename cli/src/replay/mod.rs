@@ -16,6 +16,38 @@ mod drawing;
 mod frame;
 mod page;
 mod surface;
+
+/// What an audit found, in a line: what there is none of is left out.
+fn verdict(report: &Report) -> String {
+    let nearer = report.nearer.iter().chain(&report.remeshes_nearer);
+    let found = [
+        (
+            report.missed.iter().sum::<u64>() + report.body_missed + report.core_missed,
+            "contacts missed",
+        ),
+        (
+            report.remeshes_through + report.body_remeshes_through,
+            "changes that pass",
+        ),
+        (report.standing.len() as u64, "standing tunnels"),
+        (
+            (report.body_standing.len() + report.core_standing.len()) as u64,
+            "standing in bodies",
+        ),
+        (report.ambiguous.len() as u64, "ambiguous"),
+        (report.jumps + report.astray, "jumps"),
+        (nearer.sum(), "nearer than guarded"),
+    ];
+    let found = found.iter().filter(|(count, _)| *count > 0);
+    let found: Vec<String> = found
+        .map(|(count, what)| format!("{count} {what}"))
+        .collect();
+    match found.is_empty() {
+        true => "nothing passed unnoticed".to_owned(),
+        false => found.join(", "),
+    }
+}
+
 #[cfg(test)]
 mod tests;
 
@@ -146,17 +178,7 @@ impl Replay {
 
     /// The same with what its audit found marked.
     pub fn audited(mut self, report: &Report) -> Self {
-        self.verdict = match report.is_clean() {
-            true => "audited: nothing passed unnoticed".to_owned(),
-            false => format!(
-                "audited: {} contacts missed, {} standing tunnels, {} standing in bodies, {} ambiguous, {} jumps",
-                report.missed.iter().sum::<u64>() + report.body_missed + report.core_missed,
-                report.standing.len(),
-                report.body_standing.len() + report.core_standing.len(),
-                report.ambiguous.len(),
-                report.jumps + report.astray
-            ),
-        };
+        self.verdict = format!("audited: {}", verdict(report));
         let findings = report.findings.iter();
         for finding in findings.filter(|finding| finding.is_tunnel()) {
             self.mark(finding);

@@ -6,7 +6,7 @@ use tunnelproof::wire;
 
 use super::file::Triple;
 
-/// What a [`World`](wire::World) is stepped with. The default is that of docs/wires.md.
+/// What a [`World`](wire::World) is stepped with. docs/wires.md says how to choose it.
 #[derive(Serialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub(super) struct Settings {
