@@ -201,24 +201,11 @@ impl Ldl {
     /// Solves `D L^T x = z` in place.
     pub(in crate::wire) fn finish(&self, z: &mut [f64]) {
         for k in (0..z.len()).rev() {
-            z[k] = z[k] / self.diagonal[k] - self.dot(k, z);
+            let scaled = z[k] / self.diagonal[k];
+            z[k] = self
+                .column(k)
+                .fold(scaled, |sum, (row, l)| sum - l * z[row]);
         }
-    }
-
-    /// Column `k` of `L` times a vector. In four sums, so that none waits for the one before.
-    fn dot(&self, k: usize, x: &[f64]) -> f64 {
-        let range = self.starts[k]..self.starts[k + 1];
-        let (rows, last_rows) = self.rows[range.clone()].as_chunks::<4>();
-        let (values, last_values) = self.values[range].as_chunks::<4>();
-        let mut sums = [0.0; 4];
-        for (rows, values) in rows.iter().zip(values) {
-            for lane in 0..4 {
-                sums[lane] += values[lane] * x[rows[lane] as usize];
-            }
-        }
-        let last = last_rows.iter().zip(last_values);
-        let last: f64 = last.map(|(&row, l)| l * x[row as usize]).sum();
-        (sums[0] + sums[1]) + (sums[2] + sums[3]) + last
     }
 
     /// Solves `L Y = C` for three sparse columns `C`, given by rows in any order. Only the rows on
