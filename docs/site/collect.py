@@ -96,7 +96,7 @@ def config(folder):
         title, _, rest = section.partition("\n")
         entries = re.findall(r"\[([^\]]+)\]\(([^):]+\.md)\)", rest)
         navigation.append({title.strip(): [{name: os.path.normpath(f"docs/{path}")} for name, path in entries]})
-    navigation.append({"More": [{"All documents": "docs/README.md"}, {"Changes": "CHANGELOG.md"}, {"Contributing": "CONTRIBUTING.md"}]})
+    navigation.append({"More": [{"All documents": "docs/README.md"}, {"Words": "docs/glossary.md"}, {"Changes": "CHANGELOG.md"}, {"Contributing": "CONTRIBUTING.md"}]})
     settings = {"INHERIT": str(Path(__file__).parent / "mkdocs.yml"), "docs_dir": str(folder / "pages"), "site_dir": str(folder / "html"), "nav": navigation}
     # JSON is YAML.
     write(folder / "mkdocs.yml", json.dumps(settings, indent=1))
