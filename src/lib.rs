@@ -84,7 +84,7 @@ pub mod wire;
 
 pub use certified::{
     Advance, Batch, BatchError, Blocked, Clearance, ClearanceError, Kind, ListedPair, Normal,
-    Pairs, PairsError, PairsLimit, PairsStep, Precision, Proximity, advance, advance_in,
+    Pairs, PairsError, PairsLimit, PairsStep, Precision, Proximity, Stage, advance, advance_in,
     advance_pairs, classify, decide, decide_discrete, decide_exactly, decide_rigid, interpolate,
     interpolate_in,
 };

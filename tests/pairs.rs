@@ -139,6 +139,75 @@ fn long_lists_of_pairs_are_decided_as_one_by_one() {
     set.check(all, edges);
 }
 
+/// Pairs with a radius and pairs without one side by side, in every mixture.
+#[test]
+fn pairs_with_and_without_a_radius_are_decided_as_one_by_one() {
+    let mut hits = [0; 2];
+    for family in FAMILIES.iter().chain(OTHER_KINDS) {
+        for (every, is_thin) in [(2, true), (16, false), (100, true)] {
+            let (mut of_edges, mut of_faces) = (Set::default(), Set::default());
+            for index in 0..200 {
+                let query = family.query(6, index);
+                match query {
+                    Query::EdgeEdge(query) => of_edges.push(&query),
+                    Query::VertexFace(query) => of_faces.push(&query),
+                }
+            }
+            for set in [&mut of_edges, &mut of_faces] {
+                for (pair, radius) in set.radii.iter_mut().enumerate() {
+                    let is_other = pair % every == every - 1;
+                    let thick = if radius.is_zero() {
+                        0.05.into()
+                    } else {
+                        *radius
+                    };
+                    *radius = if is_other == is_thin {
+                        Radius::ZERO
+                    } else {
+                        thick
+                    };
+                }
+            }
+            for count in [15, 16, 17, 33, 200] {
+                if count <= of_edges.indices.len() {
+                    hits[0] += of_edges.check(count, edges);
+                }
+                if count <= of_faces.indices.len() {
+                    hits[1] += of_faces.check(count, face);
+                }
+            }
+        }
+    }
+    assert!(hits[0] > 10_000 && hits[1] > 1000, "{hits:?}");
+}
+
+/// What all points share moves boxes and no differences: the stage that answers is the same, alone and with others.
+#[test]
+fn pairs_that_move_far_together_are_decided_as_one_by_one() {
+    let size = 2f64.powi(148);
+    let start = [
+        [-3.0, 0.0, 0.0],
+        [4.0, 1.0, 0.0],
+        [1.0, -5.0, 2.0],
+        [0.0, 3.0, 3.0],
+    ];
+    let start = start.map(|point| point.map(|x: f64| x * size));
+    let mut hits = 0;
+    for exponent in [170, 178, 180, 181, 188, 200] {
+        let shift = 2f64.powi(exponent);
+        let mut end = start.map(|[x, y, z]| [x + shift, y, z]);
+        end[2][2] -= 7.0 * size;
+        end[3][2] -= 7.0 * size;
+        let [start, end] = [start, end].map(|all| all.map(Point::from));
+        let mut set = Set::default();
+        for _ in 0..40 {
+            set.push(&edges([start, end], (4.0 * size).into()));
+        }
+        hits += set.check(40, edges);
+    }
+    assert_eq!(hits, 240);
+}
+
 /// Points of a small cloud, which pairs share, and a pair may have twice.
 #[test]
 fn pairs_that_share_points_are_decided_as_one_by_one() {

@@ -17,7 +17,8 @@ use crate::query::{Point, QueryError, Radius, check};
 /// [`VertexFace`](crate::query::VertexFace), as a structure of arrays.
 ///
 /// It is for candidate pairs as a broad phase delivers them, of which few touch. The answers are
-/// those of [`decide`](super::decide), bit for bit.
+/// those of [`decide`](super::decide), bit for bit. Where few touch, it takes longer to add a query than to decide it: use
+/// [`Pairs`](super::Pairs) if points are in arrays.
 ///
 /// ```
 /// use tunnelproof::{Batch, EdgeEdge, Point};
@@ -152,7 +153,8 @@ impl<K: Kind> Batch<K> {
     }
 
     /// As [`decide`](Self::decide): calls `hit` for each hit, in order, and says for each query, in
-    /// any order, which stage decided it. Allocates nothing.
+    /// any order, which stage decided it. Allocates nothing, but where
+    /// coordinates span so many powers of two that integers need the heap.
     pub fn decide_observed(
         &self,
         hit: impl FnMut(usize, Hit<K::Place>),
@@ -165,15 +167,6 @@ impl<K: Kind> Batch<K> {
     #[cfg(feature = "rayon")]
     pub fn par_decide(&self) -> Vec<(usize, Hit<K::Place>)> {
         queries::par_decide::<K::Stages>(self, self.len())
-    }
-
-    fn positions(&self, index: usize) -> Positions {
-        let of = |i: usize| self.coordinates[i][index];
-        let at = |i: usize| [of(i), of(i + 1), of(i + 2)];
-        Positions {
-            start: [at(0), at(3), at(6), at(9)],
-            end: [at(12), at(15), at(18), at(21)],
-        }
     }
 }
 
@@ -195,12 +188,23 @@ impl<K> Source for Batch<K> {
     }
 
     #[inline(always)]
+    fn positions(&self, index: usize) -> Positions {
+        let of = |i: usize| self.coordinates[i][index];
+        let at = |i: usize| [of(i), of(i + 1), of(i + 2)];
+        Positions {
+            start: [at(0), at(3), at(6), at(9)],
+            end: [at(12), at(15), at(18), at(21)],
+        }
+    }
+
+    #[inline(always)]
     fn radius(&self, index: usize) -> Radius {
         self.radii.get(index).copied().unwrap_or(Radius::ZERO)
     }
 
-    fn are_thin(&self, queries: Range<usize>) -> Option<bool> {
-        queries::are_thin(self.radii.get(queries).unwrap_or_default())
+    fn are_thin(&self, queries: Range<usize>) -> bool {
+        let radii = self.radii.get(queries).unwrap_or_default();
+        radii.iter().all(Radius::is_zero)
     }
 }
 

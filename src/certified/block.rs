@@ -60,11 +60,14 @@ pub(crate) trait Source {
     /// As [`load`](Self::load), of coordinates that [are `f32`](Self::IS_SINGLE).
     fn load_single(&self, _tiles: &mut [SingleTile; CHUNK / LANES], _queries: Range<usize>) {}
 
+    /// The coordinates of a query.
+    fn positions(&self, query: usize) -> Positions;
+
     /// The distance at which its sides touch.
     fn radius(&self, query: usize) -> Radius;
 
-    /// Whether no query of some has a radius above 0; `None` if some have and some have not.
-    fn are_thin(&self, queries: Range<usize>) -> Option<bool>;
+    /// Whether no query of some has a radius above 0.
+    fn are_thin(&self, queries: Range<usize>) -> bool;
 }
 
 /// Queries that no stage has decided so far.
@@ -193,7 +196,8 @@ impl Open {
         report([Stage::Boxes, Stage::Direction], decided, observe);
     }
 
-    /// The same for queries with radii above 0.
+    /// The same for queries with radii. One without may be among them: it is asked with a radius of the least number above
+    /// 0, and what is apart by more than that does not touch.
     pub(super) fn add_thick<K: Stages>(
         &mut self,
         source: &impl Source,

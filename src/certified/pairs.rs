@@ -91,6 +91,9 @@ impl<'a, K: Kind, C: Coordinate> Pairs<'a, K, C> {
     /// The same with a radius for each pair: `r.into()` of a number, `[r, s].into()` of the exact sum
     /// of two.
     ///
+    /// Pairs with a radius above 0 and pairs without one are decided faster in two lists: side by side, all
+    /// go through the stages for a radius first.
+    ///
     /// # Errors
     ///
     /// As [`new`](Self::new), and if there are not as many radii as pairs.
@@ -188,8 +191,8 @@ impl<'a, K: Kind, C: Coordinate> Pairs<'a, K, C> {
     }
 
     /// Some of the pairs, if there are all of these; their places are counted from the first of
-    /// them. Nothing is checked again: for an engine with threads of its own. Steps of parts are no step
-    /// of the whole.
+    /// them. Nothing is checked again: for an engine with threads of its own. Make parts of some thousand
+    /// pairs: of 32, each pair takes half as long again. Steps of parts are no step of the whole.
     pub fn part(&self, pairs: Range<usize>) -> Option<Self> {
         let Indexed {
             start,
@@ -210,13 +213,15 @@ impl<'a, K: Kind, C: Coordinate> Pairs<'a, K, C> {
         Some(Pairs { indexed, kind })
     }
 
-    /// All hits with the places of their pairs, in order.
+    /// All hits with the places of their pairs, in order. Fewer than 16 pairs are decided one by one, as
+    /// several at once take longer then.
     pub fn decide(&self) -> Vec<(usize, Hit<K::Place>)> {
         queries::decide::<K::Stages>(&self.indexed, self.len())
     }
 
     /// As [`decide`](Self::decide): calls `hit` for each hit, in order, and says for each pair, in
-    /// any order, which stage decided it. Allocates nothing.
+    /// any order, which stage decided it. Allocates nothing, but where
+    /// coordinates span so many powers of two that integers need the heap.
     pub fn decide_observed(
         &self,
         hit: impl FnMut(usize, Hit<K::Place>),
@@ -233,15 +238,6 @@ impl<'a, K: Kind, C: Coordinate> Pairs<'a, K, C> {
 }
 
 impl<C: Coordinate> Indexed<'_, C> {
-    /// The motion of a pair.
-    pub(super) fn positions(&self, pair: usize) -> Positions {
-        let of = |all: &[[C; 3]]| self.indices[pair].map(|index| widened(&all[index as usize]));
-        Positions {
-            start: of(self.start),
-            end: of(self.end),
-        }
-    }
-
     /// Puts the coordinates of a group of pairs, counted from the first of the chunk, into the lanes
     /// of the rows of its tile: a row of a group is one write.
     #[inline(always)]
@@ -311,6 +307,15 @@ impl<C: Coordinate> Source for Indexed<'_, C> {
     }
 
     #[inline(always)]
+    fn positions(&self, query: usize) -> Positions {
+        let of = |all: &[[C; 3]]| self.indices[query].map(|index| widened(&all[index as usize]));
+        Positions {
+            start: of(self.start),
+            end: of(self.end),
+        }
+    }
+
+    #[inline(always)]
     fn radius(&self, query: usize) -> Radius {
         match self.radii {
             Radii::Same(radius) => radius,
@@ -318,10 +323,10 @@ impl<C: Coordinate> Source for Indexed<'_, C> {
         }
     }
 
-    fn are_thin(&self, queries: Range<usize>) -> Option<bool> {
+    fn are_thin(&self, queries: Range<usize>) -> bool {
         match self.radii {
-            Radii::Same(radius) => Some(radius.is_zero()),
-            Radii::Each(radii) => queries::are_thin(&radii[queries]),
+            Radii::Same(radius) => radius.is_zero(),
+            Radii::Each(radii) => radii[queries].iter().all(Radius::is_zero),
         }
     }
 }

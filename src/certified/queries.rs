@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::block::{CHUNK, Open, Source};
 use super::cascade::{decide_motion, decide_rest};
+use super::cubic::Cubic;
 use super::kind::{Kind, Stages};
 use super::stage::Stage;
 use super::step::Precision;
@@ -11,13 +12,6 @@ use super::thick;
 use crate::contact::Hit;
 use crate::environment;
 use crate::query::Radius;
-
-/// Whether none of these is above 0; `None` if some are and some are not.
-pub(super) fn are_thin(radii: &[Radius]) -> Option<bool> {
-    let zeros = radii.iter().filter(|radius| radius.is_zero()).count();
-    let are_thin = zeros == radii.len();
-    (are_thin || zeros == 0).then_some(are_thin)
-}
 
 /// All hits of so many queries with their places, in order.
 pub(super) fn decide<K: Stages>(source: &impl Source, count: usize) -> Vec<(usize, Hit<K::Place>)> {
@@ -43,7 +37,7 @@ where
     use rayon::prelude::*;
 
     /// How many queries a thread takes at a time.
-    const SHARE: usize = 4096;
+    const SHARE: usize = 1024;
     let starts = (0..count).into_par_iter().step_by(SHARE);
     let hits = starts.flat_map_iter(|start| {
         let mut hits = Vec::new();
@@ -55,7 +49,7 @@ where
 }
 
 /// Calls `hit` for each hit of some queries, in order, and says for each query, in any order, which
-/// stage decided it. Allocates nothing.
+/// stage decided it. Allocates nothing, but in the exact stage.
 pub(super) fn decide_range<K: Stages>(
     source: &impl Source,
     queries: Range<usize>,
@@ -64,11 +58,14 @@ pub(super) fn decide_range<K: Stages>(
 ) {
     // By each thread that takes a part.
     debug_assert_eq!(environment::check(), Ok(()));
+    if queries.len() < FEW {
+        return decide_few::<K>(source, queries, &mut hit, &mut observe);
+    }
     let (mut open, mut are_thin, mut worth) = (Open::new(), true, Worths::default());
     for first in queries.clone().step_by(CHUNK) {
         let chunk = first..queries.end.min(first + CHUNK);
         let are_now_thin = source.are_thin(chunk.clone());
-        if open.is_full() || are_now_thin != Some(are_thin) {
+        if open.is_full() || are_now_thin != are_thin {
             finish::<K>(
                 &mut open,
                 are_thin,
@@ -78,30 +75,28 @@ pub(super) fn decide_range<K: Stages>(
                 &mut observe,
             );
         }
-        are_thin = are_now_thin.unwrap_or_default();
-        match are_now_thin {
-            Some(false) => open.add_thick::<K>(source, chunk, &mut observe),
-            Some(true) if worth.stages.is_tried() => {
-                worth.stages.asked += chunk.len();
-                open.add::<K, _>(source, chunk, &mut observe);
-            }
-            _ => {
-                worth.stages.skip();
-                finish::<K>(
-                    &mut open,
-                    are_thin,
-                    source,
-                    &mut worth,
-                    &mut hit,
-                    &mut observe,
-                );
-                open.put(source, chunk.clone());
-                for (place, query) in chunk.enumerate() {
-                    let positions = || open.positions(place);
-                    let radius = source.radius(query);
-                    if let Some(found) = decide_motion::<K>(positions, radius, &mut observe) {
-                        hit(query, found);
-                    }
+        are_thin = are_now_thin;
+        if !are_thin {
+            open.add_thick::<K>(source, chunk, &mut observe);
+        } else if worth.stages.is_tried() {
+            worth.stages.asked += chunk.len();
+            open.add::<K, _>(source, chunk, &mut observe);
+        } else {
+            worth.stages.skip();
+            finish::<K>(
+                &mut open,
+                are_thin,
+                source,
+                &mut worth,
+                &mut hit,
+                &mut observe,
+            );
+            open.put(source, chunk.clone());
+            for (place, query) in chunk.enumerate() {
+                let positions = || open.positions(place);
+                let found = decide_motion::<K>(positions, Radius::ZERO, &mut observe);
+                if let Some(found) = found {
+                    hit(query, found);
                 }
             }
         }
@@ -114,6 +109,25 @@ pub(super) fn decide_range<K: Stages>(
         &mut hit,
         &mut observe,
     );
+}
+
+/// Fewer queries take longer several at once than one by one.
+const FEW: usize = 16;
+
+/// Decides queries one by one; not inlined, so that what takes many stays small.
+#[inline(never)]
+fn decide_few<K: Stages>(
+    source: &impl Source,
+    queries: Range<usize>,
+    hit: &mut impl FnMut(usize, Hit<K::Place>),
+    observe: &mut impl FnMut(Stage),
+) {
+    for query in queries {
+        let positions = source.positions(query);
+        if let Some(found) = decide_motion::<K>(|| positions, source.radius(query), observe) {
+            hit(query, found);
+        }
+    }
 }
 
 /// What asking several queries at once is worth.
@@ -237,7 +251,11 @@ fn decide_thick<K: Stages>(
             Err(reached) => {
                 left += usize::from(has_touches);
                 let (positions, radius) = (open.positions(place), source.radius(query));
-                thick::decide_from::<K>(&positions, radius, reached, observe)
+                if radius.is_zero() {
+                    decide_rest::<K>(&positions, Cubic::new, None, observe)
+                } else {
+                    thick::decide_from::<K>(&positions, radius, reached, observe)
+                }
             }
         };
         if let Some(found) = found {
@@ -267,16 +285,12 @@ impl MayTouch {
     ) {
         debug_assert!(count <= CHUNK);
         let all = 0..count;
-        match source.are_thin(all.clone()) {
-            Some(true) => {
-                self.open.add::<K::Stages, _>(source, all, &mut |_| {});
-                self.open.screen::<K::Stages>(&mut |_| {});
-            }
-            Some(false) => {
-                self.open.add_thick::<K::Stages>(source, all, &mut |_| {});
-                self.open.screen_thick::<K::Stages>(&mut |_| {});
-            }
-            None => return all.for_each(each),
+        if source.are_thin(all.clone()) {
+            self.open.add::<K::Stages, _>(source, all, &mut |_| {});
+            self.open.screen::<K::Stages>(&mut |_| {});
+        } else {
+            self.open.add_thick::<K::Stages>(source, all, &mut |_| {});
+            self.open.screen_thick::<K::Stages>(&mut |_| {});
         }
         self.visit(each);
     }

@@ -315,7 +315,15 @@ fn coordinate(start: f64, end: f64, step: f64) -> f64 {
     } else {
         start * (1.0 - step) + end * step
     };
-    between.clamp(start.min(end), start.max(end))
+    let (low, high) = (start.min(end), start.max(end));
+    // As `clamp`, which panics where both are NaN.
+    if between < low {
+        low
+    } else if between > high {
+        high
+    } else {
+        between
+    }
 }
 
 /// More than the error of [`coordinate`], at any step.

@@ -209,3 +209,18 @@ fn step_stored_coordinates_in_f32_are_f32_where_their_ends_are() {
     }
     assert!(singles > 2000 && others > 2000, "{singles} {others}");
 }
+
+/// Neither an error nor a panic: positions that are no numbers stay none.
+#[test]
+fn step_stored_coordinates_of_nan_are_nan() {
+    let values = [f64::NAN, 1.0, f64::INFINITY];
+    for precision in [Precision::F64, Precision::F32] {
+        for step in [0.3, 5e-324, f64::NAN] {
+            for (start, end) in values.into_iter().flat_map(|a| values.map(|b| (a, b))) {
+                let stored = coordinate_in(start, end, step, precision);
+                let is_nan = start.is_nan() || end.is_nan() || step.is_nan() && start != end;
+                assert!(stored.is_nan() || !is_nan, "{start} {end} {step}: {stored}");
+            }
+        }
+    }
+}

@@ -42,8 +42,11 @@ impl Touch {
         let (nearness, is_near) = moving.nearness_in_space(&here, while_);
         let (root, is_ahead) = approach.root(&nearness);
         let (toi, is_certain) = root.below();
-        // As [`Moving::is_ordinary`], of the differences alone, as is all that is computed here.
-        let is_ordinary = (radius > SMALLEST) & (radius < LARGEST) & approach.is_small();
+        // As [`Moving::is_ordinary`], so that the same stage answers, and of the differences as well.
+        let is_ordinary = (radius > SMALLEST)
+            & (radius < LARGEST)
+            & (moving.boxes.size() < LARGEST)
+            & approach.is_small();
         let is_placed = nearness.error <= PLACE_ERROR / 4.0;
         let is_later = is_certain & approach.is_ahead & is_ahead & (t > 0.0);
         let is_at_start = is_at_start & approach.is_within;
