@@ -69,6 +69,7 @@ impl SweptBoxes {
 
 impl SweptBoxes {
     /// The length of the diagonal of the box around both, about.
+    #[inline(always)]
     pub(super) fn size(&self) -> f64 {
         dot(&self.extent, &self.extent).sqrt()
     }
