@@ -9,7 +9,7 @@ use tunnelproof::{
     Clearance, EdgeEdge, Hit, Kind, Pairs, PairsError, Point, Query, Radius, VertexFace,
     advance_pairs, decide,
 };
-use tunnelproof_reference::generate::{FAMILIES, OTHER_KINDS};
+use tunnelproof_reference::generate::{FAMILIES, Family, OTHER_KINDS};
 
 type Position = [f64; 3];
 
@@ -80,25 +80,36 @@ fn face([start, end]: [[Point; 4]; 2], radius: Radius) -> VertexFace {
     VertexFace::new(start, end, radius).expect("finite")
 }
 
+/// The first queries of a family: those of edges, and those of a vertex and a face.
+fn sets_of(family: &Family, seed: u64, count: u64) -> [Set; 2] {
+    let mut sets = [Set::default(), Set::default()];
+    for index in 0..count {
+        match family.query(seed, index) {
+            Query::EdgeEdge(query) => sets[0].push(&query),
+            Query::VertexFace(query) => sets[1].push(&query),
+        }
+    }
+    sets
+}
+
+/// Asks as many of them as they have, and adds the hits of each kind.
+fn add_checked(hits: &mut [usize; 2], [of_edges, of_faces]: &[Set; 2], counts: &[usize]) {
+    for &count in counts {
+        if count <= of_edges.indices.len() {
+            hits[0] += of_edges.check(count, edges);
+        }
+        if count <= of_faces.indices.len() {
+            hits[1] += of_faces.check(count, face);
+        }
+    }
+}
+
 #[test]
 fn pairs_of_every_family_are_decided_as_one_by_one() {
     let mut hits = [0; 2];
     for family in FAMILIES.iter().chain(OTHER_KINDS) {
-        let (mut of_edges, mut of_faces) = (Set::default(), Set::default());
-        for index in 0..1000 {
-            match family.query(5, index) {
-                Query::EdgeEdge(query) => of_edges.push(&query),
-                Query::VertexFace(query) => of_faces.push(&query),
-            }
-        }
-        for count in COUNTS {
-            if count <= of_edges.indices.len() {
-                hits[0] += of_edges.check(count, edges);
-            }
-            if count <= of_faces.indices.len() {
-                hits[1] += of_faces.check(count, face);
-            }
-        }
+        let sets = sets_of(family, 5, 1000);
+        add_checked(&mut hits, &sets, &COUNTS);
     }
     assert!(hits[0] > 10_000 && hits[1] > 1000, "{hits:?}");
 }
@@ -145,15 +156,8 @@ fn pairs_with_and_without_a_radius_are_decided_as_one_by_one() {
     let mut hits = [0; 2];
     for family in FAMILIES.iter().chain(OTHER_KINDS) {
         for (every, is_thin) in [(2, true), (16, false), (100, true)] {
-            let (mut of_edges, mut of_faces) = (Set::default(), Set::default());
-            for index in 0..200 {
-                let query = family.query(6, index);
-                match query {
-                    Query::EdgeEdge(query) => of_edges.push(&query),
-                    Query::VertexFace(query) => of_faces.push(&query),
-                }
-            }
-            for set in [&mut of_edges, &mut of_faces] {
+            let mut sets = sets_of(family, 6, 200);
+            for set in &mut sets {
                 for (pair, radius) in set.radii.iter_mut().enumerate() {
                     let is_other = pair % every == every - 1;
                     let thick = if radius.is_zero() {
@@ -168,14 +172,7 @@ fn pairs_with_and_without_a_radius_are_decided_as_one_by_one() {
                     };
                 }
             }
-            for count in [15, 16, 17, 33, 200] {
-                if count <= of_edges.indices.len() {
-                    hits[0] += of_edges.check(count, edges);
-                }
-                if count <= of_faces.indices.len() {
-                    hits[1] += of_faces.check(count, face);
-                }
-            }
+            add_checked(&mut hits, &sets, &[15, 16, 17, 33, 200]);
         }
     }
     assert!(hits[0] > 10_000 && hits[1] > 1000, "{hits:?}");

@@ -65,7 +65,8 @@ pub(super) fn decide_range<K: Stages>(
     for first in queries.clone().step_by(CHUNK) {
         let chunk = first..queries.end.min(first + CHUNK);
         let are_now_thin = source.are_thin(chunk.clone());
-        if open.is_full() || are_now_thin != are_thin {
+        let is_alone = are_now_thin && !worth.stages.is_tried();
+        if open.is_full() || are_now_thin != are_thin || is_alone {
             finish::<K>(
                 &mut open,
                 are_thin,
@@ -83,14 +84,6 @@ pub(super) fn decide_range<K: Stages>(
             open.add::<K, _>(source, chunk, &mut observe);
         } else {
             worth.stages.skip();
-            finish::<K>(
-                &mut open,
-                are_thin,
-                source,
-                &mut worth,
-                &mut hit,
-                &mut observe,
-            );
             open.put(source, chunk.clone());
             for (place, query) in chunk.enumerate() {
                 let positions = || open.positions(place);
