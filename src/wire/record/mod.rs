@@ -52,6 +52,9 @@ pub struct StepRecord {
     pub work: f64,
     /// What acted beside forces and masses.
     pub added_inertia: AddedInertia,
+    /// What forces took from the motion because they had the directions at the end of the step, in J; 0 but in steps in which a wire is
+    /// caught so hard that no solution with mean directions is found.
+    pub numerical_damping: f64,
     /// How the system was solved.
     pub solver: SolverRecord,
     /// How long the phases took.

@@ -3,7 +3,7 @@
 use crate::wire::file::Format;
 
 /// The version of the layout that is written, and the only one that is read.
-pub const VERSION: u32 = 9;
+pub const VERSION: u32 = 10;
 
 /// The most bytes that a header or step may unpack to: half a million nodes.
 pub const MOST_BYTES: u32 = 1 << 25;

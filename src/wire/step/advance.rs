@@ -79,6 +79,7 @@ impl World {
         record.energy = self.energy_of_motion(&solution);
         record.work += self.work_of_carrying(&carried);
         record.added_inertia = solution.added_inertia(self);
+        record.numerical_damping = solution.numerical_damping();
         self.cache.structures = solution.structures(self);
         phases.commit = clock.lap();
         record.slides = capstan::slides(self, &slid);

@@ -67,6 +67,7 @@ pub(super) fn friction_rows(world: &World, layout: &Layout) -> Vec<Row> {
                 terms: SmallVec::new(),
                 slides: smallvec![(column, 1.0)],
                 fed: 0.0,
+                lead: 0.0,
                 compliance: 0.0,
                 damping: 0.0,
                 sigma,

@@ -32,10 +32,21 @@
 //! thought, its tension pulls it back with `h T / (|s| + |s+|) P w`, in its *geometric stiffness* (`P`
 //! takes the part across). It is there for the difference alone, so that nothing is damped by it at the end. A solution
 //! is accepted if the [energy](Followed::error) of what its lengths are off by is less than before; else half
-//! of the way to it is tried. After [`ROUNDS`], or when the budget is spent, the best stands. Tensions that
-//! grow change what keeps short segments stable, and with it the solution that directions start from: where
-//! the search finds no end, and bodies would pay for it, it starts once more from the solution with these tensions
-//! alone, and the better one stands.
+//! of the way to it is tried. After [`ROUNDS`], or when the budget is spent, the best stands.
+//!
+//! Where that comes to no end and bodies would pay for it, as when a heavy load pulls a slack wire taut within a step, segments get
+//! the direction in which the step *ends*,
+//!
+//! ```text
+//! t = s+ / |s+|,   |s+| - |s| = t (s+ - s) + (|s+| - |s| - t (s+ - s))
+//! ```
+//!
+//! where what is in brackets, the [lead](Linearised::lead), is taken from the last solution, and all of the geometric stiffness,
+//! `h T / |s+| P w`. The step is then the minimum of a function of the velocities. Where bodies do not turn and nothing is pushed,
+//! it is convex: a length is a convex function of the velocities, and the energy of a row grows with it. Newton's method finds such a
+//! minimum, mostly within ten rounds. A force along the last direction takes more from what moves than its segment stores, by
+//! its impulse times its lead ([`System::damped_by_lead`]). So no energy comes from nothing, and what swings is damped
+//! twice as much as by mean directions, in such steps alone.
 //!
 //! What lengths may be off by depends on what hangs there. What a wire is off by as a whole it pays back by moving the
 //! bodies of its island that far, in a step or so, unless it is too soft for that. A hundredth of the length of a cable may
@@ -86,9 +97,23 @@ const PUSHED: f64 = 3.0;
 /// Below this angle in rad series are exact to the last bits.
 const SMALL: f64 = 1e-2;
 
+/// How often it is solved again with the directions at its end.
+pub(super) const ROUNDS_TO_THE_END: usize = 24;
+
+/// Directions of segments in a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Directions {
+    /// The mean ones.
+    Mean,
+    /// Those at its end.
+    End,
+}
+
 /// What the equations of a step are linear about.
 #[derive(Clone)]
 pub(super) struct Linearisation {
+    /// Which directions segments get that are followed.
+    pub(super) directions: Directions,
     /// By wires and segments.
     segments: Vec<Vec<Linearised>>,
     /// By bodies: what takes arms as they are where the step starts to their means; none if they are taken
@@ -103,11 +128,13 @@ pub(super) struct Linearised {
     pub(super) tension: f64,
     /// The direction, by which its row counts velocities; zero if the segment has no length.
     pub(super) along: Vector,
+    /// By how much faster it becomes longer than its ends part along that direction, in m/s.
+    pub(super) lead: f64,
     /// What pulls it back across that direction, from a solution on.
     pub(super) geometric: Option<GeometricStiffness>,
 }
 
-/// `h T / (|s| + |s+|)` in kg, and how the end of the segment goes from its start in m/s where it has no effect.
+/// `h T / (|s| + |s+|)` or `h T / |s+|` in kg, and how the end of the segment goes from its start in m/s where it has no effect.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct GeometricStiffness {
     pub(super) stiffness: f64,
@@ -187,11 +214,13 @@ impl Linearisation {
             let of = segments.map(|(at, segment)| Linearised {
                 tension: segment.largest_tension(),
                 along: unit(&wire.span(at)).0,
+                lead: 0.0,
                 geometric: None,
             });
             of.collect()
         });
         Linearisation {
+            directions: Directions::Mean,
             segments: wires.collect(),
             turns: vec![None; world.bodies.len()],
         }
@@ -212,10 +241,19 @@ impl Linearisation {
         };
         let segments = self.segments.iter();
         Linearisation {
+            directions: self.directions,
             segments: segments
                 .map(|own| own.iter().map(without_solution).collect())
                 .collect(),
             turns: bodies.iter().map(turn).collect(),
+        }
+    }
+
+    /// The same, whose solution is followed by the directions at its end.
+    pub(super) fn to_the_end(&self) -> Self {
+        Linearisation {
+            directions: Directions::End,
+            ..self.clone()
         }
     }
 
@@ -237,20 +275,6 @@ impl Linearisation {
     fn suits(&self, world: &World, held: &Held) -> bool {
         let mut bodies = world.bodies.iter().zip(&self.turns).zip(&held.bodies);
         !bodies.any(|((body, turn), is_held)| !body.dynamic && turn.is_some() && *is_held)
-    }
-
-    /// The same with the tensions of another one; none if it has these.
-    pub(super) fn with_tensions_of(&self, other: &Self) -> Option<Self> {
-        let others = || other.segments.iter().flatten();
-        let mut both = self.segments.iter().flatten().zip(others());
-        both.any(|(own, other)| own.tension != other.tension)
-            .then(|| {
-                let mut next = self.clone();
-                for (own, other) in next.segments.iter_mut().flatten().zip(others()) {
-                    own.tension = other.tension;
-                }
-                next
-            })
     }
 
     /// A part of the way to another one.
@@ -338,7 +362,7 @@ impl Linearisation {
                 let span = wire.span(segment);
                 let way = row.way(x);
                 let end = span + way * step + to - from;
-                let Some(off) = own.off(wire, segment, push, &(end - span)) else {
+                let Some(off) = own.off(wire, segment, push, &(end - span), step) else {
                     continue;
                 };
                 let stiffness = wire.material.stretch_stiffness() / rest;
@@ -350,18 +374,25 @@ impl Linearisation {
                     carriers(wire, segment)
                 };
                 let off = off / allowed;
-                if off <= FINE && carriers == [None; 2] {
-                    continue;
-                }
-                let along = mean_direction(&span, &end);
+                let (along, lengths, lead, way) = match self.directions {
+                    Directions::Mean if off <= FINE && carriers == [None; 2] => continue,
+                    Directions::Mean => {
+                        let along = mean_direction(&span, &end);
+                        (along, span.norm() + end.norm(), 0.0, way)
+                    }
+                    Directions::End => {
+                        let ((along, length), way) = (unit(&end), (end - span) / step);
+                        let lead = (length - span.norm()) / step - along.dot(&way);
+                        (along, length, lead, way)
+                    }
+                };
                 let pulls = tension > 0.0 && along != Vector::zeros();
+                let stiffness = step * step * tension / lengths;
                 let next = Linearised {
                     tension: followed.next.segments[at][segment].tension,
                     along,
-                    geometric: pulls.then(|| GeometricStiffness {
-                        stiffness: step * step * tension / (span.norm() + end.norm()),
-                        way,
-                    }),
+                    lead,
+                    geometric: pulls.then_some(GeometricStiffness { stiffness, way }),
                 };
                 paths.push(Path {
                     wire: at,
@@ -376,14 +407,25 @@ impl Linearisation {
             paid += f64::min(stiffness, moved) * off_by * off_by / 2.0;
         }
         let is_pushed = held.segments.iter().flatten().any(|is_held| *is_held);
-        followed.is_large = !is_pushed && paid > LARGE * world.kinetic_energy();
-        let allowed = if followed.is_large { FINE } else { 1.0 };
+        followed.is_large = paid > LARGE * world.kinetic_energy();
+        let is_fine = match self.directions {
+            Directions::Mean => followed.is_large && !is_pushed,
+            Directions::End => true,
+        };
+        let allowed = if is_fine { FINE } else { 1.0 };
         let is_off = paths.iter().any(|path| path.off > allowed);
         if !is_off && turned.iter().all(|turned| *turned <= allowed) {
             return followed;
         }
         let mut is_turned: Vec<bool> = turned.iter().map(|turned| *turned > allowed).collect();
-        for path in followed_together(paths, allowed, &mut is_turned) {
+        let paths = match self.directions {
+            Directions::Mean => followed_together(paths, allowed, &mut is_turned),
+            Directions::End => {
+                is_turned.fill(true);
+                paths
+            }
+        };
+        for path in paths {
             followed.next.segments[path.wire][path.segment] = path.next;
             followed.has_other_directions = true;
         }
@@ -401,12 +443,15 @@ impl Linearised {
     /// By how much a segment whose end goes this way from its start is stretched by another length than its row
     /// has. What it is shorter by than its largest push asks for does not count; none if it has no length, or
     /// is so short by the row as well.
-    fn off(&self, wire: &Wire, segment: usize, push: f64, way: &Vector) -> Option<f64> {
+    fn off(&self, wire: &Wire, segment: usize, push: f64, way: &Vector, step: f64) -> Option<f64> {
         let rest = wire.rest_length(segment);
         let least = -push * rest / wire.material.stretch_stiffness();
         let span = wire.span(segment);
         let before = span.norm();
-        let lengths = [(span + way).norm(), before + self.along.dot(way)];
+        let lengths = [
+            (span + way).norm(),
+            before + self.along.dot(way) + step * self.lead,
+        ];
         let [after, by_row] = lengths.map(|length| (length - rest).max(least));
         let counts = before > 0.0 && (after > least || by_row > least);
         counts.then(|| (after - by_row).abs())

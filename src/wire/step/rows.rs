@@ -25,6 +25,9 @@ pub(super) struct Row {
     pub(super) slides: SmallVec<[(usize, f64); 2]>,
     /// What the row's velocity is less by, in m/s: what is let out of a segment.
     pub(super) fed: f64,
+    /// What the row's velocity is more by, in m/s: what a segment becomes longer by beside the [direction](super::linearisation) that it
+    /// has.
+    pub(super) lead: f64,
     /// What it gives way to a force, in m/N, or to a moment, in 1/(N m); 0 for friction.
     pub(super) compliance: f64,
     /// The damping time in s.
@@ -72,7 +75,7 @@ impl Row {
     /// `G v` of the velocities that are prescribed.
     pub(super) fn given(&self) -> f64 {
         let terms = self.terms.iter();
-        terms.fold(0.0 - self.fed, |sum, (carrier, direction)| {
+        terms.fold(self.lead - self.fed, |sum, (carrier, direction)| {
             sum + carrier.prescribed_velocity().dot(direction)
         })
     }
@@ -80,7 +83,7 @@ impl Row {
     /// `G v` for a solution.
     pub(super) fn velocity(&self, x: &[f64]) -> f64 {
         let terms = self.terms.iter();
-        let of_points = terms.fold(0.0 - self.fed, |sum, (carrier, direction)| {
+        let of_points = terms.fold(self.lead - self.fed, |sum, (carrier, direction)| {
             sum + carrier.velocity(x).dot(direction)
         });
         let slides = self.slides.iter();
@@ -144,7 +147,7 @@ impl Row {
         if self.fed == 0.0 && !self.terms.iter().any(is_given) {
             return 0.0;
         }
-        self.given() * self.impulse(x)
+        (self.given() - self.lead) * self.impulse(x)
     }
 
     /// Whether the solution decides which branch holds.
@@ -356,8 +359,17 @@ pub(super) fn rows(world: &World, linearisation: &Linearisation, layout: &Layout
             let multiplier = layout.stretch[rows.len()];
             let ends = [first + segment, first + segment + 1];
             let carriers = ends.map(|node| layout.nodes[node]);
-            let along = linearisation.of(at, segment).along;
-            let mut row = stretch(wire, segment, along, carriers, multiplier, most, step);
+            let linear = linearisation.of(at, segment);
+            let mut row = stretch(
+                wire,
+                segment,
+                linear.along,
+                carriers,
+                multiplier,
+                most,
+                step,
+            );
+            row.lead = linear.lead;
             // Arc length that moves over its nodes changes what the segment is unstretched.
             let slides = ends.into_iter().zip([1.0, -1.0]);
             row.slides = slides
@@ -410,6 +422,7 @@ fn stretch(
         terms: smallvec![(start, -along), (end, along)],
         slides: SmallVec::new(),
         fed: 0.0,
+        lead: 0.0,
         compliance,
         damping: spook.damping,
         sigma: spook.sigma,
@@ -461,6 +474,7 @@ fn bend(
             terms: smallvec![term(0), term(1), term(2)],
             slides: SmallVec::new(),
             fed: 0.0,
+            lead: 0.0,
             compliance,
             damping: spook.damping,
             sigma: spook.sigma,
@@ -492,6 +506,7 @@ fn twist(world: &World, layout: &Layout, at: usize) -> Option<Row> {
         terms: nodes.chain(ends).collect(),
         slides: SmallVec::new(),
         fed: 0.0,
+        lead: 0.0,
         compliance,
         damping: spook.damping,
         sigma: spook.sigma,

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::budget::Budget;
 use super::energy_limit;
 use super::islands::{Island, islands};
-use super::linearisation::{Followed, Held, Linearisation, ROUNDS};
+use super::linearisation::{Directions, Followed, Held, Linearisation, ROUNDS, ROUNDS_TO_THE_END};
 use super::motion::Velocities;
 use super::solve_step::{Candidate, FAR};
 use super::start::Start;
@@ -41,39 +41,64 @@ struct Attempt {
     linearisation: Linearisation,
     system: System,
     candidate: Candidate,
+    held: Held,
     followed: Followed,
 }
 
 impl Attempt {
-    /// [Follows](super::linearisation) a solution, given what solves about another linearisation. Where that comes to no
-    /// end, it is tried once more from the solution with the tensions that are due.
+    /// [Follows](super::linearisation) a solution, given what solves about another linearisation: with mean directions, and with
+    /// those at the end where that comes to none.
     fn follow(
         self,
+        world: &World,
         budget: &mut Budget,
         mut solve: impl FnMut(Linearisation, &Start, &mut Budget) -> Result<Attempt, Reason>,
     ) -> Attempt {
-        if !self.followed.is_off {
-            return self;
-        }
-        let stiffer = self.linearisation.with_tensions_of(&self.followed.next);
-        let mut best = self.improved(budget, &mut solve);
-        let is_open = best.followed.is_off && best.followed.is_large;
-        let Some(stiffer) = stiffer.filter(|_| is_open && !best.is_far() && !budget.is_spent())
-        else {
-            return best;
+        let best = match self.linearisation.directions {
+            Directions::Mean => self.improved(budget, &mut solve),
+            Directions::End => self,
         };
-        let mut share = budget.part(SOLVE);
-        let other = solve(stiffer, &best.end(), &mut share);
-        budget.take_back(share);
-        let Ok(other) = other else { return best };
-        let mut other = other.improved(budget, &mut solve);
-        let both = [&best, &other].map(|attempt| attempt.candidate.solver.factorisations);
-        let is_better =
-            other.followed.suits && !other.is_far() && other.followed.error < best.followed.error;
-        if is_better {
-            std::mem::swap(&mut best, &mut other);
+        let is_open = best.followed.is_off && best.followed.is_large;
+        if is_open && !best.is_far() {
+            best.followed_to_the_end(world, budget, &mut solve)
+        } else {
+            best
         }
-        best.candidate.solver.factorisations = both[0] + both[1];
+    }
+
+    /// Solves again with the directions at the end, until that changes nothing; the best of all.
+    fn followed_to_the_end(
+        self,
+        world: &World,
+        budget: &mut Budget,
+        solve: &mut impl FnMut(Linearisation, &Start, &mut Budget) -> Result<Attempt, Reason>,
+    ) -> Attempt {
+        let (own, x) = (self.linearisation.to_the_end(), &self.candidate.x);
+        let mut next = own.follow(world, &self.system, &self.held, x).next;
+        let mut start = self.end();
+        let mut factorisations = self.candidate.solver.factorisations;
+        let mut best = self;
+        for _ in 0..ROUNDS_TO_THE_END {
+            if budget.is_spent() {
+                break;
+            }
+            let mut share = budget.part(SOLVE);
+            let again = solve(next, &start, &mut share);
+            budget.take_back(share);
+            let Ok(again) = again else { break };
+            factorisations += again.candidate.solver.factorisations;
+            let is_last = !again.followed.is_off || again.is_far();
+            next = again.followed.next.clone();
+            start = again.end();
+            let is_better = again.followed.suits && again.followed.error < best.followed.error;
+            if is_better && !again.is_far() {
+                best = again;
+            }
+            if is_last {
+                break;
+            }
+        }
+        best.candidate.solver.factorisations = factorisations;
         best
     }
 
@@ -298,6 +323,14 @@ impl Solution {
         added
     }
 
+    /// What forces along the directions at the end of the step took from the motion, in J.
+    pub(super) fn numerical_damping(&self) -> f64 {
+        let islands = self.islands.iter();
+        islands
+            .map(|own| own.system.damped_by_lead(&own.candidate.x))
+            .sum()
+    }
+
     /// The structures of the systems, for the next step.
     pub(super) fn structures(self, world: &World) -> Structures {
         let islands = self.islands.into_iter();
@@ -386,6 +419,7 @@ impl Solved {
                 linearisation,
                 system,
                 candidate,
+                held,
                 followed,
             })
         };
@@ -394,7 +428,7 @@ impl Solved {
             first = solve(Linearisation::at_start(world), &start, budget);
         }
         let first = first.map_err(|reason| island.reason(reason))?;
-        let best = first.follow(budget, solve);
+        let best = first.follow(world, budget, solve);
         let Attempt {
             linearisation,
             mut system,

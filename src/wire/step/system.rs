@@ -507,6 +507,12 @@ impl System {
         })
     }
 
+    /// What the [directions at the end](super::linearisation) of a step take from the motion, in J.
+    pub(super) fn damped_by_lead(&self, x: &[f64]) -> f64 {
+        let rows = self.rows.iter().filter(|row| row.lead != 0.0);
+        rows.map(|row| -row.lead * row.impulse(x)).sum()
+    }
+
     /// What prescribed velocities do by the rows of a solution, in J.
     pub(super) fn work_of_rows(&self, x: &[f64]) -> f64 {
         self.rows.iter().map(|row| row.work(x)).sum()
