@@ -24,6 +24,15 @@ pub(crate) fn all() -> Vec<Set> {
     sets
 }
 
+/// Sets of another simulation, by which nothing was tuned, as far as they are there.
+#[allow(dead_code, reason = "not every bench asks for these")]
+pub(crate) fn others() -> Vec<(&'static str, Vec<EdgeEdge>)> {
+    let sets = public::OTHERS.map(|name| (name, public_edges(name)));
+    sets.into_iter()
+        .filter(|(_, queries)| !queries.is_empty())
+        .collect()
+}
+
 /// The sets that are there.
 pub(crate) fn sets() -> impl Iterator<Item = (&'static str, Vec<EdgeEdge>)> {
     present(all())
@@ -33,6 +42,13 @@ pub(crate) fn sets() -> impl Iterator<Item = (&'static str, Vec<EdgeEdge>)> {
 #[allow(dead_code, reason = "not every bench asks for these")]
 pub(crate) fn thick_sets() -> impl Iterator<Item = (&'static str, Vec<EdgeEdge>)> {
     present(all_thick())
+}
+
+/// The sets of another simulation with a radius.
+#[allow(dead_code, reason = "not every bench asks for these")]
+pub(crate) fn thick_others() -> impl Iterator<Item = (&'static str, Vec<EdgeEdge>)> {
+    let with_radius = |(name, queries): (_, Vec<EdgeEdge>)| (name, thick(&queries));
+    others().into_iter().map(with_radius)
 }
 
 fn present(sets: Vec<Set>) -> impl Iterator<Item = (&'static str, Vec<EdgeEdge>)> {

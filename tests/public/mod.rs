@@ -10,12 +10,15 @@ use tunnelproof_reference::corpus::{self, Entry, ReadOptions};
 /// The sets by their names: first the handcrafted ones as one, then pairs of simulations.
 pub(crate) const SETS: [&str; 3] = ["handcrafted", "candidates-cloth-ball", "hits-cloth-ball"];
 
+/// The same of another simulation, by which nothing was tuned.
+pub(crate) const OTHERS: [&str; 2] = ["candidates-rod-twist", "hits-rod-twist"];
+
 /// The name of the project's own vectors.
 pub(crate) const VECTORS: &str = "vectors";
 
 /// All sets with labels. The first one is never empty.
 #[allow(dead_code, reason = "benches take the public sets alone")]
-pub(crate) const LABELLED: [&str; 4] = [VECTORS, SETS[0], SETS[1], SETS[2]];
+pub(crate) const LABELLED: [&str; 6] = [VECTORS, SETS[0], SETS[1], SETS[2], OTHERS[0], OTHERS[1]];
 
 /// The queries of this kind of one set, none if it is not there. What is there is sound, or this
 /// panics.
