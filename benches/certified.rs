@@ -13,15 +13,13 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use tunnelproof::additive::Additive;
 use tunnelproof::certified::{self, Batch, Pairs, Stage};
 use tunnelproof::narrow::NarrowPhase;
-use tunnelproof::query::{EdgeEdge, Point, Query, Radius, VertexFace};
+use tunnelproof::query::{EdgeEdge, Query, Radius};
 use tunnelproof::thesis::Thesis;
 use tunnelproof_reference::generate::{FAMILIES, OTHER_KINDS};
 
-#[path = "data/additive_face.rs"]
-mod additive_face;
 mod data;
-#[path = "data/sheet.rs"]
-mod sheet;
+#[path = "data/faces.rs"]
+mod faces;
 
 fn bench(c: &mut Criterion) {
     for (name, queries) in data::sets().chain(data::others()) {
@@ -141,67 +139,11 @@ impl Points {
     }
 }
 
-/// Vertices and faces of a rolled-up sheet whose boxes overlap, and those of them that touch.
-fn sheets() -> Vec<(&'static str, Vec<VertexFace>)> {
-    /// How many of its steps are one here, so that some touch.
-    const STEPS: f64 = 8.0;
-    let (mesh, start, mut end) = sheet::rolled_sheet(50);
-    for (end, start) in end.iter_mut().flatten().zip(start.iter().flatten()) {
-        *end = start + STEPS * (*end - start);
-    }
-    let spans = |indices: &[u32]| {
-        let points = indices
-            .iter()
-            .flat_map(|&i| [start[i as usize], end[i as usize]]);
-        let bounds = [f64::INFINITY, f64::NEG_INFINITY];
-        points.fold([bounds; 3], |spans, point| {
-            [0, 1, 2].map(|axis| {
-                let [least, most] = spans[axis];
-                [least.min(point[axis]), most.max(point[axis])]
-            })
-        })
-    };
-    let of_faces: Vec<_> = mesh
-        .faces()
-        .iter()
-        .map(|face| (face, spans(face)))
-        .collect();
-    let mut candidates = Vec::new();
-    for vertex in 0..start.len() as u32 {
-        let own = spans(&[vertex]);
-        for (face, spans) in &of_faces {
-            let meet = own
-                .iter()
-                .zip(spans)
-                .all(|([a, b], [c, d])| a <= d && c <= b);
-            if meet && !face.contains(&vertex) {
-                let corners = [vertex, face[0], face[1], face[2]].map(|i| i as usize);
-                let [from, to] = [&start, &end].map(|all| corners.map(|i| Point::from(all[i])));
-                candidates.push(VertexFace::new(from, to, 0.0).expect("finite"));
-            }
-        }
-    }
-    let hits = candidates
-        .iter()
-        .filter(|query| certified::decide(*query).is_some());
-    let hits: Vec<_> = hits.copied().collect();
-    println!("\nsheet: {} of {} touch", hits.len(), candidates.len());
-    let mean = (start.len() as f64).sqrt().recip();
-    let with_radius =
-        |query: &VertexFace| VertexFace::new(*query.start(), *query.end(), mean / 20.0);
-    let thick = candidates
-        .iter()
-        .map(|query| with_radius(query).expect("finite"));
-    let thick = thick.collect();
-    vec![
-        ("sheet-candidates", candidates),
-        ("sheet-hits", hits),
-        ("sheet-candidates-thick", thick),
-    ]
-}
-
 fn bench_vertex_face(c: &mut Criterion) {
-    for (name, queries) in data::vertex_face_sets().into_iter().chain(sheets()) {
+    for (name, queries) in data::vertex_face_sets()
+        .into_iter()
+        .chain(faces::of_a_sheet())
+    {
         let mut batch = Batch::new();
         for query in &queries {
             batch.push(query);
@@ -211,7 +153,7 @@ fn bench_vertex_face(c: &mut Criterion) {
         group.bench_function("additive", |b| {
             b.iter(|| {
                 for query in &queries {
-                    consume(additive_face::toi(black_box(query)));
+                    consume(Additive::default().vertex_face_toi(black_box(query)));
                 }
             });
         });

@@ -15,6 +15,8 @@ use tunnelproof::{EdgeEdge, decide, decide_rigid};
 mod advancement;
 #[path = "data/bodies.rs"]
 mod bodies;
+#[path = "data/boxes.rs"]
+mod boxes;
 
 fn bench(c: &mut Criterion) {
     for degrees in [5.0, 30.0, 89.0] {

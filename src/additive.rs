@@ -27,7 +27,7 @@ use nalgebra::Vector3;
 use crate::closest::{closest, distance};
 use crate::contact::{Contact, ContactPoint, EdgePoint, Flags, Verdict};
 use crate::narrow::{NarrowPhase, Report, Unsupported};
-use crate::query::{EdgeEdge, Point};
+use crate::query::{EdgeEdge, Point, VertexFace};
 
 /// Additive continuous collision detection. Heuristic.
 ///
@@ -57,7 +57,9 @@ impl NarrowPhase for Additive {
     }
 
     fn edge_edge(&self, query: &EdgeEdge) -> Result<Report, Unsupported> {
-        let verdict = match self.advance(query) {
+        let speed = |[a, b, c, d]: [f64; 4]| a.max(b) + c.max(d);
+        let radius = query.radius().rounded();
+        let verdict = match self.advance(query.start(), query.end(), radius, speed, distance) {
             None => Verdict::Miss,
             Some(toi) => Verdict::Hit(contact_at(query, toi)),
         };
@@ -70,15 +72,31 @@ impl NarrowPhase for Additive {
 }
 
 impl Additive {
-    /// The time at which the edges are nearly in contact.
-    fn advance(&self, query: &EdgeEdge) -> Option<f64> {
-        let mut x = query.start().map(|point| point.coords);
-        let mut p = [0, 1, 2, 3].map(|i| query.end()[i] - query.start()[i]);
+    /// The time at which a vertex and a face are nearly in contact, as a fraction of the step; none if they are not. The same
+    /// algorithm as for edges: to compare with, not to rely on. The radius is the minimum separation.
+    pub fn vertex_face_toi(&self, query: &VertexFace) -> Option<f64> {
+        let speed = |[a, b, c, d]: [f64; 4]| a + b.max(c).max(d);
+        let radius = query.radius().rounded();
+        self.advance(query.start(), query.end(), radius, speed, distance_to_face)
+    }
+
+    /// The time at which two sides are nearly in contact. `speed` bounds how fast they approach each other by the speeds of the
+    /// points.
+    fn advance(
+        &self,
+        start: &[Point; 4],
+        end: &[Point; 4],
+        radius: f64,
+        speed: impl Fn([f64; 4]) -> f64,
+        distance: impl Fn(&[Vector3<f64>; 4]) -> f64,
+    ) -> Option<f64> {
+        let mut x = start.map(|point| point.coords);
+        let mut p = [0, 1, 2, 3].map(|i| end[i] - start[i]);
         let mean = (p[0] + p[1] + p[2] + p[3]) / 4.0;
         p.iter_mut().for_each(|p| *p -= mean);
-        let speed = p[0].norm().max(p[1].norm()) + p[2].norm().max(p[3].norm());
+        let speed = speed(p.map(|p| p.norm()));
         // What is left until contact, as a distance.
-        let left = |x: &[Vector3<f64>; 4]| distance(x) - query.radius().rounded();
+        let left = |x: &[Vector3<f64>; 4]| distance(x) - radius;
         let mut gap = left(&x);
         if gap <= 0.0 {
             return Some(0.0);
@@ -104,6 +122,36 @@ impl Additive {
         }
         Some(t)
     }
+}
+
+/// The distance of the point `A` from the triangle `BCD`, by the region in which its nearest point is (Ericson, "Real-Time
+/// Collision Detection", 2005, 5.1.5).
+fn distance_to_face([a, b, c, d]: &[Vector3<f64>; 4]) -> f64 {
+    let (e, f) = (c - b, d - b);
+    let [from_b, from_c, from_d] = [b, c, d].map(|corner| a - corner);
+    let [[b1, b2], [c1, c2], [d1, d2]] =
+        [from_b, from_c, from_d].map(|way| [e.dot(&way), f.dot(&way)]);
+    let of_b = c1 * d2 - d1 * c2;
+    let of_c = d1 * b2 - b1 * d2;
+    let of_d = b1 * c2 - c1 * b2;
+    let way = if b1 <= 0.0 && b2 <= 0.0 {
+        from_b
+    } else if c1 >= 0.0 && c2 <= c1 {
+        from_c
+    } else if d2 >= 0.0 && d1 <= d2 {
+        from_d
+    } else if of_d <= 0.0 && b1 >= 0.0 && c1 <= 0.0 {
+        from_b - e * (b1 / (b1 - c1))
+    } else if of_c <= 0.0 && b2 >= 0.0 && d2 <= 0.0 {
+        from_b - f * (b2 / (b2 - d2))
+    } else if of_b <= 0.0 && c2 >= c1 && d1 >= d2 {
+        let part = (c2 - c1) / ((c2 - c1) + (d1 - d2));
+        from_c - (d - c) * part
+    } else {
+        let sum = of_b + of_c + of_d;
+        from_b - e * (of_c / sum) - f * (of_d / sum)
+    };
+    way.norm()
 }
 
 fn contact_at(query: &EdgeEdge, toi: f64) -> Contact {
@@ -154,6 +202,46 @@ mod tests {
         assert_eq!(toi(&falling(1.0, 2.0)), None);
         assert_eq!(toi(&falling(0.0, 2.0)), Some(0.0));
         assert_eq!(toi(&falling(1.0, 1.0)), None);
+    }
+
+    #[test]
+    fn distance_to_a_face_is_the_least_of_its_points() {
+        let v = Vector3::new;
+        let [b, c, d] = [v(0.0, 0.0, 0.0), v(2.0, 0.25, 0.0), v(0.5, 1.5, 0.5)];
+        const PARTS: u32 = 100;
+        // Over the face, and beyond each of its corners and edges.
+        for k in 0..343 {
+            let [x, y, z] = [k % 7, k / 7 % 7, k / 49].map(|k| f64::from(k) - 2.5);
+            let a = v(x, y, z);
+            let mut least = f64::INFINITY;
+            for i in 0..=PARTS {
+                for j in 0..=PARTS - i {
+                    let [u, w] = [i, j].map(|k| f64::from(k) / f64::from(PARTS));
+                    least = least.min((a - b - (c - b) * u - (d - b) * w).norm());
+                }
+            }
+            let found = distance_to_face(&[a, b, c, d]);
+            assert!(
+                found <= least + 1e-12 && least - found < 0.02,
+                "{a:?}: {found} {least}"
+            );
+        }
+    }
+
+    #[test]
+    fn additive_stops_before_a_vertex_touches_a_face() {
+        let p = Point::new;
+        let face = [p(-1.0, -1.0, 0.0), p(2.0, -1.0, 0.0), p(-1.0, 2.0, 0.0)];
+        let toi = |height: f64, end: f64| {
+            let [b, c, d] = face;
+            let [start, end] = [height, end].map(|z| [p(0.0, 0.0, z), b, c, d]);
+            let query = VertexFace::new(start, end, 0.0).unwrap();
+            Additive::default().vertex_face_toi(&query)
+        };
+        let down = toi(1.0, -1.0).unwrap();
+        assert!((0.45..=0.5).contains(&down), "{down}");
+        assert_eq!(toi(1.0, 2.0), None);
+        assert_eq!(toi(0.0, 2.0), Some(0.0));
     }
 
     #[test]

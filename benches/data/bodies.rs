@@ -7,6 +7,8 @@ use tunnelproof::Point;
 use tunnelproof::nalgebra::{Quaternion, Unit, UnitQuaternion, Vector3};
 use tunnelproof::rigid::{EdgeTurningEdge, Pose, RigidMotion};
 
+use super::boxes::{bounds, overlap};
+
 /// How many bodies there are in a room of 1 m, and how many wires of 64 segments of 1 cm.
 const BODIES: usize = 40;
 const WIRES: usize = 60;
@@ -77,21 +79,4 @@ fn edges(rng: &mut impl Rng) -> Vec<[Point; 2]> {
     let from = (0..8).flat_map(|i| (0..3).map(move |axis| (i, i | 1 << axis)));
     let edges = from.filter(|(i, j)| i != j);
     edges.map(|(i, j)| [corner(i), corner(j)]).collect()
-}
-
-type Bounds = [Vector3<f64>; 2];
-
-fn bounds(points: impl Iterator<Item = Point>, margin: f64) -> Bounds {
-    let empty = [
-        Vector3::repeat(f64::INFINITY),
-        Vector3::repeat(f64::NEG_INFINITY),
-    ];
-    let [low, high] = points.fold(empty, |[low, high], p| {
-        [low.inf(&p.coords), high.sup(&p.coords)]
-    });
-    [low.add_scalar(-margin), high.add_scalar(margin)]
-}
-
-fn overlap([a, b]: &Bounds, [c, d]: &Bounds) -> bool {
-    (0..3).all(|axis| a[axis] <= d[axis] && c[axis] <= b[axis])
 }

@@ -4,6 +4,7 @@ use tunnelproof::query::{EdgeEdge, QueryKind, VertexFace};
 use tunnelproof_reference::corpus::Entry;
 use tunnelproof_reference::generate;
 
+pub(crate) mod boxes;
 #[path = "../../tests/public/mod.rs"]
 mod public;
 mod wires;
@@ -26,11 +27,9 @@ pub(crate) fn all() -> Vec<Set> {
 
 /// Sets of another simulation, by which nothing was tuned, as far as they are there.
 #[allow(dead_code, reason = "not every bench asks for these")]
-pub(crate) fn others() -> Vec<(&'static str, Vec<EdgeEdge>)> {
-    let sets = public::OTHERS.map(|name| (name, public_edges(name)));
-    sets.into_iter()
-        .filter(|(_, queries)| !queries.is_empty())
-        .collect()
+pub(crate) fn others() -> impl Iterator<Item = (&'static str, Vec<EdgeEdge>)> {
+    let set = |name| -> Set { (name, Box::new(move || public_edges(name))) };
+    present(public::OTHERS.map(set).into())
 }
 
 /// The sets that are there.
@@ -48,7 +47,7 @@ pub(crate) fn thick_sets() -> impl Iterator<Item = (&'static str, Vec<EdgeEdge>)
 #[allow(dead_code, reason = "not every bench asks for these")]
 pub(crate) fn thick_others() -> impl Iterator<Item = (&'static str, Vec<EdgeEdge>)> {
     let with_radius = |(name, queries): (_, Vec<EdgeEdge>)| (name, thick(&queries));
-    others().into_iter().map(with_radius)
+    others().map(with_radius)
 }
 
 fn present(sets: Vec<Set>) -> impl Iterator<Item = (&'static str, Vec<EdgeEdge>)> {

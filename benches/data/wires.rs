@@ -2,6 +2,8 @@
 
 use tunnelproof::query::{EdgeEdge, Point};
 
+use super::boxes::{Bounds, bounds, overlap};
+
 const WIRES: usize = 16;
 const SEGMENTS: usize = 30;
 /// Steps that are looked at, and the time between two of them in seconds.
@@ -30,7 +32,7 @@ fn pairs_of_step(start: f64) -> Vec<EdgeEdge> {
     for (i, (wire, segment, ends)) in swept.iter().enumerate() {
         for (other_wire, other, other_ends) in &swept[i + 1..] {
             let are_neighbours = wire == other_wire && *other <= segment + 1;
-            if !are_neighbours && boxes_overlap(ends, other_ends) {
+            if !are_neighbours && overlap(&box_of(ends), &box_of(other_ends)) {
                 let at = |end: usize| {
                     let ([a, b], [c, d]) = (ends[end], other_ends[end]);
                     [a, b, c, d]
@@ -60,18 +62,10 @@ fn node(wire: usize, index: usize, time: f64) -> Point {
 /// Whether the boxes of the swept edges have a point in common.
 pub(crate) fn overlaps(query: &EdgeEdge) -> bool {
     let ([a, b, c, d], [e, f, g, h]) = (*query.start(), *query.end());
-    boxes_overlap(&[[a, b], [e, f]], &[[c, d], [g, h]])
+    overlap(&box_of(&[[a, b], [e, f]]), &box_of(&[[c, d], [g, h]]))
 }
 
-fn boxes_overlap(edge: &[[Point; 2]; 2], other: &[[Point; 2]; 2]) -> bool {
-    (0..3).all(|axis| {
-        let range = |ends: &[[Point; 2]; 2]| {
-            let values = ends.as_flattened().iter().map(|point| point[axis]);
-            values.fold((f64::MAX, f64::MIN), |(low, high), x| {
-                (low.min(x), high.max(x))
-            })
-        };
-        let ((low, high), (other_low, other_high)) = (range(edge), range(other));
-        low <= other_high && other_low <= high
-    })
+/// The box of an edge at the start and at the end.
+fn box_of(edge: &[[Point; 2]; 2]) -> Bounds {
+    bounds(edge.as_flattened().iter().copied(), 0.0)
 }

@@ -45,7 +45,7 @@
 //! `h T / |s+| P w`. The step is then the minimum of a function of the velocities. Where bodies do not turn and nothing is pushed,
 //! it is convex: a length is a convex function of the velocities, and the energy of a row grows with it. Newton's method finds such a
 //! minimum, mostly within ten rounds. A force along the last direction takes more from what moves than its segment stores, by
-//! its impulse times its lead ([`System::damped_by_lead`]). So no energy comes from nothing, and what swings is damped
+//! its impulse times its lead ([`System::damped_by_lead`]). There, no energy comes from nothing; and what swings is damped
 //! twice as much as by mean directions, in such steps alone.
 //!
 //! What lengths may be off by depends on what hangs there. What a wire is off by as a whole it pays back by moving the
@@ -387,12 +387,14 @@ impl Linearisation {
                     }
                 };
                 let pulls = tension > 0.0 && along != Vector::zeros();
-                let stiffness = step * step * tension / lengths;
                 let next = Linearised {
                     tension: followed.next.segments[at][segment].tension,
                     along,
                     lead,
-                    geometric: pulls.then_some(GeometricStiffness { stiffness, way }),
+                    geometric: pulls.then(|| GeometricStiffness {
+                        stiffness: step * step * tension / lengths,
+                        way,
+                    }),
                 };
                 paths.push(Path {
                     wire: at,
